@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/camera.glsl"
-#include "lib/ray_bounds.glsl"
+#include "lib/smoke_distance.glsl"
 #include "lib/upsample.glsl"
 #include "shared/accumulate.h"
 #include "shared/gbuffer.h"
@@ -17,21 +17,6 @@ layout(scalar, binding = kBindPastPixels) readonly buffer Past { AccumulatedPixe
 layout(binding = kBindMeanSmoke, rgba16f) uniform writeonly image2D mean_smoke;
 layout(scalar, binding = kBindMeanPixels) writeonly buffer Pixels { AccumulatedPixel pixels[]; };
 layout(scalar, push_constant) uniform Push { AccumulateParams params; };
-
-/// Distance along the view axis to the smoke of a pixel, for reprojection: the mean distance of the light that a
-/// homogeneous medium between the media's bounds and the surface sends to the eye. Smoke moves slowly; its parallax is
-/// that of this point, not of the surface behind.
-float smoke_distance(vec3 ray, float z_surface, float transmittance) {
-  const vec2 inside = clip_to_media(frame.camera.eye_world, ray, z_surface);
-  const float enter = inside.x, leave = inside.y;
-  if (leave <= enter) return z_surface;
-  // Opaque smoke is dense.
-  const bool opaque = transmittance <= max(frame.media.opaque_transmittance, 1e-3);
-  const float tau = opaque ? max(frame.media.extinction * (leave - enter), 7.0) : -log(transmittance);
-  // The mean of a truncated exponential distribution.
-  const float fraction = tau > 0.01 ? 1.0 / tau - exp(-tau) / (1.0 - exp(-tau)) : 0.5;
-  return mix(enter, leave, fraction);
-}
 
 /// Result of the previous frame for a pixel.
 struct History {

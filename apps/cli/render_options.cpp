@@ -80,7 +80,7 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
       .one_of({"two-pass", "single-pass"})
       .type_name("FORM");
   arguments.add_flag("--temporal", options.temporal,
-                     "Accumulate the smoke of a film over its frames; a range draws the 32 before it, too");
+                     "Smooth the smoke and the edges of a film over its frames; a range draws the 32 before it, too");
   arguments
       .add_option("--step", options.step,
                   "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")
@@ -150,7 +150,7 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
         options.raycast == "two-pass" ? passes::RaycastForm::two_pass : passes::RaycastForm::single_pass;
   }
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
-  plan.renderer.smoke.temporal = options.temporal;
+  plan.renderer.smoke.temporal = plan.renderer.antialias = options.temporal;
   plan.renderer.smoke.record_entries = target_file_kind(options.output) == FileKind::exr;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);

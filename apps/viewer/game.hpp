@@ -27,7 +27,7 @@ struct Choices {
   Probe probe;
   std::optional<std::size_t> level;  ///< Index into quality_levels(); empty: adaptive.
   double frames_per_second = 60;
-  bool temporal = true;  ///< Accumulates the smoke over frames.
+  bool temporal = true;  ///< Smooths smoke and edges over frames.
   bool vertical_sync = true;
   bool decals = true;       ///< Decals are shown.
   std::size_t carrier = 0;  ///< The one to steer and to edit; of Timeline::carriers, unless there is none.

@@ -35,8 +35,12 @@ render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& hole
 StillFrame::StillFrame(const Game& game) : steered_(game.steered_carriers()) {
   const planning::FrameOptions options{.steered = steered_ ? &*steered_ : nullptr, .camera = camera_of(game)};
   render::FrameInput input = input_of(game, options, holes_);
+  // Edges stay as smooth as they are in motion.
+  constexpr std::uint32_t kSmooth = 4;
+  const bool smooth = game.choices().temporal && input.debug.view == planning::DebugView::none;
+  const std::uint32_t count = std::max(planning::usual_samples(input.view.camera), smooth ? kSmooth : 1);
   samples_.emplace(game.session().live().scenario(), game.session().seconds(), options, std::move(input),
-                   std::nullopt);
+                   count);
 }
 
 }  // namespace brume::viewer

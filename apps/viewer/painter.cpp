@@ -48,6 +48,7 @@ bool Painter::draw_film(Screen& screen, const Game& game, const Quality& quality
   input.quality.volume_upload_bytes = kVolumeUploadBytes;
   input.view.continues = continues_ && game.choices().temporal;
   input.view.frame_index = ++frame_index_;
+  if (input.view.continues) input.view.sample = planning::film_sample(frame_index_);
   input.quality.step_scale = quality.step_scale;
   input.quality.resolve_error_scale = quality.resolve_error_scale;
   input.quality.light_update_fraction = light_update_fraction;

@@ -11,6 +11,7 @@ namespace {
 
 render::RendererOptions renderer_options(const scenario::Scenario& scenario, glm::uvec2 size_px) {
   render::RendererOptions options{size_px};
+  options.antialias = true;
   options.smoke.temporal = true;
   options.smoke.prepare_all = true;
   options.smoke.masks = &scenario.masks;

@@ -138,6 +138,7 @@ Result<void> Session::restore(const Edits& edits) {
     if (auto done = live_->set_volumes(edits.timeline.volumes); !done) return done;
     if (auto done = live_->set_decals(edits.timeline.decals); !done) return done;
     if (auto done = live_->set_exposure(edits.timeline.exposure); !done) return done;
+    if (auto done = live_->set_bounces(edits.timeline.bounces); !done) return done;
   }
   events_ = edits.events;
   actions_ = edits.actions;

@@ -54,6 +54,13 @@ void lay_out_light(Game& game) {
   };
   if (option_rows(exposed, file, visit_timeline, [](const std::string& key) { return key == "exposure"; }))
     apply(game, "exposure", game.session().live().set_exposure(exposed.exposure));
+  scene::Timeline bounced;
+  bounced.bounces = timeline.bounces;
+  const auto visit_bounces = [](auto& options, auto&& visitor) {
+    scene::visit_bounce_options(options, visitor);
+  };
+  if (option_rows(bounced, file, visit_bounces))
+    apply(game, "bounces", game.session().live().set_bounces(bounced.bounces));
   scene::SkyOptions sky = timeline.sky;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_sky_options(options, visitor); };
   if (option_rows(sky, file.sky, visit)) apply(game, "sky", game.session().live().set_sky(sky));
@@ -134,7 +141,8 @@ void lay_out_quality(Choices& choices, const Notices& notices) {
   if (slider("frames per second", &rate, 5, 240, "%.0f")) choices.frames_per_second = double{rate};
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the rate that auto holds");
   checkbox("wait for the display", &choices.vertical_sync);
-  checkbox("smooth smoke over frames", &choices.temporal);
+  checkbox("smooth over frames", &choices.temporal);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("smoke and edges: the mean of up to 16 frames");
   const Quality& now = *notices.quality;
   ImGui::Text("now: %s, image of %ux%u pixels", now.name, notices.picture_px.x, notices.picture_px.y);
   ImGui::Text("one ray of smoke per %ux%u pixels", now.march_scale, now.march_scale);

@@ -23,6 +23,7 @@ struct DeviceFeatures {
     vulkan12.scalarBlockLayout = VK_TRUE;
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &vulkan12;
+    features.features.samplerAnisotropy = VK_TRUE;
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
   }
   DeviceFeatures(const DeviceFeatures&) = delete;

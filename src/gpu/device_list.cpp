@@ -37,6 +37,7 @@ std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::u
   if (!features13.synchronization2) return "lacks synchronization2";
   if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
   if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
+  if (!features.features.samplerAnisotropy) return "lacks samplerAnisotropy";
   if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
   VkPhysicalDeviceSubgroupProperties subgroups{};
   subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;

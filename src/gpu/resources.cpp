@@ -154,6 +154,8 @@ Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context
   info.mipmapMode = wanted.mipmaps ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
   info.addressModeU = info.addressModeV = info.addressModeW = wanted.address;
   info.maxLod = wanted.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
+  info.maxAnisotropy = std::min(wanted.anisotropy, context.limits().maxSamplerAnisotropy);
+  info.anisotropyEnable = info.maxAnisotropy > 1 ? VK_TRUE : VK_FALSE;
   info.compareEnable = wanted.compare ? VK_TRUE : VK_FALSE;
   info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
   check(context.vk().CreateSampler(context.device(), &info, nullptr, &handle_), "vkCreateSampler");

@@ -104,6 +104,7 @@ struct SamplerInfo {
   VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   bool mipmaps = false;
   bool compare = false;  ///< A depth comparison, reverse depth: lit where the reference >= the stored depth.
+  float anisotropy = 1;  ///< Most samples along the longer axis of a minified pixel, in [1, 16].
 };
 
 class Sampler {

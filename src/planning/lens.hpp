@@ -37,7 +37,12 @@ struct CameraSample {
 std::vector<CameraSample> camera_samples(std::uint32_t count, const scene::Lens& lens,
                                          const scenario::LensOpening* opening);
 
-/// How many of them a picture has if nothing else is said: one for a pinhole without a shutter.
+/// The sample of a frame of a film that is antialiased over its frames: one of eight points of the pixel, those
+/// of multisampling with eight samples (Vulkan, "Standard sample locations"), in turn. Their mean is the
+/// middle of the pixel.
+ViewSample film_sample(std::uint32_t frame_index);
+
+/// How many samples a picture has if nothing else is said: one for a pinhole without a shutter.
 inline std::uint32_t usual_samples(const scene::Camera& camera) {
   constexpr std::uint32_t kUsual = 64;
   return camera.lens.aperture > 0 || camera.shutter > 0 ? kUsual : 1;

@@ -61,7 +61,7 @@ FrameLayers::FrameLayers(gpu::Context& context, glm::uvec2 size_px)
 void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   const Targets& targets = renderer.targets();
   BRUME_ASSERT(targets.size_px == size_px_, "frames of another size");
-  recorder.read_back(targets.radiance, radiance_);
+  recorder.read_back(renderer.radiance(), radiance_);
   recorder.read_back(renderer.media(), media_);
   recorder.read_back(targets.gbuffer.albedo_roughness, albedo_);
   recorder.read_back(targets.gbuffer.depth, depth_);

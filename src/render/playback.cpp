@@ -63,7 +63,10 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
                                        renderer_.smoke().is_accumulated() ? 1u : samples_);
   samples_drawn_ = samples.count();
   for (std::uint32_t i = 0; i < samples.count(); ++i) {
-    renderer_.draw(samples[i], [&](gpu::Recorder& recorder) {
+    FrameInput sample = samples[i];
+    if (renderer_.is_antialiased() && sample.view.continues)
+      sample.view.sample = planning::film_sample(frame_index);
+    renderer_.draw(sample, [&](gpu::Recorder& recorder) {
       each.read_back(recorder, i + 1 == samples.count());
       if (renderer_.smoke().march_tiles())
         recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/blue_noise.hpp"
+#include "planning/device_camera.hpp"
 
 namespace brume::render {
 namespace {
@@ -60,6 +61,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+  if (options.antialias) antialias_pass_.emplace(context, options.size_px);
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
 }
 
@@ -72,6 +74,7 @@ void Renderer::resize(glm::uvec2 size_px) {
   smoke_.resize(scene_, size_px);
   decal_pass_.reset();
   average_pass_.reset();
+  if (antialias_pass_) antialias_pass_.emplace(context_, size_px);
   occlusion_ = nullptr;
   history_.smoke_shadows.invalidate();
 }
@@ -202,6 +205,7 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
   occlusion_ = nullptr;
   const bool is_debug_view = plan.input.debug.view != planning::DebugView::none;
   if (decal_pass_ && (plan.decals.empty() || is_debug_view)) decal_pass_->invalidate_past();
+  if (is_debug_view && antialias_pass_) antialias_pass_->invalidate_past();
   if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
   scope(recorder, "shade", [&] {
@@ -215,8 +219,19 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
   if (const planning::ViewSample& sample = plan.input.view.sample; sample.count > 1)
     scope(recorder, "average", [&] { average_pass_->record(recorder, targets_.radiance, sample.index); });
+  if (antialias_pass_) scope(recorder, "antialias", [&] { record_antialias(recorder, plan); });
   scope(recorder, "display",
-        [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
+        [&] { display_pass_.record(recorder, frame_, blue_noise_, radiance(), targets_.display); });
+}
+
+void Renderer::record_antialias(gpu::Recorder& recorder, const FramePlan& plan) {
+  const planning::View& view = plan.input.view;
+  planning::ViewSample middle = view.sample;
+  middle.pixel = {0, 0};
+  antialias_pass_->record(
+      recorder, {frame_, targets_.gbuffer.depth, media(), targets_.radiance},
+      planning::device_camera(view.camera, targets_.size_px, middle).clip_from_world, view.sample.pixel,
+      view.continues);
 }
 
 void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "passes/antialias.hpp"
 #include "passes/average.hpp"
 #include "passes/debug_view.hpp"
 #include "passes/decals.hpp"
@@ -23,6 +24,9 @@ using planning::FramePlan;
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
   SmokeFrameOptions smoke{};
+  /// Smooths edges over the frames of a film (View::continues), each of which shows another point of every
+  /// pixel (planning::film_sample).
+  bool antialias = false;
 };
 
 class Renderer {
@@ -60,6 +64,11 @@ class Renderer {
   const Targets& targets() const { return targets_; }
   /// Half floats: premultiplied radiance and transmittance of the media.
   const gpu::Image& media() const { return smoke_.result(targets_); }
+  /// Half floats: radiance of the picture before exposure and tone curve.
+  const gpu::Image& radiance() const {
+    return antialias_pass_ ? antialias_pass_->result() : targets_.radiance;
+  }
+  bool is_antialiased() const { return antialias_pass_.has_value(); }
   const SmokeFrame& smoke() const { return smoke_; }
   const SceneView& scene() const { return scene_; }
   /// Whether the last frame had decals, in view or not.
@@ -85,6 +94,7 @@ class Renderer {
   void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_particles(gpu::Recorder& recorder, const FramePlan& plan);
+  void record_antialias(gpu::Recorder& recorder, const FramePlan& plan);
   void record_debug_view(gpu::Recorder& recorder, const FramePlan& plan);
 
   gpu::Context& context_;
@@ -100,6 +110,7 @@ class Renderer {
   std::optional<passes::SliceTextures> slices_;
   std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
   std::optional<passes::DebugViewPass> debug_view_;    ///< From the first frame with a debug view on.
+  std::optional<passes::AntialiasPass> antialias_pass_;  ///< Where RendererOptions::antialias.
   std::optional<passes::AveragePass> average_pass_;    ///< From the first picture of several frames on.
   std::optional<passes::ParticlePass> particle_pass_;  ///< From the first frame with particles in view.
   gpu::Image blue_noise_;

@@ -263,6 +263,14 @@ Result<void> EditableScenario::set_exposure(float exposure) {
   return {};
 }
 
+Result<void> EditableScenario::set_bounces(std::uint32_t bounces) {
+  scene::Timeline chosen;
+  chosen.bounces = bounces;
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.bounces = bounces;
+  return {};
+}
+
 Result<void> EditableScenario::set_duration(float duration) {
   scene::Timeline chosen;
   chosen.duration = duration;

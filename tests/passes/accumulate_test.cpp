@@ -5,39 +5,15 @@
 
 #include "planning/media_plan.hpp"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/film_frame.hpp"
 #include "tests/passes/half.hpp"
 
 namespace brume::passes {
 namespace {
 
-constexpr glm::uvec2 kFrameSize{33, 17};
-
-/// Frames of a film in a box of smoke from -10 m on along each axis, 20 m deep, before a camera at z = 8 that
-/// looks along -z.
 class AccumulateTest : public gpu::GpuTest {
  protected:
   AccumulateTest() : pass_(context(), kFrameSize) {}
-
-  static shared::FrameConstants frame_at(float x) {
-    shared::FrameConstants frame{};
-    frame.camera.eye_world = {x, 0, 8};
-    frame.camera.near_z = 0.05f;
-    frame.camera.forward = {0, 0, -1};
-    frame.camera.right = {0.8f, 0, 0};
-    frame.camera.up = {0, 0.4f, 0};
-    // Rows: x / 0.8, -y / 0.4, 0.05, distance along the view axis.
-    frame.camera.clip_from_world = glm::mat4(0);
-    frame.camera.clip_from_world[0] = {1 / 0.8f, 0, 0, 0};
-    frame.camera.clip_from_world[1] = {0, -1 / 0.4f, 0, 0};
-    frame.camera.clip_from_world[2] = {0, 0, 0, -1};
-    frame.camera.clip_from_world[3] = {-x / 0.8f, 0, 0.05f, 8};
-    frame.volume.voxel_size = 0.5f;
-    frame.volume.origin_world = glm::vec3(-10);
-    frame.volume.bounds_max = {400, 40, 40};
-    frame.size_px = kFrameSize;
-    frame.look.extinction = 1;
-    return frame;
-  }
 
   using Texels = std::vector<glm::vec4>;
   static Texels even(glm::vec4 value) { return Texels(kFrameSize.x * kFrameSize.y, value); }

@@ -2,6 +2,7 @@
 #ifndef BRUME_SHARED_STRUCTS_H
 #define BRUME_SHARED_STRUCTS_H
 #include "shared/accumulate.h"
+#include "shared/antialias.h"
 #include "shared/average.h"
 #include "shared/cloud.h"
 #include "shared/dda.h"
@@ -126,7 +127,8 @@
   X(82, PhotonGrid) \
   X(83, IndirectLayout) \
   X(84, SurfacePatch) \
-  X(85, IndirectParams)
+  X(85, IndirectParams) \
+  X(86, AntialiasParams)
 // clang-format on
 
 #endif

@@ -263,12 +263,15 @@ TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
   EXPECT_EQ(live->set_smoke(smoke).failure().message,
             "[smoke]: \"voxels\": expected a number from 1 to 1.67772e+07, found 0");
   EXPECT_FALSE(live->set_exposure(21));
+  EXPECT_FALSE(live->set_bounces(17));
   EXPECT_FALSE(live->set_camera({{1, {}}, {1, {}}}));
   EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
   EXPECT_TRUE(live->set_exposure(2));
+  EXPECT_TRUE(live->set_bounces(8));
   EXPECT_TRUE(live->set_duration(9));
   EXPECT_TRUE(live->set_camera({{1, {}}, {2, {}}}));
   EXPECT_EQ(reloaded(live->scenario().timeline).timeline.camera.size(), 2u);
+  EXPECT_EQ(reloaded(live->scenario().timeline).timeline.bounces, 8u);
   expect_as_saved(*live, {1, 2});
 }
 

@@ -1,0 +1,40 @@
+#include "passes/antialias.hpp"
+
+#include "brume_shaders.hpp"
+#include "shared/display.h"
+#include "shared/gbuffer.h"
+#include "shared/resolve.h"
+
+namespace brume::passes {
+
+AntialiasPass::AntialiasPass(gpu::Context& context, glm::uvec2 size_px)
+    : pipeline_(context, shaders::antialias_comp),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      linear_(context, {}) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  for (gpu::Image& image : radiance_) image = gpu::Image(context, info);
+}
+
+void AntialiasPass::record(gpu::Recorder& recorder, const Inputs& in, const glm::mat4& clip_from_world,
+                           glm::vec2 jitter, bool continues) {
+  const std::size_t before = current_, now = 1 - current_;
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
+                    {shared::kBindSmoke, gpu::sampled(in.media, nearest_)},
+                    {shared::kBindRadiance, gpu::sampled(in.radiance, nearest_)},
+                    {shared::kBindPastRadiance, gpu::sampled(radiance_[before], linear_)},
+                    {shared::kBindMeanRadiance, gpu::stored(radiance_[now])},
+                },
+                shared::AntialiasParams{past_clip_from_world_, jitter, continues && has_past_ ? 1u : 0u});
+  recorder.dispatch_threads(pipeline_, in.radiance.info().size.x, in.radiance.info().size.y);
+  current_ = now;
+  has_past_ = true;
+  past_clip_from_world_ = clip_from_world;
+}
+
+}  // namespace brume::passes
