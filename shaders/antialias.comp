@@ -110,6 +110,9 @@ void main() {
   const vec3 plausible = clamp(past_color, low, high);
   const vec3 moved = abs(plausible - past_color) / (high - low + 1.0 / 255.0);
   const float fits = 1.0 / (1.0 + max(moved.x, max(moved.y, moved.z)));
-  const float frames = min(past.a * fits + 1.0, kAntialiasedFrames);
+  // In motion every frame reads the past between its pixels, which blurs it a little more each time.
+  const float way_px = distance(uv * vec2(frame.size_px), vec2(px) + 0.5);
+  const float most = mix(kAntialiasedFrames, kAntialiasedFramesInMotion, min(way_px, 1.0));
+  const float frames = min(past.a * fits + 1.0, most);
   imageStore(mean_radiance, px, vec4(expanded(mix(plausible, here, 1.0 / frames)), frames));
 }

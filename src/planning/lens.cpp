@@ -29,8 +29,9 @@ const scenario::LensOpening* opening_of(const scenario::LensOpenings& openings, 
 }
 
 ViewSample film_sample(std::uint32_t frame_index) {
-  constexpr glm::ivec2 kSixteenths[] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
-  return {glm::vec2(kSixteenths[frame_index % std::size(kSixteenths)]) / 16.0f};
+  constexpr glm::ivec2 kSixteenths[kFilmSamples] = {{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
+                                                    {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  return {glm::vec2(kSixteenths[frame_index % kFilmSamples]) / 16.0f};
 }
 
 std::vector<CameraSample> camera_samples(std::uint32_t count, const scene::Lens& lens,

@@ -5,6 +5,7 @@
 
 #include "passes/blue_noise.hpp"
 #include "planning/device_camera.hpp"
+#include "planning/lens.hpp"
 
 namespace brume::render {
 namespace {
@@ -19,6 +20,14 @@ void scope(gpu::Recorder& recorder, const char* name, Record record) {
 passes::DebugSubject debug_subject(const FramePlan& plan) {
   const FrameInput& input = plan.input;
   return {input.debug.view, plan.view_slice, input.level.voxels, input.smoke.volume, input.smoke.state};
+}
+
+/// Each of n samples of a pixel stands for an nth of its area; a frame of an antialiased film for an eighth.
+float texture_bias(const planning::ViewSample& sample) {
+  constexpr float kLeastBias = -4;
+  const bool in_film = sample.count == 1 && sample.pixel != glm::vec2(0);
+  const std::uint32_t samples = in_film ? planning::kFilmSamples : sample.count;
+  return std::max(-0.5f * std::log2(static_cast<float>(samples)), kLeastBias);
 }
 
 /// What every pass may read, but for the layouts of the renderer's own resources.
@@ -40,9 +49,7 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.time = input.smoke.time;
   frame.exposure = input.view.exposure;
   frame.tone = static_cast<std::uint32_t>(input.view.tone);
-  // Each of n samples of a pixel stands for an nth of its area.
-  constexpr float kLeastBias = -4;
-  frame.texture_bias = std::max(-0.5f * std::log2(static_cast<float>(input.view.sample.count)), kLeastBias);
+  frame.texture_bias = texture_bias(input.view.sample);
   frame.resolve_error = shared::kResolveError * input.quality.resolve_error_scale;
   return frame;
 }
