@@ -20,6 +20,8 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
 
 FrameCost RepeatedFrame::draw() {
   ++input_.view.frame_index;
+  if (renderer_.is_antialiased() && input_.view.continues)  // but for the first frame of the film
+    input_.view.sample = planning::film_sample(input_.view.frame_index);
   FrameCost cost;
   const double start = thread_cpu_ms();
   const render::FramePlan plan = renderer_.plan(input_);
@@ -30,6 +32,7 @@ FrameCost RepeatedFrame::draw() {
     cost.record_cpu = thread_cpu_ms() - begin;
     recorder.read_back(renderer_.smoke().march_counters(), counter_, sizeof(std::uint32_t));
   });
+  if (renderer_.is_antialiased()) input_.view.continues = true;
   for (const auto& scope : runner_.timings()) cost.passes[scope.name] = scope.milliseconds;
   return cost;
 }

@@ -82,9 +82,9 @@ Result<std::vector<Measurement>> march(Bench& bench) {
   return std::vector{m};
 }
 
-/// 51 lights and 64 open holes.
+/// 51 lights and 64 open holes. `is_film`: smoothed over frames.
 Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, glm::uvec2 size_px,
-                                        std::uint32_t march_scale) {
+                                        std::uint32_t march_scale, bool is_film = false) {
   Yard yard;
   yard.lights = 42;
   yard.holes = 64;
@@ -93,6 +93,7 @@ Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, g
   render::RendererOptions options;
   options.size_px = size_px;
   options.smoke.march_scale = march_scale;
+  options.smoke.temporal = options.antialias = is_film;
   options.smoke.masks = &scenario->masks;
   return std::vector{time_frames(bench, name, *scenario, options, kGrown).all};
 }
@@ -234,6 +235,10 @@ std::vector<Case> gpu_cases() {
       {"frame/1080p_half", "the same, marched at half resolution",
        [](Bench& b) {
          return frames(b, "frame/1080p_half", {1920, 1080}, 2);
+       }},
+      {"frame/1080p_film", "at full resolution, smoke and edges smoothed over frames",
+       [](Bench& b) {
+         return frames(b, "frame/1080p_film", {1920, 1080}, 1, true);
        }},
       {"frame/4k", "the same at 3840x2160, marched at full resolution",
        [](Bench& b) {
