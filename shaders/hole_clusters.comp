@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/hole_clusters.h"
 
@@ -27,25 +28,18 @@ shared uint batch[kBatch];  // holes, ascending
 // A mask of the batch per list: 32 holes per word, lists interleaved.
 shared uint members[kBatch / 32u * kLists];
 shared uint sums[kThreads];
-shared uint sums8[kThreads / 8u];
 shared uint words_of_lists, used_tiles, first_word;
 
 /// Exclusive prefix sum over the lanes, and the total.
-uvec2 count_before(uint lane, uint own) {
-  sums[lane] = own;
+uvec2 count_before(uint own) {
+  const uint of_subgroup = subgroupAdd(own);
+  if (subgroupElect()) sums[gl_SubgroupID] = of_subgroup;
   barrier();
-  if (lane < kThreads / 8u) {
-    uint sum = 0u;
-    for (uint i = 0u; i < 8u; ++i) sum += sums[8u * lane + i];
-    sums8[lane] = sum;
+  uint before = subgroupExclusiveAdd(own), all = 0u;
+  for (uint i = 0u; i < gl_NumSubgroups; ++i) {
+    before += i < gl_SubgroupID ? sums[i] : 0u;
+    all += sums[i];
   }
-  barrier();
-  uint before = 0u, all = 0u;
-  for (uint i = 0u; i < kThreads / 8u; ++i) {
-    before += i < lane / 8u ? sums8[i] : 0u;
-    all += sums8[i];
-  }
-  for (uint i = lane & ~7u; i < lane; ++i) before += sums[i];
   return uvec2(before, all);
 }
 
@@ -121,7 +115,7 @@ bool write_chunks(uint lane, uint count, inout uint own, inout uint last) {
 }
 
 void main() {
-  const uint lane = gl_LocalInvocationID.x, words = mask_words(frame.holes.count);
+  const uint lane = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID, words = mask_words(frame.holes.count);
   const uvec2 tile = 2u * gl_WorkGroupID.xy + uvec2(lane & 1u, lane >> 1u & 1u);
   const uvec2 coarse = tile / kCoarseTileTiles;
   const uint first_mask = (coarse.x + frame.holes.tiles_across / kCoarseTileTiles * coarse.y) * words;
@@ -133,7 +127,7 @@ void main() {
     bits[i] = i < run && first + i < words ? coarse_tile_holes[first_mask + first + i] : 0u;
     own_count += bitCount(bits[i]);
   }
-  const uvec2 before_all = count_before(lane, own_count);
+  const uvec2 before_all = count_before(own_count);
   const vec2 low_px = vec2(tile * kHoleTilePixels);
   const RayCone cone = cone_of_pixels(low_px, low_px + float(kHoleTilePixels), smoke_reach().y);
 

@@ -89,14 +89,16 @@ bool must_march(ivec2 tile, ivec2 tiles) {
     error = max(error_between(e, tile, e.near_last), error_between(e, tile, e.far_first));
     error = max(error, max(error_at(e, tile, tiles, e.near), error_at(e, tile, tiles, e.far)));
   }
-  // Emission shows errors most; other surfaces, not lit yet, are assumed bright. In front of black smaller steps show.
+  if (error == vec4(0.0)) return false;
+  // In front of black smaller steps show; emission shows errors most. Other surfaces, not lit yet, are assumed bright.
+  if (is_visible(smoke, error, vec3(0.0))) return true;
   vec3 brightest = vec3(kBrightSurface / frame.exposure);
   const int scale = int(frame.march_scale);
   const ivec2 first = tile * scale, last = min(first + scale, ivec2(frame.size_px)) - 1;
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) brightest = max(brightest, texelFetch(emission, ivec2(x, y), 0).rgb);
   }
-  return is_visible(smoke, error, vec3(0.0)) || is_visible(smoke, error, brightest);
+  return is_visible(smoke, error, brightest);
 }
 
 void main() {

@@ -1,5 +1,5 @@
 // Shades the G-buffer under the smoke: all lights within reach with their shadows, and the sky behind the scene. Skips
-// pixels behind opaque smoke.
+// pixels behind opaque smoke. Displays the pixel, too, where nothing else changes its radiance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -8,6 +8,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "lib/frame.glsl"
 #include "lib/camera.glsl"
+#include "lib/displayed.glsl"
 #include "lib/lights.glsl"
 #include "lib/shading.glsl"
 #include "lib/sky.glsl"
@@ -21,6 +22,8 @@ layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every
 layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
 layout(constant_id = 2) const uint kDecals = 0u;        // 0: nothing reads the occlusion by decals
 
+layout(constant_id = 3) const uint kDisplays = 1u;      // 0: writes radiance alone
+
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
 layout(binding = kBindAlbedoRoughness) uniform sampler2D albedo_roughness;
@@ -31,6 +34,7 @@ layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
 layout(binding = kBindSmoke) uniform sampler2D smoke;
 layout(binding = kBindOcclusion) uniform sampler2D decal_occlusion;
 layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
+layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
 #include "lib/light_rows.glsl"
 #include "lib/indirect_light.glsl"
 #include "lib/light_visibility.glsl"
@@ -165,5 +169,8 @@ void main() {
   } else {
     radiance = visible ? sky_radiance(frame.sky, normalize(ray)) : vec3(0.0);
   }
-  if (inside) imageStore(radiance_image, px, vec4(over.rgb + over.a * radiance, 1.0));
+  if (!inside) return;
+  const vec3 seen = over.rgb + over.a * radiance;
+  imageStore(radiance_image, px, vec4(seen, 1.0));
+  if (kDisplays != 0u) imageStore(display, px, displayed(px, seen, 1.0));
 }

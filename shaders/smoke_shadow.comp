@@ -29,6 +29,7 @@ const uint kBlockHoles = 64u;
 shared uint found_holes[kBlockHoles], block_holes[kBlockHoles];
 shared uint hole_count;
 shared float part_depths[kWindowThreads];
+shared uint ray_holes[kBlockHoles / 32u * kWindowThreads / kRayParts];  // of block_holes, a bit each
 
 struct RaySegment {
   vec3 from, to;
@@ -123,13 +124,28 @@ RaySteps steps_of(RaySegment segment, uint part) {
   return ray;
 }
 
+/// Cuts the holes of the block out of the thread's samples. The threads of a ray share the test which of them it meets.
+/// Runs in all threads of the workgroup.
+void cut_holes(RaySteps ray) {
+  const uint words = kBlockHoles / 32u, at = gl_LocalInvocationIndex / kRayParts * words;
+  if (ray.part < words) ray_holes[at + ray.part] = 0u;
+  barrier();
+  const uint count = ray.count > 0u ? hole_count : 0u;
+  for (uint i = ray.part; i < count; i += kRayParts)
+    if (!misses(reach_at(block_holes[i]), ray)) atomicOr(ray_holes[at + i / 32u], 1u << (i & 31u));
+  barrier();
+  for (uint word = 0u; word < words; ++word)
+    for (uint bits = ray_holes[at + word]; bits != 0u; bits &= bits - 1u)
+      cut_hole(ray, block_holes[32u * word + uint(findLSB(bits))]);
+}
+
 /// Optical depth of the thread's part of the steps.
 float part_depth(RaySteps ray) {
   const bool any_hole = frame.holes.count > 0u && hole_count > 0u;
   const bool by_cells = any_hole && hole_count > kBlockHoles, by_window = any_hole && !by_cells;
   if (by_window) {
     fill_window();
-    for (uint i = 0u; i < hole_count; ++i) cut_hole(ray, block_holes[i]);
+    cut_holes(ray);
   }
   const float per_sample = ray.ds * frame.look.extinction;
   const vec3 origin = (ray.origin_world - frame.volume.origin_world) / frame.volume.voxel_size;

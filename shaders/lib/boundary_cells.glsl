@@ -40,8 +40,11 @@ BrickSample boundary_sample(uint slot, vec3 local_voxel) {
   const vec3 f = from_centres - vec3(cell);
   vec3 offset = vec3(0.0);
   uint side = plane_side(record.plane0, f - 0.5, offset);
-  side |= plane_side(record.plane1, f - 0.5, offset) << 1u;
-  side |= plane_side(record.plane2, f - 0.5, offset) << 2u;
+  // Most cells have one plane.
+  if (record.plane1 != 0u) {
+    side |= plane_side(record.plane1, f - 0.5, offset) << 1u;
+    if (record.plane2 != 0u) side |= plane_side(record.plane2, f - 0.5, offset) << 2u;
+  }
   // The apron of the brick is one texel wide.
   const vec3 light_at = clamp(local_voxel + offset, vec3(-0.5), vec3(float(kBrickVoxels) + 0.5));
   return BrickSample(corner_set_density(corner_sets[record.first_set + side], f), light_at - local_voxel);

@@ -71,7 +71,6 @@ bool misses(HoleReach reach, RaySteps ray) {
 
 /// Cuts a hole out of the thread's samples.
 void cut_hole(RaySteps ray, uint index) {
-  if (misses(reach_at(index), ray)) return;
   const Hole hole = hole_at(index);
   const uvec2 run = samples_in(hole, ray);
   for (uint i = (run.x + kRayParts - 1u - ray.part) / kRayParts; kRayParts * i + ray.part < run.y; ++i) {

@@ -3,15 +3,17 @@
 #ifndef MARCH_MAIN_GLSL
 #define MARCH_MAIN_GLSL
 #include "shared/frame.h"
+#include "shared/hole_clusters.h"
 #include "shared/media.h"
 #include "shared/resolve.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kHoleTilePixels, local_size_y = kHoleTilePixels) in;
 layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 layout(constant_id = 3) const uint kMedia = kMediumSmoke;
 layout(constant_id = 4) const uint kBlockSteps = 4u;
+layout(constant_id = 5) const uint kSplitByHoles = 0u;  // 1: two pipelines, of tiles that holes meet and of others
 #include "lib/blue_noise.glsl"
 #include "lib/march.glsl"
 #include "lib/pixel_ray.glsl"
@@ -24,6 +26,20 @@ layout(scalar, binding = kBindMarchCounters) buffer Counters {
   uint texture_samples;
   uint of_pixel[];  // steps, or the bits of the entry, by kCount
 };
+
+/// Whether the other pipeline marches the rays of this workgroup, which covers as many tiles of holes as a tile of rays
+/// has pixels.
+bool is_of_other_pipeline() {
+  const bool split = kSplitByHoles != 0u && kHasSmoke && kHoles != kHolesAllTested && kRays != kRaysOfList;
+  if (!split || frame.holes.count == 0u) return false;
+  const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
+  bool any_hole = false;
+  for (uint i = 0u; i < edge * edge; ++i) {
+    const uvec2 tile = gl_WorkGroupID.xy * edge + uvec2(i % edge, i / edge);
+    any_hole = any_hole || hole_lists[tile.x + frame.holes.tiles_across * tile.y] != 0u;
+  }
+  return any_hole == (kHoles == kHolesNone);
+}
 
 vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
 
@@ -38,7 +54,7 @@ void write_of_pixels(ivec2 texel, uint value) {
 
 void main() {
   PixelRay pixel;
-  if (!find_ray(pixel)) return;
+  if (is_of_other_pipeline() || !find_ray(pixel)) return;
 
   // The part of the ray inside the bounds of the media, t in metres; it ends at the surface behind.
   const vec3 along = camera_ray(frame.camera, pixel.position_px, frame.size_px);

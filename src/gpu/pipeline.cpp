@@ -191,7 +191,8 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{};
   depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-  depth.depthTestEnable = depth.depthWriteEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+  depth.depthTestEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+  depth.depthWriteEnable = info_.writes_depth ? depth.depthTestEnable : VK_FALSE;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(info_.colours.size(),
                                                                      colour_state(info_.blend));

@@ -86,6 +86,7 @@ struct GraphicsInfo {
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
   Blend blend = Blend::none;
+  bool writes_depth = true;  ///< Where there is a depth.
 };
 
 /// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from

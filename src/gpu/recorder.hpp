@@ -139,7 +139,7 @@ class Recorder {
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
     std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
     bool keep_depth = false;
-    bool overwrite = false;  ///< The draws write all pixels of the colours that are not kept: no clear.
+    bool overwrite = false;  ///< What no draw writes is undefined in the colours that are not kept: no clear.
   };
   /// Clears the attachments that are neither kept nor overwritten to 0 (reverse depth: infinitely far).
   void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
@@ -181,14 +181,15 @@ class Recorder {
   void use(const Binding& binding, VkPipelineStageFlags2 stages);
   void flush_barriers();
 
-  /// A write to a buffer that is yet to be recorded: a copy from `from`, or without it a fill.
+  /// A write to a buffer that is yet to be recorded: a copy from `from`, where also `bytes` are, or without
+  /// it a fill.
   struct Transfer {
     VkBuffer from, to;
     VkBufferCopy region;
+    const std::byte* bytes;
     std::uint32_t value;
   };
-  /// Of the bytes of `region` to come.
-  void add_transfer(const Buffer& to, VkBuffer from, const VkBufferCopy& region, std::uint32_t value);
+  void add_transfer(const Buffer& to, const Transfer& transfer);
   void flush_transfers();
 
   /// A dispatch of `concurrently` that is yet to be recorded.

@@ -10,6 +10,13 @@ namespace {
 
 constexpr VkDeviceSize kStagingBytes = 8ull << 20;
 
+/// Whether a copy is a part of the commands: a device takes longer to begin a copy from memory of the CPU
+/// than to write a few kilobytes.
+bool is_inline(const VkBufferCopy& region) {
+  constexpr VkDeviceSize kMostBytes = 65536;  // that vkCmdUpdateBuffer takes
+  return region.size <= kMostBytes && region.size % 4 == 0 && region.dstOffset % 4 == 0;
+}
+
 VkImageBlit whole_blit(glm::uvec2 from, glm::uvec2 to) {
   VkImageBlit blit{};
   blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -44,20 +51,24 @@ void Recorder::upload(const Buffer& buffer, VkDeviceSize offset, std::span<const
   if (bytes.empty()) return;
   BRUME_ASSERT(offset + bytes.size() <= buffer.size(), std::to_string(offset + bytes.size()));
   const Staged staged = stage_bytes(bytes);
-  add_transfer(buffer, staged.buffer->handle(), {staged.offset, offset, bytes.size()}, 0);
+  add_transfer(buffer, {staged.buffer->handle(),
+                        buffer.handle(),
+                        {staged.offset, offset, bytes.size()},
+                        staged.buffer->mapped() + staged.offset,
+                        0});
 }
 
-void Recorder::add_transfer(const Buffer& to, VkBuffer from, const VkBufferCopy& region,
-                            std::uint32_t value) {
+void Recorder::add_transfer(const Buffer& to, const Transfer& transfer) {
   BRUME_ASSERT(!concurrently_, "a transfer among dispatches");
   // The barriers of all come before the first, so that none may depend on another.
   const auto overlaps = [&](const Transfer& other) {
-    return other.to == to.handle() && region.dstOffset < other.region.dstOffset + other.region.size &&
+    const VkBufferCopy& region = transfer.region;
+    return other.to == transfer.to && region.dstOffset < other.region.dstOffset + other.region.size &&
            other.region.dstOffset < region.dstOffset + region.size;
   };
   if (std::ranges::any_of(transfers_, overlaps)) flush_transfers();
   add_barrier(to, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-  transfers_.push_back({from, to.handle(), region, value});
+  transfers_.push_back(transfer);
 }
 
 void Recorder::flush_transfers() {
@@ -70,9 +81,14 @@ void Recorder::flush_transfers() {
       context_.vk().CmdFillBuffer(commands_, one.to, one.region.dstOffset, one.region.size, one.value);
       continue;
     }
-    regions.push_back(one.region);
-    if (i + 1 < transfers_.size() && transfers_[i + 1].from == one.from && transfers_[i + 1].to == one.to)
+    if (is_inline(one.region)) {
+      context_.vk().CmdUpdateBuffer(commands_, one.to, one.region.dstOffset, one.region.size, one.bytes);
       continue;
+    }
+    regions.push_back(one.region);
+    const bool continues = i + 1 < transfers_.size() && transfers_[i + 1].from == one.from &&
+                           transfers_[i + 1].to == one.to && !is_inline(transfers_[i + 1].region);
+    if (continues) continue;
     context_.vk().CmdCopyBuffer(commands_, one.from, one.to, static_cast<std::uint32_t>(regions.size()),
                                 regions.data());
     regions.clear();
@@ -111,7 +127,7 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
 }
 
 void Recorder::fill(const Buffer& buffer, std::uint32_t value) {
-  add_transfer(buffer, VK_NULL_HANDLE, {0, 0, buffer.size() / 4 * 4}, value);
+  add_transfer(buffer, {VK_NULL_HANDLE, buffer.handle(), {0, 0, buffer.size() / 4 * 4}, nullptr, value});
 }
 
 void Recorder::clear(const Image& image, VkClearColorValue value) {

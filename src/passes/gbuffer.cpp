@@ -1,5 +1,7 @@
 #include "passes/gbuffer.hpp"
 
+#include <algorithm>
+
 #include "brume_shaders.hpp"
 #include "shared/frame.h"
 
@@ -35,8 +37,21 @@ gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::Shader
   return info;
 }
 
+/// Behind the depth of all surfaces, for what does not glow.
+gpu::GraphicsInfo dull_info() {
+  gpu::GraphicsInfo info = pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag);
+  info.colours.pop_back();
+  info.writes_depth = false;
+  return info;
+}
+
 bool is_cut(const shared::MaterialConstants& material) {
   return material.alpha_cutoff > 0;
+}
+
+/// Neither cut by a texture nor glowing.
+bool is_dull(const shared::MaterialConstants& material) {
+  return !is_cut(material) && material.emission == glm::vec3(0);
 }
 
 void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const SceneResources& scene,
@@ -52,13 +67,14 @@ void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const Scen
 GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
     : albedo_roughness(target_image(context, size, kFormats[0], VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
       normal_metallic(target_image(context, size, kFormats[1], VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
-      emission(target_image(context, size, kFormats[2], VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
+      emission(target_image(context, size, kFormats[2],
+                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT)),
       depth(target_image(context, size, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)) {}
 
 GBufferPass::DepthFirst::DepthFirst(gpu::Context& context)
     : depth(context, pipeline_info(shaders::gbuffer_vert, nullptr)),
-      background(context,
-                 pipeline_info(shaders::gbuffer_background_vert, &shaders::gbuffer_background_frag)) {}
+      dull(context, dull_info()),
+      clear(context, shaders::gbuffer_clear_comp) {}
 
 GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.info().kind != "cpu") {}
 
@@ -69,14 +85,15 @@ GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
   depth_first_.emplace(context);
 }
 
-void GBufferPass::draw_materials(gpu::Recorder& recorder, const SceneResources& scene,
-                                 std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const {
+void GBufferPass::draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
+                                 const SceneResources& scene, std::span<const VisibleDraw> draws,
+                                 const gpu::Buffer& frame) const {
   std::uint32_t bound = scene::kNone;
   for (const VisibleDraw& visible : draws) {
     const MaterialImages& material = scene.materials[visible.draw->material];
     if (visible.draw->material != bound) {
       recorder.bind_for_draws(
-          pipeline_,
+          pipeline,
           {
               {shared::kBindFrame, gpu::uniform(frame)},
               {shared::kBindVertices, gpu::read(scene.vertices)},
@@ -86,7 +103,7 @@ void GBufferPass::draw_materials(gpu::Recorder& recorder, const SceneResources& 
           });
       bound = visible.draw->material;
     }
-    draw_one(recorder, pipeline_, scene, visible);
+    draw_one(recorder, pipeline, scene, visible);
   }
 }
 
@@ -98,32 +115,56 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
     if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden))
       draws.push_back({&draw, false});
   for (const Draw& draw : moving) draws.push_back({&draw, true});
+  // In an order that every form has, for surfaces in the same place.
+  const std::span<VisibleDraw> others = std::ranges::stable_partition(draws, [&](const VisibleDraw& visible) {
+    return is_dull(scene.materials[visible.draw->material].constants);
+  });
 
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
   recorder.prepare_indices(scene.indices);
   const glm::uvec2 size(target.depth.info().size);
-  gpu::Recorder::Attachments attachments{{}, &target.depth};
+  gpu::Recorder::Attachments all{{&target.albedo_roughness, &target.normal_metallic, &target.emission},
+                                 &target.depth};
   if (depth_first_) {
-    recorder.begin_rendering(attachments, size);
-    draw_depth(recorder, scene, draws, frame);
-    recorder.end_rendering();
-    attachments.keep_depth = attachments.overwrite = true;
+    const std::span<VisibleDraw> dull(draws.data(), draws.size() - others.size());
+    draw_depth_first(recorder, scene, draws, dull, view, frame, target);
+    if (others.empty()) return;
+    all.keep = 0b111;
+    all.keep_depth = true;
   }
-  attachments.colours = {&target.albedo_roughness, &target.normal_metallic, &target.emission};
-  recorder.begin_rendering(attachments, size);
-  if (depth_first_) {
-    // Instead of a clear, which would cost as much as another surface where there are few raster units.
-    recorder.bind_for_draws(depth_first_->background, {});
-    recorder.draw(3);
-  }
-  draw_materials(recorder, scene, draws, frame);
+  recorder.begin_rendering(all, size);
+  draw_materials(recorder, pipeline_, scene, depth_first_ ? others : std::span(draws), frame);
   recorder.end_rendering();
 }
 
-/// The depth of all surfaces that no texture cuts.
+/// The depth of all surfaces that no texture cuts, and the materials of the dull ones. No emission: where
+/// there are few raster units, each byte of a target costs.
+void GBufferPass::draw_depth_first(gpu::Recorder& recorder, const SceneResources& scene,
+                                   std::span<const VisibleDraw> draws, std::span<const VisibleDraw> dull,
+                                   const planning::ViewFrustum& view, const gpu::Buffer& frame,
+                                   const GBuffer& target) const {
+  const glm::uvec2 size(target.depth.info().size);
+  recorder.bind(depth_first_->clear, {{shared::kBindEmission, gpu::stored(target.emission)}});
+  recorder.dispatch_threads(depth_first_->clear, size.x, size.y);
+  recorder.begin_rendering({{}, &target.depth}, size);
+  draw_depth(recorder, scene, {draws.begin(), draws.end()}, view, frame);
+  recorder.end_rendering();
+  gpu::Recorder::Attachments attachments{{&target.albedo_roughness, &target.normal_metallic}, &target.depth};
+  attachments.keep_depth = attachments.overwrite = true;
+  recorder.begin_rendering(attachments, size);
+  draw_materials(recorder, depth_first_->dull, scene, dull, frame);
+  recorder.end_rendering();
+}
+
+/// The depth of all surfaces that no texture cuts, the nearest first.
 void GBufferPass::draw_depth(gpu::Recorder& recorder, const SceneResources& scene,
-                             std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const {
+                             std::vector<VisibleDraw> draws, const planning::ViewFrustum& view,
+                             const gpu::Buffer& frame) const {
+  const auto distance = [&](const VisibleDraw& visible) {
+    return visible.moves ? 0 : view.distance_to({visible.draw->centre_world, visible.draw->radius});
+  };
+  std::ranges::stable_sort(draws, {}, distance);
   recorder.bind_for_draws(depth_first_->depth, {{shared::kBindFrame, gpu::uniform(frame)},
                                                 {shared::kBindVertices, gpu::read(scene.vertices)}});
   for (const VisibleDraw& visible : draws)

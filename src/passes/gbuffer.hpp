@@ -9,11 +9,12 @@
 
 namespace brume::passes {
 
-/// Material, normal and depth of the nearest surface of each pixel.
+/// Material, normal and depth of the nearest surface of each pixel. Without a surface the first two are
+/// undefined.
 struct GBuffer {
   gpu::Image albedo_roughness;  ///< sRGB8 albedo, roughness in alpha.
   gpu::Image normal_metallic;   ///< Half floats: world normal, metallic.
-  gpu::Image emission;          ///< Half floats: radiance.
+  gpu::Image emission;          ///< Half floats: radiance; 0 without a surface.
   gpu::Image depth;             ///< Reverse depth, 0: no surface.
   GBuffer(gpu::Context& context, glm::uvec2 size_px);
 };
@@ -22,8 +23,8 @@ class GBufferPass {
  public:
   /// In the form that suits the device.
   explicit GBufferPass(gpu::Context& context);
-  /// `depth_first`: draws all surfaces twice, so that hidden ones write no material. The same targets. Faster
-  /// where a fragment costs more than a vertex, hence not without a GPU.
+  /// `depth_first`: draws all surfaces twice, so that hidden ones write no material. The same surfaces.
+  /// Faster where a fragment costs more than a vertex, hence not without a GPU.
   GBufferPass(gpu::Context& context, bool depth_first);
   /// Draws the scene and `moving`, without `hidden` objects and draws outside of `view`.
   /// `frame` holds FrameConstants.
@@ -40,12 +41,18 @@ class GBufferPass {
   /// What it takes to draw depth first.
   struct DepthFirst {
     explicit DepthFirst(gpu::Context& context);
-    gpu::GraphicsPipeline depth, background;
+    gpu::GraphicsPipeline depth, dull;
+    gpu::ComputePipeline clear;  // of the emission
   };
-  void draw_depth(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
-                  const gpu::Buffer& frame) const;
-  void draw_materials(gpu::Recorder& recorder, const SceneResources& scene,
-                      std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const;
+  void draw_depth_first(gpu::Recorder& recorder, const SceneResources& scene,
+                        std::span<const VisibleDraw> draws, std::span<const VisibleDraw> dull,
+                        const planning::ViewFrustum& view, const gpu::Buffer& frame,
+                        const GBuffer& target) const;
+  void draw_depth(gpu::Recorder& recorder, const SceneResources& scene, std::vector<VisibleDraw> draws,
+                  const planning::ViewFrustum& view, const gpu::Buffer& frame) const;
+  void draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
+                      const SceneResources& scene, std::span<const VisibleDraw> draws,
+                      const gpu::Buffer& frame) const;
 
   gpu::GraphicsPipeline pipeline_;
   std::optional<DepthFirst> depth_first_;

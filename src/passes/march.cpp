@@ -43,6 +43,7 @@ MarchPass::MarchPass(gpu::Context& context, const Options& options)
     : context_(context),
       options_(options),
       block_steps_(context.info().kind == "cpu" ? 1 : 4),
+      split_by_holes_(context.info().kind == "cpu"),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {
@@ -55,6 +56,10 @@ std::uint32_t MarchPass::with_holes(std::uint32_t media) const {
   return options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
 }
 
+std::uint32_t MarchPass::holes_of(const Inputs& in) const {
+  return in.holes.any ? with_holes(in.media) : shared::kHolesNone;
+}
+
 void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
   std::vector<std::uint32_t> kinds;
   if (rays != MarchRays::of_tiles) kinds.push_back(shared::kRaysOfPixels);
@@ -63,31 +68,40 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
   const gpu::ShaderCode& code = several ? shaders::march_several_comp : shaders::march_comp;
   for (const std::uint32_t kind : kinds)
     for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)})
-      pipelines_.try_emplace({kind, holes, media}, context_, code,
-                             std::vector{counts_of(options_), kind, holes, media, block_steps_});
+      pipelines_.try_emplace(
+          {kind, holes, media}, context_, code,
+          std::vector{counts_of(options_), kind, holes, media, block_steps_, split_by_holes_ ? 1u : 0u});
 }
 
-const gpu::ComputePipeline& MarchPass::pipeline(std::uint32_t rays, const Inputs& in) const {
-  return pipelines_.at({rays, in.holes.any ? with_holes(in.media) : shared::kHolesNone, in.media});
+void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& in, const Rays& rays,
+                         const gpu::Buffer& counters) const {
+  const auto dispatch_one = [&](std::uint32_t holes) {
+    const gpu::ComputePipeline& pipeline = pipelines_.at({kind, holes, in.media});
+    bind(recorder, pipeline, in, rays, counters);
+    recorder.dispatch_threads(pipeline, rays.smoke.info().size.x, rays.smoke.info().size.y);
+  };
+  const std::uint32_t holes = holes_of(in);
+  if (holes != shared::kHolesClustered || !split_by_holes_) return dispatch_one(holes);
+  recorder.concurrently([&] {
+    dispatch_one(holes);
+    dispatch_one(shared::kHolesNone);
+  });
 }
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,
                        const gpu::Buffer& counters) const {
-  const gpu::ComputePipeline& pipeline = this->pipeline(shared::kRaysOfPixels, in);
-  bind(recorder, pipeline, in, {in.frame, in.frame, smoke, smoke}, counters);
-  recorder.dispatch_threads(pipeline, smoke.info().size.x, smoke.info().size.y);
+  dispatch(recorder, shared::kRaysOfPixels, in, {in.frame, in.frame, smoke, smoke}, counters);
 }
 
 void MarchPass::record_tiles(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                              const gpu::Buffer& counters) const {
-  const gpu::ComputePipeline& pipeline = this->pipeline(shared::kRaysOfTiles, in);
-  bind(recorder, pipeline, in, {tiles.ends, in.frame, tiles.near, tiles.far}, counters);
-  recorder.dispatch_threads(pipeline, tiles.far.info().size.x, tiles.far.info().size.y);
+  dispatch(recorder, shared::kRaysOfTiles, in, {tiles.ends, in.frame, tiles.near, tiles.far}, counters);
 }
 
 void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                             const gpu::Image& smoke, const gpu::Buffer& counters) const {
-  bind(recorder, pipeline(shared::kRaysOfList, in), in, {in.frame, tiles.list, smoke, smoke}, counters);
+  const gpu::ComputePipeline& pipeline = pipelines_.at({shared::kRaysOfList, holes_of(in), in.media});
+  bind(recorder, pipeline, in, {in.frame, tiles.list, smoke, smoke}, counters);
   recorder.dispatch_indirect(tiles.list);
 }
 

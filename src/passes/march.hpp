@@ -83,13 +83,19 @@ class MarchPass {
     std::uint32_t rays, holes, media;
     auto operator<=>(const Variant&) const = default;
   };
-  const gpu::ComputePipeline& pipeline(std::uint32_t rays, const Inputs& inputs) const;
+  void dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& inputs, const Rays& rays,
+                const gpu::Buffer& counters) const;
   std::uint32_t with_holes(std::uint32_t media) const;
+  std::uint32_t holes_of(const Inputs& inputs) const;
 
   gpu::Context& context_;
   Options options_;
   std::map<Variant, gpu::ComputePipeline> pipelines_;
   const std::uint32_t block_steps_;  ///< lib/media_block.glsl
+  /// Where holes are, rays march by a pipeline for tiles that meet some and one for the others. A driver
+  /// without a GPU runs the code for holes even where there are none; on a GPU the workgroups that end at
+  /// once cost more.
+  const bool split_by_holes_;
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

@@ -19,10 +19,13 @@ void ResolvePass::record_ends(gpu::Recorder& recorder, const gpu::Buffer& frame,
   recorder.dispatch_threads(ends_, tiles.far.info().size.x, tiles.far.info().size.y);
 }
 
-void ResolvePass::record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
-                                const MarchTiles& tiles) const {
+void ResolvePass::upload(gpu::Recorder& recorder, const MarchTiles& tiles) {
   const shared::MarchList empty{{0, 0, 1}, 0};
   recorder.upload(tiles.list, 0, std::as_bytes(std::span(&empty, 1)));
+}
+
+void ResolvePass::record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
+                                const MarchTiles& tiles) const {
   recorder.bind(select_, {
                              {shared::kBindFrame, gpu::uniform(frame)},
                              {shared::kBindRayEnds, gpu::read(tiles.ends)},

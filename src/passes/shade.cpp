@@ -4,6 +4,7 @@
 #include "shared/decal.h"
 #include "shared/display.h"
 #include "shared/indirect_light.h"
+#include "shared/noise.h"
 #include "shared/resolve.h"
 
 namespace brume::passes {
@@ -11,49 +12,43 @@ namespace brume::passes {
 ShadePass::ShadePass(gpu::Context& context, bool cull_lights)
     : context_(context),
       cull_lights_(cull_lights ? 1 : 0),
-      mapped_(context, shaders::shade_comp, {cull_lights_, 0u, 0u}),
-      mapped_and_voxels_(context, shaders::shade_comp, {cull_lights_, 1u, 0u}),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
 
-void ShadePass::reserve_decals() {
-  if (decals_) return;
-  decals_.emplace(context_, shaders::shade_comp, std::vector<std::uint32_t>{cull_lights_, 0u, 1u});
-  decals_and_voxels_.emplace(context_, shaders::shade_comp, std::vector<std::uint32_t>{cull_lights_, 1u, 1u});
+void ShadePass::reserve(const Needs& needs) {
+  const auto constant = [](bool value) { return value ? 1u : 0u; };
+  pipelines_.try_emplace(needs, context_, shaders::shade_comp,
+                         std::vector{cull_lights_, constant(needs.voxel_shadows), constant(needs.decals),
+                                     constant(needs.display)});
 }
 
-const gpu::ComputePipeline& ShadePass::pipeline(bool voxel_shadows, bool decals) const {
-  if (decals) return voxel_shadows ? *decals_and_voxels_ : *decals_;
-  return voxel_shadows ? mapped_and_voxels_ : mapped_;
-}
-
-void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-                       const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
-                       const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance,
-                       bool voxel_shadows, const gpu::Image* occlusion) const {
-  const gpu::ComputePipeline& pipeline = this->pipeline(voxel_shadows, occlusion != nullptr);
-  recorder.bind(
-      pipeline,
-      {
-          {shared::kBindFrame, gpu::uniform(frame)},
-          {shared::kBindLights, gpu::read(scene.lights)},
-          {shared::kBindSun, gpu::uniform(shadows.sun)},
-          {shared::kBindShadowMaps, gpu::sampled(shadows.layers, compare_)},
-          {shared::kBindAlbedoRoughness, gpu::sampled(gbuffer.albedo_roughness, nearest_)},
-          {shared::kBindNormalMetallic, gpu::sampled(gbuffer.normal_metallic, nearest_)},
-          {shared::kBindEmission, gpu::sampled(gbuffer.emission, nearest_)},
-          {shared::kBindDepth, gpu::sampled(gbuffer.depth, nearest_)},
-          {shared::kBindSmokeShadows, gpu::sampled(smoke_shadows.atlas, linear_)},
-          {shared::kBindSmoke, gpu::sampled(smoke, nearest_)},
-          {shared::kBindSkyLight, gpu::sampled(level.sky.light(), linear_)},
-          {shared::kBindIndirectCube, gpu::sampled(level.indirect_cube, linear_)},
-          {shared::kBindSolidTexels, gpu::sampled(level.solid.texels(), linear_)},
-          {shared::kBindSmokeShadowFaces, gpu::read(smoke_shadows.faces)},
-          {shared::kBindOcclusion, gpu::sampled(occlusion ? *occlusion : gbuffer.emission, nearest_)},
-          {shared::kBindRadiance, gpu::stored(radiance)},
-      });
-  recorder.dispatch_threads(pipeline, radiance.info().size.x, radiance.info().size.y);
+void ShadePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs& in,
+                       const Outputs& out) const {
+  const gpu::ComputePipeline& pipeline = pipelines_.at(needs);
+  const gpu::Image& occlusion = in.occlusion ? *in.occlusion : in.gbuffer.emission;
+  recorder.bind(pipeline,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindLights, gpu::read(in.scene.lights)},
+                    {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                    {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                    {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
+                    {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
+                    {shared::kBindEmission, gpu::sampled(in.gbuffer.emission, nearest_)},
+                    {shared::kBindDepth, gpu::sampled(in.gbuffer.depth, nearest_)},
+                    {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
+                    {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
+                    {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                    {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
+                    {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                    {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
+                    {shared::kBindOcclusion, gpu::sampled(occlusion, nearest_)},
+                    {shared::kBindBlueNoise, gpu::sampled(in.blue_noise, nearest_)},
+                    {shared::kBindRadiance, gpu::stored(out.radiance)},
+                    {shared::kBindDisplay, gpu::stored(out.display)},
+                });
+  recorder.dispatch_threads(pipeline, out.radiance.info().size.x, out.radiance.info().size.y);
 }
 
 }  // namespace brume::passes

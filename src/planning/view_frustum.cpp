@@ -21,6 +21,10 @@ bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 segment) co
   });
 }
 
+float ViewFrustum::distance_to(const WorldSphere& sphere) const {
+  return std::max(glm::length(sphere.centre - eye_world_) - sphere.radius, 0.0f);
+}
+
 bool ViewFrustum::may_intersect(const Box<float>& box) const {
   // For rounding, a part of the distances that the planes are tested at.
   const float margin =

@@ -24,6 +24,8 @@ class ViewFrustum {
   bool may_intersect(const WorldSphere& sphere) const { return may_intersect(sphere, glm::vec3(0)); }
   /// Whether any of a sphere may be in view somewhere on a segment from where it is, along `segment` [m].
   bool may_intersect(const WorldSphere& sphere, glm::vec3 segment) const;
+  /// From the eye to the nearest point of a sphere; 0 inside [m].
+  float distance_to(const WorldSphere& sphere) const;
   /// Whether any of a box [m] may be in view.
   bool may_intersect(const Box<float>& box) const;
 

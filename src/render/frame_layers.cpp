@@ -40,10 +40,13 @@ std::array<Half, 256> linear_halves() {
   return table;
 }
 
-Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel) {
+/// Of an albedo, 0 without a surface.
+Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel,
+                         std::span<const float> depth) {
   static const std::array<Half, 256> table = linear_halves();
   Halves values(rgba.size() / 4);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = table[rgba[4 * i + channel]];
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = depth[i] > 0 ? table[rgba[4 * i + channel]] : Half{0};
   return values;
 }
 
@@ -95,7 +98,7 @@ image::LayeredImage FrameLayers::image() const {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = names[c];
     image.layers.push_back({name, channel_of(radiance, c)});
-    image.layers.push_back({"albedo." + name, linear_channel_of(albedo, c)});
+    image.layers.push_back({"albedo." + name, linear_channel_of(albedo, c, depth)});
     image.layers.push_back({"media." + name, channel_of(media, c)});
   }
   image.layers.push_back({"A", std::move(alpha)});

@@ -30,6 +30,16 @@ float texture_bias(const planning::ViewSample& sample) {
   return std::max(-0.5f * std::log2(static_cast<float>(samples)), kLeastBias);
 }
 
+/// `displays`: whether shading may display, too. Without a GPU a pass of its own costs next to nothing.
+passes::ShadePass::Needs shade_needs(const FramePlan& plan, bool displays) {
+  const auto by_voxels = [](const shared::Light& light) {
+    return light.shadow_layer == shared::kShadowByVoxels;
+  };
+  return {.voxel_shadows = std::ranges::any_of(plan.lights, by_voxels),
+          .decals = !plan.decals.empty(),
+          .display = displays && plan.particles.empty() && plan.input.view.sample.count <= 1};
+}
+
 /// What every pass may read, but for the layouts of the renderer's own resources.
 shared::FrameConstants frame_constants(const FramePlan& plan) {
   const FrameInput& input = plan.input;
@@ -64,12 +74,15 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       targets_(context, options.size_px),
       smoke_(context, runner, scene_, options.size_px, options.smoke),
       shade_pass_(context),
-      display_pass_(context),
+      shading_displays_(context.info().kind != "cpu" && !options.antialias),
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
   if (options.antialias) antialias_pass_.emplace(context, options.size_px);
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
+  if (options.smoke.prepare_all)
+    for (const bool voxel_shadows : {false, true})
+      shade_pass_.reserve({.voxel_shadows = voxel_shadows, .display = shading_displays_});
 }
 
 void Renderer::set_march_scale(std::uint32_t scale) {
@@ -146,17 +159,19 @@ void Renderer::upload_slices(const FrameInput& input) {
 void Renderer::reserve(FramePlan& plan) {
   scene_.reserve(plan);
   smoke_.reserve(plan, history_);
-  if (!plan.decals.empty()) {
-    if (!decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
-    shade_pass_.reserve_decals();
-  }
+  if (!plan.decals.empty() && !decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
   if (!plan.particles.empty()) {
     if (!particle_pass_) particle_pass_.emplace(context_);
     particle_pass_->reserve(plan.particles, targets_.size_px,
                             plan.input.debug.view == planning::DebugView::overdraw);
   }
   if (plan.input.view.sample.count > 1 && !average_pass_) average_pass_.emplace(context_, targets_.size_px);
-  if (plan.input.debug.view == planning::DebugView::none) return;
+  if (plan.input.debug.view == planning::DebugView::none) {
+    const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
+    shade_pass_.reserve(needs);
+    if (!needs.display && !display_pass_) display_pass_.emplace(context_);
+    return;
+  }
   if (!debug_view_) debug_view_.emplace(context_);
   debug_view_->reserve(debug_subject(plan), targets_.size_px);
 }
@@ -215,20 +230,20 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (is_debug_view && antialias_pass_) antialias_pass_->invalidate_past();
   if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
+  const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
   scope(recorder, "shade", [&] {
-    const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
-      return light.shadow_layer == shared::kShadowByVoxels;
-    });
-    shade_pass_.record(recorder, frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(),
-                       scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows,
-                       occlusion_);
+    shade_pass_.record(recorder, needs,
+                       {frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(), scene_.level(),
+                        targets_.gbuffer, media(), blue_noise_, occlusion_},
+                       {targets_.radiance, targets_.display});
   });
+  if (needs.display) return;
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
   if (const planning::ViewSample& sample = plan.input.view.sample; sample.count > 1)
     scope(recorder, "average", [&] { average_pass_->record(recorder, targets_.radiance, sample.index); });
   if (antialias_pass_) scope(recorder, "antialias", [&] { record_antialias(recorder, plan); });
   scope(recorder, "display",
-        [&] { display_pass_.record(recorder, frame_, blue_noise_, radiance(), targets_.display); });
+        [&] { display_pass_->record(recorder, frame_, blue_noise_, radiance(), targets_.display); });
 }
 
 void Renderer::record_antialias(gpu::Recorder& recorder, const FramePlan& plan) {

@@ -103,7 +103,9 @@ class Renderer {
   Targets targets_;
   SmokeFrame smoke_;
   passes::ShadePass shade_pass_;
-  passes::DisplayPass display_pass_;
+  const bool shading_displays_;
+  std::optional<passes::DisplayPass>
+      display_pass_;  ///< From the first frame on that is not displayed as it is shaded.
   std::optional<passes::DecalPass> decal_pass_;  ///< From the first frame with decals on.
   bool has_decals_ = false;
   const gpu::Image* occlusion_ = nullptr;

@@ -109,6 +109,7 @@ void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, c
   if (plan.input.smoke.volume) noise_advection_pass_.upload(recorder, plan.noise);
   if (plan.smoke_shadows) passes::SmokeShadowPass::upload(recorder, *plan.smoke_shadows, shadows_);
   light_pass_.upload(recorder, *plan.smoke_light);
+  if (march_tiles_) passes::ResolvePass::upload(recorder, *march_tiles_);
 }
 
 passes::SmokeLightPass::Inputs SmokeFrame::light_inputs(const FramePlan& plan,
@@ -205,8 +206,11 @@ void SmokeFrame::record_march(gpu::Recorder& recorder, const FramePlan& plan, co
 void SmokeFrame::record_resolve(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const March march = march_of(in);
   const Targets& targets = in.targets;
-  resolve_pass_->record_select(recorder, in.frame, targets.gbuffer.emission, *march_tiles_);
-  resolve_pass_->record(recorder, in.frame, targets.gbuffer.depth, *march_tiles_, targets.media);
+  // Neither fills the device, and both only read the rays.
+  recorder.concurrently([&] {
+    resolve_pass_->record_select(recorder, in.frame, targets.gbuffer.emission, *march_tiles_);
+    resolve_pass_->record(recorder, in.frame, targets.gbuffer.depth, *march_tiles_, targets.media);
+  });
   march.pass.record_list(recorder, march_inputs(plan, in), *march_tiles_, targets.media, march.counters);
 }
 

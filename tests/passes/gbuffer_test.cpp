@@ -59,6 +59,16 @@ class GBufferTest : public gpu::GpuTest {
     std::vector<Half4> normal_metallic, emission;
     std::vector<float> depth;
     bool operator==(const Texels&) const = default;
+    /// Without what is undefined.
+    Texels of_surfaces() const {
+      Texels texels = *this;
+      for (std::size_t i = 0; i < depth.size(); ++i) {
+        if (depth[i] > 0) continue;
+        texels.albedo_roughness[i] = 0;
+        texels.normal_metallic[i] = {};
+      }
+      return texels;
+    }
   };
   static Texels draw(bool depth_first) {
     const SceneResources scene = upload_scene(context(), runner(), boxes());
@@ -78,7 +88,7 @@ class GBufferTest : public gpu::GpuTest {
 
 TEST_F(GBufferTest, DepthFirstDrawsTheSame) {
   const Texels at_once = draw(false), depth_first = draw(true);
-  EXPECT_EQ(depth_first, at_once);
+  EXPECT_EQ(depth_first.of_surfaces(), at_once.of_surfaces());
   // Every kind of pixel occurs: none, dull and glowing.
   std::size_t empty = 0, glowing = 0;
   for (std::size_t i = 0; i < at_once.depth.size(); ++i) {

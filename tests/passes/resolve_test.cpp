@@ -84,6 +84,7 @@ class ResolveTest : public gpu::GpuTest {
         march_.record(recorder, in, target, counters);
         return;
       }
+      ResolvePass::upload(recorder, blocks);
       resolve_.record_ends(recorder, frame_buffer, depth, blocks);
       march_.record_tiles(recorder, in, blocks, counters);
       resolve_.record_select(recorder, frame_buffer, emission, blocks);
@@ -283,7 +284,10 @@ class SelectTest : public ResolveTest {
     blocks.ends = upload(std::vector<RayEnds>(kBlocks.x * kBlocks.y, {{0, 0}, 3, 3, 3, 3}));
     const auto shining = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT,
                                       std::vector<Half4>(size.x * size.y, to_half(glm::vec4(emission, 0))));
-    runner().run([&](gpu::Recorder& r) { resolve_.record_select(r, frame_buffer, shining, blocks); });
+    runner().run([&](gpu::Recorder& recorder) {
+      ResolvePass::upload(recorder, blocks);
+      resolve_.record_select(recorder, frame_buffer, shining, blocks);
+    });
     const auto words = read_back<std::uint32_t>(blocks.list, 4 + kBlocks.x * kBlocks.y);
     const std::uint32_t groups = (words[3] * 16 + 63) / 64;
     EXPECT_EQ(words[0], groups);

@@ -2,6 +2,8 @@
 
 #include <random>
 
+#include "passes/blue_noise.hpp"
+#include "passes/display.hpp"
 #include "passes/smoke_shadow.hpp"
 #include "planning/device_lights.hpp"
 #include "shared/frame.h"
@@ -66,7 +68,9 @@ class ShadeTest : public gpu::GpuTest {
     return {side(random_), side(random_), side(random_)};
   }
 
-  std::vector<glm::vec4> shade(const std::vector<Half4>& smoke, bool cull_lights, bool voxel_shadows = true) {
+  /// `display`: where a pass of its own displays the radiance, which must be what shading displays.
+  std::vector<glm::vec4> shade(const std::vector<Half4>& smoke, bool cull_lights, bool voxel_shadows = true,
+                               const gpu::Image* display = nullptr) {
     shared::FrameConstants frame{};
     frame.camera.near_z = 0.05f;
     frame.camera.forward = {0, 0, -1};
@@ -75,17 +79,39 @@ class ShadeTest : public gpu::GpuTest {
     frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f, 0.0f};
     frame.solid = solid_.layout();
     frame.size_px = size_;
+    frame.exposure = 1;
     frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
     const auto frame_buffer = upload(std::vector{frame});
     const auto smoke_image = upload_image(context(), runner(), size_, kHalf4, smoke);
     const auto radiance = test_image(context(), size_, kHalf4);
-    const ShadePass pass(context(), cull_lights);
+    const ShadePass::Needs needs{.voxel_shadows = voxel_shadows, .display = display != nullptr};
+    ShadePass pass(context(), cull_lights);
+    pass.reserve(needs);
+    const DisplayPass display_pass(context());
+    gpu::Image blue_noise, shown = test_image(context(), size_, VK_FORMAT_R8G8B8A8_UNORM);
     sky_.reserve(solid_);
     runner().run([&](gpu::Recorder& recorder) {
       if (solid_.record(recorder, {})) sky_.record(recorder, frame_buffer, solid_);
-      pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_, indirect_cube_}, gbuffer_,
-                  smoke_image, radiance, voxel_shadows);
+      blue_noise = make_blue_noise(context(), recorder);
+      pass.record(recorder, needs,
+                  {frame_buffer,
+                   scene_,
+                   shadows_,
+                   smoke_shadows_,
+                   {solid_, sky_, indirect_cube_},
+                   gbuffer_,
+                   smoke_image,
+                   blue_noise},
+                  {radiance, shown});
+      if (display) display_pass.record(recorder, frame_buffer, blue_noise, radiance, *display);
     });
+    if (display) {
+      // The other pass reads half floats, off by 2^-10 of the radiance: that is less than a step of the
+      // display.
+      const auto a = read_back<glm::u8vec4>(shown), b = read_back<glm::u8vec4>(*display);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(a[i][c], b[i][c], 1) << i;
+    }
     std::vector<glm::vec4> out;
     for (const Half4& texel : read_back<Half4>(radiance)) out.push_back(from_half(texel));
     return out;
@@ -113,6 +139,11 @@ TEST_F(ShadeTest, LightsThatATileLeavesOutAreThoseThatDoNotReachIt) {
 
 TEST_F(ShadeTest, WithoutVoxelShadowsTheImageIsTheSameWhereNoLightHasThem) {
   EXPECT_EQ(shade(no_smoke(), true, false), shade(no_smoke(), true, true));
+}
+
+TEST_F(ShadeTest, DisplaysWhatTheDisplayPassDoes) {
+  const gpu::Image display = test_image(context(), size_, VK_FORMAT_R8G8B8A8_UNORM);
+  shade(no_smoke(), true, true, &display);
 }
 
 TEST_F(ShadeTest, SmokeIsOverTheSurfacesAndTheSky) {

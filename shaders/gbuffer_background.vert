@@ -1,7 +1,0 @@
-// A triangle over the whole image, infinitely far: it passes the depth test where no surface was drawn.
-#version 460
-
-void main() {
-  const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
-  gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);
-}
