@@ -47,6 +47,15 @@ VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) 
   return raster;
 }
 
+VkPipelineDepthStencilStateCreateInfo depth_state(const GraphicsInfo& wanted) {
+  VkPipelineDepthStencilStateCreateInfo depth{};
+  depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+  depth.depthTestEnable = wanted.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+  depth.depthWriteEnable = wanted.writes_depth ? depth.depthTestEnable : VK_FALSE;
+  depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  return depth;
+}
+
 VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
   VkPipelineColorBlendAttachmentState colour{};
   colour.colorWriteMask = 0xf;
@@ -189,11 +198,7 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   VkPipelineMultisampleStateCreateInfo samples{};
   samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-  VkPipelineDepthStencilStateCreateInfo depth{};
-  depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-  depth.depthTestEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
-  depth.depthWriteEnable = info_.writes_depth ? depth.depthTestEnable : VK_FALSE;
-  depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  const VkPipelineDepthStencilStateCreateInfo depth = depth_state(info_);
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(info_.colours.size(),
                                                                      colour_state(info_.blend));
   VkPipelineColorBlendStateCreateInfo blend{};
