@@ -1,11 +1,13 @@
 #include "smoke/sight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "core/tasks.hpp"
+#include "smoke/sight_packet.hpp"
 #include "smoke/sight_smoke.hpp"
 #include "smoke/sight_walls.hpp"
 
@@ -13,7 +15,7 @@ namespace brume::smoke {
 namespace {
 
 constexpr float kNeverEnough = std::numeric_limits<float>::infinity();
-constexpr std::size_t kGrain = 256;  // queries of a task: some 0.2 ms
+constexpr std::size_t kGrain = 512;  // queries of a task: some 0.2 ms
 
 bool is_point(glm::vec3 p) {
   return std::abs(p.x) <= kMaxSightMetres && std::abs(p.y) <= kMaxSightMetres &&
@@ -57,6 +59,19 @@ Result<void> check(const SensorRay& ray, const std::string& which = "") {
   return {};
 }
 
+struct Line {
+  glm::dvec3 a_world, b_world;
+};
+Line line_of(const Segment& segment) {
+  return {glm::dvec3(segment.a_world), glm::dvec3(segment.b_world)};
+}
+/// Of a ray, up to a distance.
+Line line_of(const SensorRay& ray, float distance) {
+  const glm::dvec3 a(ray.origin_world), d(ray.direction_world);
+  const glm::dvec3 direction = d / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  return {a, a + double{distance} * direction};
+}
+
 /// Checks all of them, naming the first that is bad.
 template <typename Query>
 Result<void> check_all(std::span<const Query> queries, std::size_t results) {
@@ -66,15 +81,6 @@ Result<void> check_all(std::span<const Query> queries, std::size_t results) {
     return check(queries[i], " of query " + std::to_string(i));
   }
   return {};
-}
-
-/// Calls answer(index, scratch) for each query, over all threads.
-template <typename Answer>
-void answer_all(std::size_t count, const Answer& answer) {
-  parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
-    HolesOnRay scratch;
-    for (std::size_t i = begin; i < end; ++i) answer(i, scratch);
-  });
 }
 
 const MaskAtlas* masks_for(std::span<const shared::Hole> holes, const MaskAtlas* masks) {
@@ -99,18 +105,40 @@ Sight::Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<c
     throw Error(ErrorCode::bad_input, "line of sight: the time is not finite");
 }
 
-float Sight::depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const {
+std::optional<SmokeRay> Sight::smoke_ray(glm::dvec3 a_world, glm::dvec3 b_world, HolesOnRay& holes) const {
   const shared::VolumeLayout& layout = volume_.layout();
   const glm::dvec3 origin(layout.origin_world);
   const double size = layout.voxel_size;
   const auto ray = clip_to_smoke(layout, (a_world - origin) / size, (b_world - origin) / size);
-  const float per_voxel = settings_.extinction * layout.voxel_size;
-  if (!ray || !(per_voxel > 0)) return 0;
-  if (holes_.empty()) return smoke_on_ray(volume_, *ray, nullptr, enough / per_voxel) * per_voxel;
+  if (!ray || holes_.empty()) return ray;
   const glm::dvec3 step(double{ray->direction[0]} * size, double{ray->direction[1]} * size,
                         double{ray->direction[2]} * size);
-  holes_.find(glm::vec3(a_world + ray->skipped * step), glm::vec3(step), ray->length, scratch);
-  return smoke_on_ray(volume_, *ray, &scratch, enough / per_voxel) * per_voxel;
+  holes_.find(glm::vec3(a_world + ray->skipped * step), glm::vec3(step), ray->length, holes);
+  return ray;
+}
+
+float Sight::depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const {
+  const float per_voxel = settings_.extinction * volume_.layout().voxel_size;
+  if (!(per_voxel > 0)) return 0;
+  const auto ray = smoke_ray(a_world, b_world, scratch);
+  if (!ray) return 0;
+  return smoke_on_ray(volume_, *ray, holes_.empty() ? nullptr : &scratch, enough / per_voxel) * per_voxel;
+}
+
+template <typename LineOf>
+void Sight::depths(const LineOf& line_of_number, float enough, std::span<float> out) const {
+  const float per_voxel = settings_.extinction * volume_.layout().voxel_size;
+  std::fill(out.begin(), out.end(), 0.0f);
+  SmokePacket packet(volume_, !holes_.empty(), enough / per_voxel, out);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::optional<Line> line = line_of_number(i);
+    if (!line || !(per_voxel > 0)) continue;
+    const std::size_t lane = packet.free_lane();
+    const auto ray = smoke_ray(line->a_world, line->b_world, packet.holes(lane));
+    if (ray) packet.start(lane, *ray, i);
+  }
+  packet.finish();
+  for (float& depth : out) depth *= per_voxel;
 }
 
 std::optional<SightWall> Sight::wall(glm::dvec3 a_world, glm::dvec3 b_world, bool b_hides) const {
@@ -118,17 +146,15 @@ std::optional<SightWall> Sight::wall(glm::dvec3 a_world, glm::dvec3 b_world, boo
 }
 
 bool Sight::is_visible(const Segment& segment, float threshold, HolesOnRay& scratch) const {
-  const glm::dvec3 a(segment.a_world), b(segment.b_world);
+  const auto [a, b] = line_of(segment);
   return !wall(a, b, false) && depth(a, b, threshold, scratch) <= threshold;
 }
 
-SensorSample Sight::sample(const SensorRay& ray, const SurfaceAlbedo& albedo, HolesOnRay& scratch) const {
-  const glm::dvec3 a(ray.origin_world), d(ray.direction_world);
-  const glm::dvec3 direction = d / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+SensorSample Sight::surface_sample(const SensorRay& ray, const SurfaceAlbedo& albedo) const {
+  const auto [a, b] = line_of(ray, ray.max_distance);
   SensorSample sample;
-  sample.surface = wall(a, a + double{ray.max_distance} * direction, true);
+  sample.surface = wall(a, b, true);
   sample.distance = sample.surface ? sample.surface->distance : ray.max_distance;
-  sample.optical_depth = depth(a, a + double{sample.distance} * direction, kNeverEnough, scratch);
   sample.smoke_albedo = settings_.smoke_albedo;
   if (sample.surface && albedo) sample.surface_albedo = albedo(*sample.surface);
   return sample;
@@ -142,8 +168,9 @@ Result<float> Sight::optical_depth(glm::vec3 a_world, glm::vec3 b_world) const {
 
 Result<void> Sight::optical_depths(std::span<const Segment> segments, std::span<float> out) const {
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
-  answer_all(segments.size(), [&](std::size_t i, HolesOnRay& scratch) {
-    out[i] = depth(glm::dvec3(segments[i].a_world), glm::dvec3(segments[i].b_world), kNeverEnough, scratch);
+  parallel_for(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    depths([&](std::size_t i) { return std::optional(line_of(segments[begin + i])); }, kNeverEnough,
+           out.subspan(begin, end - begin));
   });
   return {};
 }
@@ -159,8 +186,16 @@ Result<void> Sight::visible(std::span<const Segment> segments, float threshold,
                             std::span<std::uint8_t> out) const {
   if (auto ok = check_threshold(threshold); !ok) return ok;
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
-  answer_all(segments.size(), [&](std::size_t i, HolesOnRay& scratch) {
-    out[i] = is_visible(segments[i], threshold, scratch) ? 1 : 0;
+  parallel_for(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kGrain> depth;
+    const auto line = [&](std::size_t i) -> std::optional<Line> {
+      const Line between = line_of(segments[begin + i]);
+      out[begin + i] = wall(between.a_world, between.b_world, false) ? 0 : 1;
+      return out[begin + i] != 0 ? std::optional(between) : std::nullopt;
+    };
+    depths(line, threshold, std::span(depth).first(end - begin));
+    for (std::size_t i = begin; i < end; ++i)
+      if (!(depth[i - begin] <= threshold)) out[i] = 0;
   });
   return {};
 }
@@ -173,14 +208,24 @@ Result<std::optional<SightWall>> Sight::first_wall(glm::vec3 a_world, glm::vec3 
 Result<SensorSample> Sight::sense(const SensorRay& ray, const SurfaceAlbedo& albedo) const {
   if (auto ok = check(ray); !ok) return ok.failure();
   HolesOnRay scratch;
-  return sample(ray, albedo, scratch);
+  SensorSample sample = surface_sample(ray, albedo);
+  const auto [a, b] = line_of(ray, sample.distance);
+  sample.optical_depth = depth(a, b, kNeverEnough, scratch);
+  return sample;
 }
 
 Result<void> Sight::sense(std::span<const SensorRay> rays, const SurfaceAlbedo& albedo,
                           std::span<SensorSample> out) const {
   if (auto ok = check_all(rays, out.size()); !ok) return ok;
-  answer_all(rays.size(),
-             [&](std::size_t i, HolesOnRay& scratch) { out[i] = sample(rays[i], albedo, scratch); });
+  parallel_for(rays.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kGrain> depth;
+    const auto line = [&](std::size_t i) {
+      out[begin + i] = surface_sample(rays[begin + i], albedo);
+      return std::optional(line_of(rays[begin + i], out[begin + i].distance));
+    };
+    depths(line, kNeverEnough, std::span(depth).first(end - begin));
+    for (std::size_t i = begin; i < end; ++i) out[i].optical_depth = depth[i - begin];
+  });
   return {};
 }
 

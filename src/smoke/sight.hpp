@@ -25,6 +25,8 @@
 
 namespace brume::smoke {
 
+struct SmokeRay;
+
 /// Largest coordinate of a point [m]: that of a Position.
 constexpr float kMaxSightMetres = 16384;
 
@@ -94,9 +96,15 @@ class Sight {
                      std::span<SensorSample> out) const;
 
  private:
+  std::optional<SmokeRay> smoke_ray(glm::dvec3 a_world, glm::dvec3 b_world, HolesOnRay& holes) const;
   float depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const;
+  /// depth() of many lines into `out`, in packets. `line(i)` returns the ends of line i, or nothing for a
+  /// depth of 0.
+  template <typename Line>
+  void depths(const Line& line, float enough, std::span<float> out) const;
   bool is_visible(const Segment& segment, float threshold, HolesOnRay& scratch) const;
-  SensorSample sample(const SensorRay& ray, const SurfaceAlbedo& albedo, HolesOnRay& scratch) const;
+  /// All but the optical depth.
+  SensorSample surface_sample(const SensorRay& ray, const SurfaceAlbedo& albedo) const;
   std::optional<SightWall> wall(glm::dvec3 a_world, glm::dvec3 b_world, bool b_hides) const;
 
   const SmokeVolume& volume_;

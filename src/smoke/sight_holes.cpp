@@ -96,9 +96,9 @@ void add_steady_segments(const RayHole& h, std::uint32_t number, std::vector<Hol
   }
   if (!(begin < end)) begin = end = h.end;
 
-  if (h.begin < begin) out.push_back({h.begin, begin, number, false});
-  if (begin < end) out.push_back({begin, end, number, true});
-  if (end < h.end) out.push_back({end, h.end, number, false});
+  if (h.begin < begin) append_segment(out, h.begin, begin, number, false);
+  if (begin < end) append_segment(out, begin, end, number, true);
+  if (end < h.end) append_segment(out, end, h.end, number, false);
 }
 
 /// Of any other hole without a mask: cut at every t at which its strength has a kink.
@@ -120,8 +120,10 @@ void add_soft_segments(const RayHole& h, std::uint32_t number, std::vector<float
       out.push_back({breaks[i], breaks[i + 1], number, takes_all(h, 0.5f * (breaks[i] + breaks[i + 1]))});
 }
 
-/// Cuts the ray where a strength has a kink.
-void make_pieces(HolesOnRay& on_ray) {
+constexpr float kNoChange = std::numeric_limits<float>::infinity();  // of a cursor at its end
+
+/// The segments of every hole, and a cursor for each hole that has any.
+void make_segments(HolesOnRay& on_ray) {
   for (const RayHole& hole : on_ray.holes) {
     const auto number = static_cast<std::uint32_t>(&hole - on_ray.holes.data());
     const auto first = static_cast<std::uint32_t>(on_ray.segments.size());
@@ -136,32 +138,88 @@ void make_pieces(HolesOnRay& on_ray) {
       on_ray.cursors.push_back({on_ray.segments[first].begin, first,
                                 static_cast<std::uint32_t>(on_ray.segments.size()), false, false});
   }
-
-  // From each begin or end of a segment to the next one.
-  constexpr float kNever = std::numeric_limits<float>::infinity();
-  const HoleSegment* segments = on_ray.segments.data();
-  std::size_t members = 0;
-  for (float t = -kNever;;) {
-    const std::size_t first = members;
-    if (on_ray.members.size() < first + on_ray.cursors.size())
-      on_ray.members.resize(2 * (first + on_ray.cursors.size()));
-    float end = kNever;
-    bool gone = false;
-    for (HolesOnRay::Cursor& cursor : on_ray.cursors) {
-      while (cursor.change <= t) cursor.advance(segments);
-      end = std::min(end, cursor.change);
-      on_ray.members[members] = cursor.segment;
-      members += cursor.inside;
-      gone |= cursor.all;
-    }
-    if (end == kNever) return;
-    if (gone) members = first;
-    if (gone || members > first)
-      on_ray.pieces.push_back(
-          {t, end, gone, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(members - first)});
-    t = end;
-  }
 }
+
+/// Cuts a ray where the strength of a hole has a kink: from each begin or end of a segment to the next one.
+class PieceMaker {
+ public:
+  explicit PieceMaker(HolesOnRay& on_ray) : out_(on_ray), segments_(on_ray.segments.data()) {}
+
+  void run() {
+    if (out_.cursors.size() == 1) {
+      pieces_of_one(out_.cursors[0]);
+      return;
+    }
+    auto& waiting = out_.waiting;
+    waiting.resize(out_.cursors.size());
+    for (std::uint32_t i = 0; i < waiting.size(); ++i) waiting[i] = i;
+    std::sort(waiting.begin(), waiting.end(),
+              [&](auto a, auto b) { return out_.cursors[a].change < out_.cursors[b].change; });
+    while (next_ < waiting.size() || !out_.active.empty()) {
+      if (out_.active.empty()) t_ = next_begin();
+      for (; next_begin() <= t_; ++next_) add_active(waiting[next_]);
+      const HolesOnRay::Cursor& first = out_.cursors[out_.active[0]];
+      if (out_.active.size() == 1 && segments_[first.last - 1].end <= next_begin())
+        pieces_of_one(first);
+      else
+        next_piece();
+    }
+  }
+
+ private:
+  float next_begin() const {
+    return next_ < out_.waiting.size() ? out_.cursors[out_.waiting[next_]].change : kNoChange;
+  }
+  /// In the order of the holes.
+  void add_active(std::uint32_t cursor) {
+    out_.active.insert(std::upper_bound(out_.active.begin(), out_.active.end(), cursor), cursor);
+  }
+  /// All others begin only after this hole: each of its segments is a piece.
+  void pieces_of_one(const HolesOnRay::Cursor& cursor) {
+    for (std::uint32_t i = cursor.segment; i < cursor.last; ++i) {
+      const HoleSegment& segment = segments_[i];
+      if (segment.end <= t_) continue;
+      add_piece(std::max(segment.begin, t_), segment.end, segment.all, [&] { out_.members.push_back(i); });
+    }
+    out_.active.clear();
+  }
+  void next_piece() {
+    float end = next_begin();
+    bool gone = false, any = false;
+    std::erase_if(out_.active, [&](std::uint32_t i) {
+      HolesOnRay::Cursor& cursor = out_.cursors[i];
+      while (cursor.change <= t_) cursor.advance(segments_);
+      end = std::min(end, cursor.change);
+      any |= cursor.inside;
+      gone |= cursor.all;
+      return cursor.change == kNoChange;
+    });
+    if (any) {
+      add_piece(t_, end, gone, [&] {
+        for (const std::uint32_t i : out_.active)
+          if (out_.cursors[i].inside) out_.members.push_back(out_.cursors[i].segment);
+      });
+    }
+    t_ = end;
+  }
+  template <typename AddMembers>
+  void add_piece(float begin, float end, bool gone, const AddMembers& add_members) {
+    const auto first = static_cast<std::uint32_t>(out_.members.size());
+    if (!gone) add_members();
+    const auto count = static_cast<std::uint32_t>(out_.members.size()) - first;
+    HolePiece& piece = out_.pieces.emplace_back();
+    piece.begin = begin;
+    piece.end = end;
+    piece.gone = gone;
+    piece.first = first;
+    piece.count = count;
+  }
+
+  HolesOnRay& out_;
+  const HoleSegment* segments_;
+  std::size_t next_ = 0;  // of those that wait
+  float t_ = -kNoChange;
+};
 
 /// Strength of a hole at four t of one of its segments.
 Float4 strength(const RayHole& h, const HoleSegment& segment, Float4 t) {
@@ -198,7 +256,7 @@ void HolesOnRay::Cursor::advance(const HoleSegment* segments) {
     return;
   }
   inside = all = false;
-  change = ++segment < last ? segments[segment].begin : std::numeric_limits<float>::infinity();
+  change = ++segment < last ? segments[segment].begin : kNoChange;
 }
 
 Float4 HolesOnRay::remaining(const HolePiece& piece, Float4 t) const {
@@ -208,6 +266,17 @@ Float4 HolesOnRay::remaining(const HolePiece& piece, Float4 t) const {
     remaining *= splat(1.0f) - strength(holes[segment.hole], segment, t);
   }
   return remaining;
+}
+
+void HolesOnRay::reserve() {
+  constexpr std::size_t kUsual = 16;
+  holes.reserve(kUsual);
+  segments.reserve(kUsual);
+  pieces.reserve(kUsual);
+  members.reserve(kUsual);
+  cursors.reserve(kUsual);
+  waiting.reserve(kUsual);
+  active.reserve(kUsual);
 }
 
 HoleSet::HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtlas* masks) {
@@ -247,7 +316,9 @@ void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, Ho
   out.holes.clear();
   out.segments.clear();
   out.pieces.clear();
+  out.members.clear();
   out.cursors.clear();
+  out.active.clear();
   // How far apart the lines of ray and axis are, by their Pluecker coordinates, |forward . moment of the ray
   // + step . moment of the axis| is the distance times |step x forward|. Rounding makes it wider, never
   // narrower.
@@ -255,22 +326,29 @@ void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, Ho
   const float speed_squared = glm::dot(step_world, step_world);
   const float far = std::max({farthest_, std::abs(from.x), std::abs(from.y), std::abs(from.z)});
   const Float4 blur = splat(4e-6f * far * std::sqrt(speed_squared));
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group& group = groups_[g];
-    const Float4 apart = group.forward_x * splat(moment.x) + group.forward_y * splat(moment.y) +
-                         group.forward_z * splat(moment.z) + group.moment_x * splat(step_world.x) +
-                         group.moment_y * splat(step_world.y) + group.moment_z * splat(step_world.z);
-    const Float4 along = group.forward_x * splat(step_world.x) + group.forward_y * splat(step_world.y) +
-                         group.forward_z * splat(step_world.z);
-    const Float4 least = max4(abs4(apart) - blur, splat(0));
-    const Float4 slant = splat(speed_squared) * splat(1.000001f) - along * along;
-    std::uint32_t near = bits_of(least * least <= group.reach_squared * slant);
+  for (std::size_t first = 0; first < groups_.size(); first += 16) {
+    // Candidates first, then one loop over them: whether a group has any cannot be predicted.
+    std::uint64_t near = 0;
+    const std::size_t last = std::min(first + 16, groups_.size());
+    for (std::size_t g = first; g < last; ++g) {
+      const Group& group = groups_[g];
+      const Float4 apart = group.forward_x * splat(moment.x) + group.forward_y * splat(moment.y) +
+                           group.forward_z * splat(moment.z) + group.moment_x * splat(step_world.x) +
+                           group.moment_y * splat(step_world.y) + group.moment_z * splat(step_world.z);
+      const Float4 along = group.forward_x * splat(step_world.x) + group.forward_y * splat(step_world.y) +
+                           group.forward_z * splat(step_world.z);
+      const Float4 least = max4(abs4(apart) - blur, splat(0));
+      const Float4 slant = splat(speed_squared) * splat(1.000001f) - along * along;
+      near |= std::uint64_t{bits_of(least * least <= group.reach_squared * slant)} << 4 * (g - first);
+    }
     for (; near != 0; near &= near - 1) {
-      const std::size_t i = 4 * g + static_cast<std::size_t>(std::countr_zero(near));
+      const std::size_t i = 4 * first + static_cast<std::size_t>(std::countr_zero(near));
       if (i < holes_.size()) add(holes_[i], origin_world, step_world, t_end, out);
     }
   }
-  if (!out.holes.empty()) make_pieces(out);
+  if (out.holes.empty()) return;
+  make_segments(out);
+  PieceMaker(out).run();
 }
 
 void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step_world, float t_end,
@@ -305,7 +383,7 @@ void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step
   if (!(begin < end)) return;
 
   // What changes along the ray there.
-  RayHole met{};
+  RayHole& met = out.holes.emplace_back();
   met.begin = begin;
   met.end = end;
   met.nearest = nearest;
@@ -323,7 +401,6 @@ void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step
   met.box = hole.shape != shared::kHoleCylinder;
   const float age0 = met.age + met.age_step * begin, age1 = met.age + met.age_step * end;
   met.steady = std::min(age0, age1) >= met.expand && std::max(age0, age1) <= met.stay_end;
-  out.holes.push_back(met);
 }
 
 }  // namespace brume::smoke

@@ -53,6 +53,8 @@ struct HolesOnRay {
   std::vector<HoleSegment> segments;   ///< Hole by hole, those of one in order of t.
   std::vector<HolePiece> pieces;       ///< In order of t; between them no hole is.
   std::vector<std::uint32_t> members;  ///< Numbers of segments.
+  /// Memory for what a ray usually meets, at once.
+  void reserve();
   /// Fraction of the smoke that remains at four t of a piece.
   Float4 remaining(const HolePiece& piece, Float4 t) const;
 
@@ -63,7 +65,8 @@ struct HolesOnRay {
     bool inside, all;             ///< In the segment, which removes all.
     void advance(const HoleSegment* segments);
   };
-  std::vector<Cursor> cursors;
+  std::vector<Cursor> cursors;                 // of the holes that have segments
+  std::vector<std::uint32_t> waiting, active;  // cursors: all by their first begin; those that have begun
   std::vector<float> breaks;
 };
 

@@ -107,18 +107,19 @@ void add_mask_segments(const RayHole& h, std::uint32_t number, const RadiusSpan&
   // Cell by cell; those around it that are as even in one step.
   const bool closing = h.closing_at(0.5f * (t0 + t1));
   AxisWalk x(across, t, end), y(down, t, end);
+  const MaskView mask = h.mask;
   const std::size_t first = out.size();
   bool white_before = false;
   while (t < end) {
     const glm::ivec2 cell(x.cell(), y.cell());
-    const MaskCell here = h.mask.cell(cell);
+    const MaskCell here = mask.cell(cell);
     const float to = std::max(t, std::min({x.find_exit(here.radius), y.find_exit(here.radius), end}));
     if (t < to) {
       const bool white = here.kind == MaskCell::white;
       if (white && white_before && out.size() > first)
         out.back().end = to;
       else if (here.kind != MaskCell::black)
-        out.push_back({t, to, number, white && !closing, cell});
+        append_segment(out, t, to, number, white && !closing, cell);
       white_before = white;
     }
     x.move_to(to, here.radius);
