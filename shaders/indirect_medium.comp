@@ -17,15 +17,18 @@ layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
 layout(scalar, push_constant) uniform Push { IndirectParams params; };
 #include "lib/volume_transfer.glsl"
 
-/// Density after the mean erosion. Its noise is that of places spread over the tile.
+/// Density after erosion: that of even smoke that lets as much light through as the noise does on average. Its noise is
+/// that of places spread over the tile.
 float eroded(float density) {
   if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
-  float sum = 0.0;
-  for (uint i = 0u; i < 8u; ++i) {
+  vec4 remaining[2];
+  for (int i = 0; i < 8; ++i) {
     const vec3 place = fract(float(i) * vec3(0.8191725, 0.6710436, 0.5497005) + 0.5);
-    sum += erode(frame.look, density, textureLod(noise_tile, place, 0.0));
+    remaining[i >> 2][i & 3] = erode(frame.look, density, textureLod(noise_tile, place, 0.0));
   }
-  return sum / 8.0;
+  // Along half a billow (shared/noise_functions.h) the noise hardly changes.
+  const float k = frame.look.extinction * 0.125 / frame.look.noise_frequency;
+  return effective_density(vec2(effective_density(remaining[0], k), effective_density(remaining[1], k)).xyxy, k);
 }
 
 float density_at(ivec3 voxel) {

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/lights.glsl"
+#include "shared/light_side.h"
 #include "shared/scattering.h"
 #include "shared/smoke_light.h"
 
@@ -14,10 +15,11 @@ layout(scalar, binding = kBindLightRows) readonly buffer Rows { uint rows[]; };
 layout(scalar, binding = kBindLightBlocks) readonly buffer Blocks { uint blocks[]; };
 layout(scalar, binding = kBindLightGathers) readonly buffer Bricks { LightGather bricks[]; };
 layout(binding = kBindInscatter, rgba16f) uniform writeonly image3D inscatter;
-layout(binding = kBindFilteredDensity) uniform sampler3D filtered_density_atlas;
+layout(binding = kBindLightSide, rgba16f) uniform writeonly image3D light_side;
 layout(scalar, binding = kBindBrickLights) readonly buffer BrickLights { uvec2 brick_lights[]; };
 layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/indirect_light.glsl"
+#include "lib/optical_depth.glsl"
 #include "lib/row_texels.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -38,11 +40,12 @@ vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * ste
 
 struct ScatteredLights {
   vec3 once, often;
+  vec3 side;  // sum of the directions to the lights, each times the sum of the channels of its light
 };
 
 /// Light of all lights of a brick at a texel, scattered towards the eye.
 ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, vec3 to_eye, ManyScatterings many) {
-  ScatteredLights sum = ScatteredLights(vec3(0.0), vec3(0.0));
+  ScatteredLights sum = ScatteredLights(vec3(0.0), vec3(0.0), vec3(0.0));
   for (uint k = 0u; k < brick.light_count; ++k) {
     const uvec2 light = brick_lights[brick.first_light + k];
     const vec2 depth_lit = unpackHalf2x16(blocks[light.y * kTexelsPerBrick + local]);
@@ -51,8 +54,12 @@ ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, ve
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
     const float cos_angle = -dot(incident.to_light, to_eye);
     const vec3 arriving = incident.irradiance * depth_lit.y;
-    sum.once += arriving * (exp(-depth_lit.x) * phase_value(frame.look.phase, cos_angle));
-    sum.often += arriving * scattered_often(many, depth_lit.x, cos_angle);
+    const vec3 once = arriving * (exp(-depth_lit.x) * phase_value(frame.look.phase, cos_angle));
+    const vec3 often = arriving * scattered_often(many, depth_lit.x, cos_angle);
+    sum.once += once;
+    sum.often += often;
+    // What is scattered often depends less on the depth.
+    sum.side += incident.to_light * dot(once + many.decay * often, vec3(1.0));
   }
   return sum;
 }
@@ -63,6 +70,22 @@ vec3 indirect_at(vec3 p_world, vec3 to_eye, vec3 formula, float escape) {
   const vec3 detail = detail_in_cells(p_world, frame.look.albedo, g, frame.look.multiple_scattering, escape);
   return refined_by_formula(scattered_field(indirect_field(p_world), g, to_eye), formula_in_cells(p_world), formula,
                             detail);
+}
+
+/// The light_side of a texel, whose in-scatter is `all`.
+vec4 light_side_at(vec3 p_voxel, vec3 side, vec3 all) {
+  const float fraction = length(side) / max(all.r + all.g + all.b, 1e-9);
+  if (fraction <= 0.0) return vec4(0.0);
+  const vec3 towards = normalize(side);
+  float whole = 0.0, cut = 0.0;
+  for (uint i = 0u; i < kSideSamples; ++i) {
+    const MeanSmoke smoke = mean_smoke_at(p_voxel + towards * side_sample(i));
+    whole += smoke.density;
+    if (smoke.density > 0.0) cut += smoke.density * remaining_in_cell(smoke.slot, smoke.local_voxel);
+  }
+  // The march does not know the holes on the path: where they cut the smoke, it replaces as much less.
+  const float replaced = whole > 0.0 ? min(fraction, 1.0) * cut / whole : 0.0;
+  return vec4(towards * replaced, whole * side_depth(frame.look.extinction, frame.volume.voxel_size));
 }
 
 void light_texel(LightGather brick, uint local) {
@@ -83,6 +106,8 @@ void light_texel(LightGather brick, uint local) {
     light += lights.often / excess + frame.sky.ambient * sky_visibility(p_world) *
                                          scattered_sky(frame.look.albedo, frame.look.multiple_scattering, escape);
   imageStore(inscatter, at, vec4(light, 1.0));
+  if (frame.look.erosion > 0.0)
+    imageStore(light_side, at, light_side_at(texel_position(brick.slot, local), lights.side, light * excess));
 }
 
 void main() {

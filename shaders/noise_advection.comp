@@ -86,16 +86,17 @@ vec3 displacement_by_impulses(vec3 p_world) {
   return sum;
 }
 
-/// Mean fraction of a density that erosion retains in a texel, from four points of it, the corners of a tetrahedron.
+/// Fraction of a density that erosion retains in a texel for rays to lights: that which lets as much light through, on
+/// average. From four points of it, the corners of a tetrahedron.
 float retained_fraction(float density, vec3 p_world, vec3 displacement) {
   if (frame.look.erosion <= 0.0) return 1.0;
-  float sum = 0.0;
+  vec4 remaining;
   for (uint i = 0u; i < 4u; ++i) {
     const vec3 within = (vec3(i & 1u, i >> 1u, (i ^ i >> 1u) & 1u) - 0.5) * (0.5 * frame.volume.voxel_size);
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + within + displacement, frame.time);
-    sum += 0.25 * erode(frame.look, density, noise);
+    remaining[i] = erode(frame.look, density, noise);
   }
-  return sum / max(density, 1e-3);
+  return effective_density(remaining, frame.look.extinction * frame.volume.voxel_size) / max(density, 1e-3);
 }
 
 void main() {

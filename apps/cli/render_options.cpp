@@ -79,8 +79,9 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
                   "Draw volumes one by one without cached light, in one of two forms; see docs/raycasting.md")
       .one_of({"two-pass", "single-pass"})
       .type_name("FORM");
-  arguments.add_flag("--temporal", options.temporal,
-                     "Smooth the smoke and the edges of a film over its frames; a range draws the 32 before it, too");
+  arguments.add_flag(
+      "--temporal", options.temporal,
+      "Smooth the smoke and the edges of a film over its frames; a range draws the 32 before it, too");
   arguments
       .add_option("--step", options.step,
                   "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")

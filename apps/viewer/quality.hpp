@@ -16,6 +16,7 @@ struct Quality {
   float resolve_error_scale = 1;            ///< planning::Quality::resolve_error_scale.
   float light_update_fraction = 1;          ///< planning::Quality::light_update_fraction.
   float indirect_update_fraction = 0.125f;  ///< planning::Quality::indirect_update_fraction.
+  bool fine_shadows = false;                ///< planning::Quality::fine_shadows.
 };
 
 /// From best to fastest; the first one is that of `brume render`.

@@ -19,7 +19,7 @@
 #include "shared/media.h"
 
 const bool kHasVolumes = (kMedia & kMediumVolumes) != 0u;
-const bool kSmokeAlone = kMedia == kMediumSmoke;
+const bool kSmokeAlone = (kMedia & ~kMediumFineShadows) == kMediumSmoke;
 
 struct MediaRay {
   WorldRay world;

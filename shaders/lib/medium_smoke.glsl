@@ -8,12 +8,18 @@
 #include "lib/frame.glsl"
 #include "lib/noise_tile.glsl"
 #include "lib/ray_holes.glsl"
+#include "shared/light_side.h"
 #include "shared/media.h"
 
-const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
+const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kFineShadows = (kMedia & kMediumFineShadows) != 0u;
+/// Below this fraction of light from one side it casts no fine shadows.
+const float kLeastSide = 0.02;
+/// So far beyond its voxels the texels of a brick reach, less the resolution of the texture unit [voxels].
+const float kInside = 0.5 - 1.0 / 64.0;
 
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
+layout(binding = kBindLightSide) uniform sampler3D light_side_atlas;
 
 layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 
@@ -54,6 +60,9 @@ SmokeSpan smoke_span(WorldRay world, float t, float ds) {
 struct SmokeSample {
   float density;  // after erosion and holes; in a wall below 0: none
   vec3 uvw, light_offset;
+  // With fine shadows.
+  vec3 p_world, low;  // low corner of the brick [voxels]
+  float even;         // density before erosion
 };
 
 SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, inout uint texture_samples) {
@@ -80,12 +89,37 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, in
     if (kHoles != kHolesNone)
       density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
   }
-  return SmokeSample(density, uvw, smoke.light_offset);
+  return SmokeSample(density, uvw, smoke.light_offset, p_world, span.bricks.low, smoke.density);
+}
+
+/// Optical depth from a sample towards the light, over the path of shared/light_side.h, without holes.
+float depth_towards(SmokeSample here, vec3 towards, inout uint texture_samples) {
+  const VolumeLayout volume = frame.volume;
+  const vec3 local = (here.p_world - volume.origin_world) * volume.voxels_per_metre - here.low;
+  float sum = 0.0;
+  for (uint i = 0u; i < kSideSamples; ++i) {
+    const vec3 offset = towards * side_sample(i);
+    // Beyond the texels of the brick, as at their border; not on it, where rounding would meet other bricks.
+    const vec3 at = clamp(local + offset, vec3(-kInside), vec3(float(kBrickVoxels) + kInside)) - local;
+    const vec4 texel = textureLod(density_displacement_atlas, here.uvw + at * volume.bricks.atlas_texel, 0.0);
+    const vec3 p_world = here.p_world + offset * volume.voxel_size;
+    const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
+    sum += erode(frame.look, texel.r < 0.0 ? here.even : texel.r, noise);
+    texture_samples += 2u;
+  }
+  return sum * side_depth(frame.look.extinction, volume.voxel_size);
 }
 
 vec3 smoke_inscatter(SmokeSample here, inout uint texture_samples) {
   ++texture_samples;
-  return textureLod(inscatter_atlas, here.uvw + here.light_offset * frame.volume.bricks.atlas_texel, 0.0).rgb;
+  const vec3 uvw = here.uvw + here.light_offset * frame.volume.bricks.atlas_texel;
+  const vec3 light = textureLod(inscatter_atlas, uvw, 0.0).rgb;
+  if (!kFineShadows) return light;
+  ++texture_samples;
+  const vec4 side = textureLod(light_side_atlas, uvw, 0.0);
+  const float fraction = length(side.xyz);
+  if (fraction < kLeastSide) return light;
+  return light * exp(fraction * (side.a - depth_towards(here, side.xyz / fraction, texture_samples)));
 }
 
 #endif

@@ -19,5 +19,18 @@ SHARED_FUNCTION float erode(SmokeLook look, float density, vec4 noise) {
   return remaining * inside;
 }
 
+/// Density of even smoke that lets as much light through as smoke of four densities on average, each for a quarter of
+/// the rays, of an optical depth `k` per density: -log(mean(exp(-k density))) / k. At most the mean, at least the least
+/// of them.
+SHARED_FUNCTION float effective_density(vec4 densities, float k) {
+  float least = min(min(densities.x, densities.y), min(densities.z, densities.w));
+  vec4 more = densities - vec4(least);
+  float mean = 0.25f * (more.x + more.y + more.z + more.w);
+  // To the second order where rounding would exceed it.
+  if (k * mean < 1e-2f) return least + mean - 0.5f * k * (0.25f * dot(more, more) - mean * mean);
+  vec4 passed = exp(-k * more);
+  return least - log(0.25f * (passed.x + passed.y + passed.z + passed.w)) / k;
+}
+
 SHARED_END
 #endif

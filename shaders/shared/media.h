@@ -17,6 +17,8 @@ SHARED_CONST uint kMediumColors = 128u;   // one has a grid of colours
 SHARED_CONST uint kMediumMasks = 256u;      // one has masks that glow
 SHARED_CONST uint kMediumDisturbed = 512u;  // noise disturbs one
 SHARED_CONST uint kMediumDense = 1024u;     // one is dense (VolumeInstance::is_dense)
+// Noise within a voxel shadows the smoke (shared/light_side.h). Never without kMediumSmoke.
+SHARED_CONST uint kMediumFineShadows = 2048u;
 /// Those with which the albedo differs from point to point.
 SHARED_CONST uint kMediaOfAlbedos = 192u;
 

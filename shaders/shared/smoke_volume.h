@@ -11,6 +11,8 @@
 //                half floats, for rays to lights. R: mean density of the texel after erosion,
 //                kInSolid in a solid voxel; G: the fraction of the density that erosion retains
 //   inscatter    half floats: radiance scattered towards the eye, per unit of albedo
+//   light_side   half floats, where noise erodes the smoke (light_side.h). RGB: the direction that most light comes
+//                from, as long as the fraction of the light that does; A: the optical depth that is replaced
 //   cells        per slot 9^3 uints, one per cell that overlaps the brick: boundary cell + 1, or 0 where the cell has
 //                no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   filled       per slot the box of cells that may hold smoke, see pack_cells; rays skip the rest of the brick

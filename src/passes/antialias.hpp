@@ -24,8 +24,9 @@ class AntialiasPass {
   /// dropped and the result is `radiance`. `clip_from_world`: of this frame without `jitter`, which is from
   /// the middle of each pixel to the point that the frame shows, y down [px].
   ///
-  /// A pixel is the mean of at most kAntialiasedFrames frames, of fewer where the image moves, clamped to one standard deviation around the
-  /// mean of the 3 x 3 pixels around it in this frame, a range that includes its own value.
+  /// A pixel is the mean of at most kAntialiasedFrames frames, of fewer where the image moves, clamped to one
+  /// standard deviation around the mean of the 3 x 3 pixels around it in this frame, a range that includes
+  /// its own value.
   void record(gpu::Recorder& recorder, const Inputs& in, const glm::mat4& clip_from_world, glm::vec2 jitter,
               bool continues);
   /// Drops the history: the next frame does not continue it.

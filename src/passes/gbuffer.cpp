@@ -20,7 +20,8 @@ gpu::Image target_image(gpu::Context& context, glm::uvec2 size, VkFormat format,
 constexpr VkFormat kFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16B16A16_SFLOAT,
                                  VK_FORMAT_R16G16B16A16_SFLOAT};
 
-/// Floors stay sharp towards the horizon; 16 looks the same. Without a GPU it would double the time of the pass.
+/// Floors stay sharp towards the horizon; 16 looks the same. Without a GPU it would double the time of the
+/// pass.
 float anisotropy_on(const gpu::Context& context) {
   return context.info().kind == "cpu" ? 1 : 8;
 }
@@ -80,7 +81,8 @@ GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.i
 
 GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
     : pipeline_(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag)),
-      sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, anisotropy_on(context)}) {
+      sampler_(context,
+               {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, anisotropy_on(context)}) {
   if (!depth_first) return;
   depth_first_.emplace(context);
 }

@@ -2,6 +2,7 @@
 
 #include "brume_shaders.hpp"
 #include "shared/gbuffer.h"
+#include "shared/light_side.h"
 #include "shared/noise.h"
 #include "shared/volume_light.h"
 
@@ -116,6 +117,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
                     {shared::kBindCorners, gpu::read(in.smoke.corners)},
                     {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
+                    {shared::kBindLightSide, gpu::sampled(in.smoke.light_side, linear_)},
                     {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
                     {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
                     {shared::kBindBlueNoise, gpu::sampled(in.blue_noise, nearest_)},

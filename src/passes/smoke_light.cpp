@@ -4,6 +4,7 @@
 
 #include "brume_shaders.hpp"
 #include "shared/indirect_light.h"
+#include "shared/light_side.h"
 
 namespace brume::passes {
 namespace {
@@ -159,6 +160,12 @@ void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindLightBlocks, gpu::read(ray_pages_)},
                     {shared::kBindLightGathers, gpu::read(gathers_)},
                     {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                    {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
                     {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},

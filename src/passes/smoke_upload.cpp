@@ -11,9 +11,9 @@ namespace {
 constexpr std::array kSmokeChannels{VK_FORMAT_R8G8_UNORM};
 
 /// The images that passes write, in the order of their formats.
-enum Derived : std::size_t { kInscatter, kDensityDisplacement, kFilteredDensity };
+enum Derived : std::size_t { kInscatter, kDensityDisplacement, kFilteredDensity, kLightSide };
 constexpr std::array kDerivedFormats{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
-                                     VK_FORMAT_R16G16_SFLOAT};
+                                     VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT};
 
 template <typename Value>
 void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<const Value> values,
@@ -55,7 +55,8 @@ SmokeUpload::SmokeUpload(gpu::Context& context)
                  .density = atlas_.channel(smoke::kDensityChannel),
                  .inscatter = atlas_.derived(kInscatter),
                  .density_displacement = atlas_.derived(kDensityDisplacement),
-                 .filtered_density = atlas_.derived(kFilteredDensity)} {
+                 .filtered_density = atlas_.derived(kFilteredDensity),
+                 .light_side = atlas_.derived(kLightSide)} {
   for (gpu::Buffer* buffer :
        {&resources_.cells, &resources_.boundary, &resources_.corners, &resources_.filled, &resources_.slots})
     gpu::grow(context, *buffer, 1);

@@ -16,6 +16,7 @@ struct SmokeResources {
   const gpu::Image& inscatter;             ///< Half-float RGBA atlas of the same layout.
   const gpu::Image& density_displacement;  ///< Likewise; written by NoiseAdvectionPass, as the next.
   const gpu::Image& filtered_density;  ///< Half-float RG: what noise leaves of the mean density of a texel.
+  const gpu::Image& light_side;        ///< Half-float RGBA; written with the in-scatter.
   gpu::Buffer cells{}, boundary{}, corners{};
   gpu::Buffer filled{};  ///< Per slot the cells that smoke may be in.
   gpu::Buffer slots{};   ///< SmokeVisibility::slots of the frame.

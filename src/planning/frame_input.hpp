@@ -85,6 +85,9 @@ struct Quality {
   /// 255; > 0. Above 1 fewer pixels are marched one by one, and the image may show what that of the full
   /// march hides.
   float resolve_error_scale = 1;
+  /// Noise within a voxel shadows the smoke, where there is noise (shaders/shared/light_side.h): billows have
+  /// a side in shadow, and the march takes up to twice as long.
+  bool fine_shadows = true;
   /// About which fraction of the light that changed is updated in this frame; in (0, 1], 1: all. Below, light
   /// is as old as ceil(1 / light_update_fraction) frames where it changes slowly, and 1/16 is the least
   /// (SmokeLightCache); such a frame depends on the frames before. Up to 1/4 the shadows of smoke on surfaces

@@ -282,7 +282,10 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
   if (has_smoke) plan.smoke = volume->layout();
   plan.smoke.bounds_min = visibility.visible_bounds.low;
   plan.smoke.bounds_max = visibility.visible_bounds.high;
-  if (visibility.visible_count > 0) plan.media = shared::kMediumSmoke;
+  if (visibility.visible_count > 0) {
+    plan.media = shared::kMediumSmoke;
+    if (input.quality.fine_shadows && input.smoke.look.erosion > 0) plan.media |= shared::kMediumFineShadows;
+  }
   plan.frame = smoke_media(plan.smoke, input.smoke.look);
   for (const bool in_view : {true, false}) add_volumes(plan, input.volumes, frustum, previews, in_view);
   if (has_smoke || plan.casters == 0) plan.casters |= shared::kMediumSmoke;

@@ -250,10 +250,9 @@ void Renderer::record_antialias(gpu::Recorder& recorder, const FramePlan& plan) 
   const planning::View& view = plan.input.view;
   planning::ViewSample middle = view.sample;
   middle.pixel = {0, 0};
-  antialias_pass_->record(
-      recorder, {frame_, targets_.gbuffer.depth, media(), targets_.radiance},
-      planning::device_camera(view.camera, targets_.size_px, middle).clip_from_world, view.sample.pixel,
-      view.continues);
+  antialias_pass_->record(recorder, {frame_, targets_.gbuffer.depth, media(), targets_.radiance},
+                          planning::device_camera(view.camera, targets_.size_px, middle).clip_from_world,
+                          view.sample.pixel, view.continues);
 }
 
 void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {

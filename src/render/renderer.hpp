@@ -111,10 +111,10 @@ class Renderer {
   const gpu::Image* occlusion_ = nullptr;
   std::optional<passes::SliceTextures> slices_;
   std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
-  std::optional<passes::DebugViewPass> debug_view_;    ///< From the first frame with a debug view on.
+  std::optional<passes::DebugViewPass> debug_view_;      ///< From the first frame with a debug view on.
   std::optional<passes::AntialiasPass> antialias_pass_;  ///< Where RendererOptions::antialias.
-  std::optional<passes::AveragePass> average_pass_;    ///< From the first picture of several frames on.
-  std::optional<passes::ParticlePass> particle_pass_;  ///< From the first frame with particles in view.
+  std::optional<passes::AveragePass> average_pass_;      ///< From the first picture of several frames on.
+  std::optional<passes::ParticlePass> particle_pass_;    ///< From the first frame with particles in view.
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
   planning::PlanHistory history_;

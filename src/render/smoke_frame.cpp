@@ -89,6 +89,9 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
                     : march_scale_ == 1 ? passes::MarchRays::of_pixels
                                         : passes::MarchRays::of_tiles;
   march_pass_.reserve(plan.media.media, rays);
+  // With or without, whatever later frames choose.
+  if (prepare_all_ && (plan.media.media & shared::kMediumSmoke) != 0)
+    march_pass_.reserve(plan.media.media ^ shared::kMediumFineShadows, rays);
   if (input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
       counting_march_.emplace(context_,

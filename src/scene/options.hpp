@@ -42,8 +42,9 @@ void visit_timeline_options(Options& o, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_bounce_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"bounces", "", "how often surfaces and smoke pass light on to each other; 0: never", 0, 16},
-        o.bounces);
+  visit(
+      OptionInfo{"bounces", "", "how often surfaces and smoke pass light on to each other; 0: never", 0, 16},
+      o.bounces);
 }
 
 /// How the scene's file becomes the level: settings that a running simulation cannot change.

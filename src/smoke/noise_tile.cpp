@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/float4.hpp"
 #include "core/tasks.hpp"
 #include "shared/noise_functions.h"
-#include "core/float4.hpp"
 
 namespace brume::smoke {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/erosion.h"
 #include "tests/light/scattering_fit.hpp"
 #include "tests/reference/phase.hpp"
 
@@ -133,6 +134,38 @@ TEST(ScatteringFit, IsFiniteAndMonotonic) {
       EXPECT_GE(many.g, 0);
       EXPECT_LE(many.g, std::max(g, 0.0f));
     }
+  }
+}
+
+// Layers whose noise has one of two values, each for half of the rays: the mean transmittance over all 2^n
+// rays is that of even layers of the effective density.
+TEST(EffectiveDensity, LetsThroughWhatTwoValuedNoiseDoes) {
+  constexpr int kLayers = 10;
+  const float low = 0.25f, high = 1.5f;
+  for (const float k : {1e-3f, 0.02f, 0.3f, 2.0f, 20.0f}) {
+    double mean = 0;
+    for (unsigned ray = 0; ray < 1u << kLayers; ++ray) {
+      double depth = 0;
+      for (int layer = 0; layer < kLayers; ++layer)
+        depth += double{k} * double{ray >> layer & 1u ? high : low};
+      mean += std::exp(-depth) / (1u << kLayers);
+    }
+    const double depth = kLayers * double{k} * double{shared::effective_density({low, high, high, low}, k)};
+    // Rounding: of four exponentials, their sum and its logarithm, all of at most 1, and of a depth in
+    // floats. For small k, the series ends before the third cumulant, 0 for two values in equal parts, and
+    // the fourth, (high - low)^4 / 8 at most, over 4!.
+    const double rounding = kLayers * (8 + double{k * high}) * 6e-8;
+    const double series = kLayers * std::pow(double{k * (high - low)}, 4) / 192;
+    EXPECT_NEAR(depth, -std::log(mean), rounding + (double{k} < 0.02 ? series : 0)) << k;
+  }
+}
+
+TEST(EffectiveDensity, LiesBetweenTheLeastAndTheMean) {
+  for (const float k : {0.0f, 1e-4f, 0.1f, 5.0f, 500.0f}) {
+    EXPECT_FLOAT_EQ(shared::effective_density(glm::vec4(0.7f), k), 0.7f) << "without noise it is the density";
+    const float density = shared::effective_density({0.1f, 0.9f, 0.4f, 1.4f}, k);
+    EXPECT_GE(density, 0.1f);
+    EXPECT_LE(density, 0.7f + 1e-6f);
   }
 }
 

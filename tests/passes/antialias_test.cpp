@@ -71,8 +71,8 @@ TEST_F(AntialiasTest, AFrameWithoutHistoryIsItself) {
 }
 
 TEST_F(AntialiasTest, EdgesShowHowMuchOfEachPixelTheyCover) {
-  // Brighter to the right of a slanted line. Of eight points of which no two share a row or a column of eight, at most
-  // two are on the other side of a line than their pixel's area says.
+  // Brighter to the right of a slanted line. Of eight points of which no two share a row or a column of
+  // eight, at most two are on the other side of a line than their pixel's area says.
   const auto beyond = [](glm::vec2 px) { return px.x - 16.3f - 0.37f * (px.y - 8.5f) > 0; };
   Texels shown;
   for (int i = 0; i < 64; ++i)
@@ -81,9 +81,11 @@ TEST_F(AntialiasTest, EdgesShowHowMuchOfEachPixelTheyCover) {
   for (std::uint32_t y = 1; y + 1 < kFrameSize.y; ++y)
     for (std::uint32_t x = 1; x + 1 < kFrameSize.x; ++x) {
       int covered = 0;
-      for (int i = 0; i < 1024; ++i) covered += beyond(glm::vec2(x, y) + (glm::vec2(i % 32, i / 32) + 0.5f) / 32.0f);
+      for (int i = 0; i < 1024; ++i)
+        covered += beyond(glm::vec2(x, y) + (glm::vec2(i % 32, i / 32) + 0.5f) / 32.0f);
       const float coverage = static_cast<float>(covered) / 1024;
-      // Means are of r / (1 + r): a third where r is a half. The mean of the last frames ripples by half of 1 / 16.
+      // Means are of r / (1 + r): a third where r is a half. The mean of the last frames ripples by half of 1
+      // / 16.
       const float compressed = shown[x + kFrameSize.x * y].x / (1 + shown[x + kFrameSize.x * y].x) * 3;
       EXPECT_NEAR(compressed, coverage, 0.25f + 1.0f / 32 + kRounding) << x << " " << y;
       partly += compressed > 0.1f && compressed < 0.9f;
@@ -99,15 +101,16 @@ TEST_F(AntialiasTest, TheMiddleOfAPixelStaysWhereItIs) {
   for (std::uint32_t y = 1; y + 1 < kFrameSize.y; ++y)
     for (std::uint32_t x = 1; x + 1 < kFrameSize.x; ++x) {
       const glm::vec3 expected = gradient(glm::vec2(x, y) + 0.5f);
-      // The means of a curved function differ by half its second derivative, at most 2, times the square of how far the
-      // points spread, at most half a pixel; and the last frames count a sixteenth more or less.
+      // The means of a curved function differ by half its second derivative, at most 2, times the square of
+      // how far the points spread, at most half a pixel; and the last frames count a sixteenth more or less.
       const float bound = (0.25f + 0.5f / 16) / 64 + kRounding;
       EXPECT_LT(glm::distance(glm::vec3(shown[x + kFrameSize.x * y]), expected), bound) << x << " " << y;
     }
 }
 
 TEST_F(AntialiasTest, WhatTheCameraPassesIsWhereItWas) {
-  // A pixel of the wall is as wide as 1.6 m / 33 at a distance of 1 m. The camera moves by a third of one a frame.
+  // A pixel of the wall is as wide as 1.6 m / 33 at a distance of 1 m. The camera moves by a third of one a
+  // frame.
   const float pixel = 1.6f / 33 * kWall;
   Texels shown;
   float x = 0;
@@ -121,8 +124,9 @@ TEST_F(AntialiasTest, WhatTheCameraPassesIsWhereItWas) {
   }
   // What has been in view for 16 frames.
   for (std::uint32_t i = 4; i + 16 / 3 + 2 < kFrameSize.x; ++i) {
-    // A step from pixel to pixel is 0.1 / 4 at most. Half a pixel of jitter in one of sixteen frames moves the mean by a
-    // thirty-second of that; a past that lags by the way of a frame, a third, moves it by fifteen times as much, 5.
+    // A step from pixel to pixel is 0.1 / 4 at most. Half a pixel of jitter in one of sixteen frames moves
+    // the mean by a thirty-second of that; a past that lags by the way of a frame, a third, moves it by
+    // fifteen times as much, 5.
     const float expected = pattern({static_cast<float>(i) + 0.5f, 0}).x;
     EXPECT_NEAR(shown[i + kFrameSize.x * 8].x, expected, 0.1f / 4 / 6) << i;
   }
@@ -141,7 +145,9 @@ TEST_F(AntialiasTest, SmokeIsFollowedAtItsOwnDistance) {
     Texels shown;
     for (int i = 0; i < 12; ++i) {
       const float x = 0.4f * static_cast<float>(i);
-      shown = add(i, [&](glm::vec2 px) { return glm::vec3(0.3f + 0.2f * std::sin(x + px.x * 0.3f)); }, x, transmittance);
+      shown = add(
+          i, [&](glm::vec2 px) { return glm::vec3(0.3f + 0.2f * std::sin(x + px.x * 0.3f)); }, x,
+          transmittance);
     }
     return shown;
   };

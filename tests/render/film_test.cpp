@@ -138,9 +138,10 @@ TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
   }
 }
 
-/// The most that an antialiased film may show at a pixel, 0..255, where all light is grey and a frame without history is
-/// `now`. It gathers into [mean - deviation, mean + deviation] of 3x3 values r / (1 + r), each within half a pixel of
-/// the middle of a pixel, hence among 5x5 pixels; as in most_apart, one value alone may be high.
+/// The most that an antialiased film may show at a pixel, 0..255, where all light is grey and a frame without
+/// history is `now`. It gathers into [mean - deviation, mean + deviation] of 3x3 values r / (1 + r), each
+/// within half a pixel of the middle of a pixel, hence among 5x5 pixels; as in most_apart, one value alone
+/// may be high.
 double most_shown(const image::Image8& now, std::uint32_t x, std::uint32_t y) {
   std::uint8_t least = 255, most = 0;
   for (std::uint32_t j = y - 2; j <= y + 2; ++j)
@@ -157,8 +158,8 @@ double most_shown(const image::Image8& now, std::uint32_t x, std::uint32_t y) {
 }
 
 TEST_F(FilmTest, WhatSmokeHidesAntialiasedFilmsHideAtOnce) {
-  // The bright wall is seen through the hole of a shot. From the first frame after it has closed on, nothing of it
-  // remains in the film.
+  // The bright wall is seen through the hole of a shot. From the first frame after it has closed on, nothing
+  // of it remains in the film.
   scenario::Scenario scene = scenario();
   scene.timeline.smoke.erosion = 0;  // which shots push around, for longer than their holes stay open
   RendererOptions antialiased = options(1, true);
@@ -202,8 +203,9 @@ double difference_at_edges(const image::Image8& a, const image::Image8& b, const
 }
 
 TEST_F(FilmTest, EdgesAreSmooth) {
-  // A room without smoke. A point in the middle of each pixel misses its mean by up to half of the step at an edge,
-  // evenly distributed; eight points by an eighth of that; the last frames of the mean count for more than others.
+  // A room without smoke. A point in the middle of each pixel misses its mean by up to half of the step at an
+  // edge, evenly distributed; eight points by an eighth of that; the last frames of the mean count for more
+  // than others.
   scenario::Scenario scene = scenario();
   scene.timeline.smokes.clear();
   scene.timeline.shots.clear();
@@ -215,7 +217,8 @@ TEST_F(FilmTest, EdgesAreSmooth) {
   const image::Image8 jagged = stills.draw(0.1, 0);
   stills.set_samples(64);
   const image::Image8 smooth = stills.draw(0.1, 0);
-  const double before = difference_at_edges(jagged, smooth, jagged), now = difference_at_edges(shown, smooth, jagged);
+  const double before = difference_at_edges(jagged, smooth, jagged),
+               now = difference_at_edges(shown, smooth, jagged);
   std::printf("at edges: %.1f, antialiased %.1f of 255\n", before, now);
   EXPECT_LT(now, before / 2);
 }

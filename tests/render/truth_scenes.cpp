@@ -113,8 +113,6 @@ std::vector<TruthCase> truth_cases() {
   riddled.smoke.erosion = 0.5f;
   TruthCase& noisy = add("noise and holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
   noisy.noisy = true;
-  // Light in the smoke is as coarse as voxels and knows the noise only in their mean.
-  noisy.least_psnr = 32;
   return cases;
 }
 

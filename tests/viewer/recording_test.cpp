@@ -110,8 +110,8 @@ TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
     const image::Image8 screenshot = png(name + ".png");
     EXPECT_LE(largest_difference(window, screenshot), 1);
 
-    const cli::Outcome rendered =
-        cli::run_brume(folder_.path(), {"render", name + ".toml", "-o", "again.png", "--size", "200x120", "--samples", "4"});
+    const cli::Outcome rendered = cli::run_brume(
+        folder_.path(), {"render", name + ".toml", "-o", "again.png", "--size", "200x120", "--samples", "4"});
     ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
     EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
     std::filesystem::remove(file("again.png"));
@@ -155,7 +155,8 @@ TEST_F(RecordingTest, APausedImageIsRefinedInSteps) {
   ASSERT_TRUE(program.wait_for_best());
   const auto is_still = [](const Frame& frame) { return frame.picture == "still"; };
   const auto& frames = program.frames();
-  EXPECT_EQ(std::count_if(frames.begin(), frames.end(), is_still), 2 + 8 + 3) << "until refined, slices of light, samples but for the last";
+  EXPECT_EQ(std::count_if(frames.begin(), frames.end(), is_still), 2 + 8 + 3)
+      << "until refined, slices of light, samples but for the last";
   program.tap(XK_v);
   EXPECT_TRUE(program.wait_for_frame([](const Frame& frame) { return frame.picture != "best"; }));
   EXPECT_TRUE(program.wait_for_best());
@@ -196,9 +197,9 @@ TEST_F(RecordingTest, AScreenshotOfAModelEqualsRender) {
     Program program(desktop_, folder_.path(), arguments);
     ASSERT_EQ(program.wait(), 0) << program.error();
     EXPECT_EQ(program.error().find("scaled by") != std::string::npos, options.empty()) << program.error();
-    const cli::Outcome rendered =
-        cli::run_brume(folder_.path(), {"render", "s.toml", "-o", "again.png", "--size", "200x120", "--samples",
-                                        "4", "--force"});
+    const cli::Outcome rendered = cli::run_brume(
+        folder_.path(),
+        {"render", "s.toml", "-o", "again.png", "--size", "200x120", "--samples", "4", "--force"});
     ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
     EXPECT_LE(largest_difference(png("s.png"), png("again.png")), 1);
     EXPECT_GT(count_colours(png("s.png")), 100u);
