@@ -23,7 +23,7 @@ layout(scalar, push_constant) uniform Push { AntialiasParams params; };
 /// The group's pixels and those around them: colour and reverse depth.
 shared vec4 tile[kTile * kTile];
 
-// Means are of colours compressed to [0, 1): otherwise one bright sample outweighs all others, and edges of lamps stay
+// Means are of colours compressed to [0, 1): otherwise one bright sample outweighs all others, and edges of lights stay
 // jagged. YCoCg separates luminance from chroma, which bounds of a neighbourhood fit more tightly.
 vec3 compressed(vec3 radiance) {
   const vec3 x = min(radiance, 65504.0) * frame.exposure;
@@ -45,8 +45,8 @@ void load_tile() {
   barrier();
 }
 
-/// Mean and standard deviation around a pixel, and the reverse depth of the nearest surface there: the background beside
-/// an edge moves with the edge.
+/// Mean and standard deviation around a pixel, and the reverse depth of the nearest surface there: the background
+/// beside an edge moves with the edge.
 struct Neighbourhood {
   vec3 mean, deviation;
   float depth;
@@ -102,8 +102,8 @@ void main() {
     imageStore(mean_radiance, px, vec4(texelFetch(radiance, px, 0).rgb, 1.0));
     return;
   }
-  // Clamps the past to plausible values (variance clipping, Salvi 2016, "An Excursion in Temporal Supersampling"): smoke
-  // that closed, or a body that left, disappears at once. The further the clamp moves it, the less it counts.
+  // Clamps the past to plausible values (variance clipping, Salvi 2016, "An Excursion in Temporal Supersampling"):
+  // smoke that closed, or a body that left, disappears at once. The further the clamp moves it, the less it counts.
   const vec4 past = past_at(uv);
   const vec3 past_color = compressed(past.rgb);
   const vec3 low = min(around.mean - around.deviation, here), high = max(around.mean + around.deviation, here);

@@ -14,8 +14,8 @@ struct AntialiasParams {
 };
 SHARED_SIZE(AntialiasParams, 76);
 
-/// Upper limits of the frames whose mean a pixel is: at rest twice as many as there are jitter positions, so that the mean
-/// hardly follows them; where the image moves by a pixel or more from frame to frame few, so that it stays sharp.
+/// Upper limits of the frames whose mean a pixel is: at rest twice as many as there are jitter positions, so that the
+/// mean hardly follows them; where the image moves by a pixel or more from frame to frame few, so that it stays sharp.
 SHARED_CONST float kAntialiasedFrames = 16.0f;
 SHARED_CONST float kAntialiasedFramesInMotion = 5.0f;
 

@@ -13,14 +13,17 @@ const std::filesystem::path kShaders = BRUME_SOURCE_DIR "/shaders";
 
 class ShaderReloadTest : public gpu::GpuTest {
  protected:
-  /// Compiles display.comp with a substring replaced.
-  static Result<std::vector<std::uint32_t>> compile(const cli::WorkFolder& folder, const std::string& from,
-                                                    const std::string& to) {
+  struct Change {
+    std::string file, from, to;
+  };
+
+  /// Compiles display.comp with a substring of it, or of a file that it includes, replaced.
+  static Result<std::vector<std::uint32_t>> compile(const cli::WorkFolder& folder, const Change& change) {
     std::filesystem::copy(kShaders, folder.path() / "shaders", std::filesystem::copy_options::recursive);
-    const auto path = folder.path() / "shaders" / "display.comp";
+    const auto path = folder.path() / "shaders" / change.file;
     std::ifstream in(path);
     std::string text(std::istreambuf_iterator<char>(in), {});
-    text.replace(text.find(from), from.size(), to);
+    text.replace(text.find(change.from), change.from.size(), change.to);
     std::ofstream(path, std::ios::trunc) << text;
     return compile_shader(folder.path() / "shaders", "display.comp");
   }
@@ -37,7 +40,7 @@ TEST_F(ShaderReloadTest, CompilesAllShadersOfTheBuild) {
 
 TEST_F(ShaderReloadTest, ErrorsNameFileAndLine) {
   const cli::WorkFolder folder;
-  const auto words = compile(folder, "srgb_from_linear(", "no_such_function(");
+  const auto words = compile(folder, {"display.comp", "displayed(px", "no_such_function(px"});
   ASSERT_FALSE(words);
   EXPECT_NE(words.failure().message.find("display.comp:"), std::string::npos) << words.failure().message;
   EXPECT_NE(words.failure().message.find("no_such_function"), std::string::npos);
@@ -45,16 +48,15 @@ TEST_F(ShaderReloadTest, ErrorsNameFileAndLine) {
 
 TEST_F(ShaderReloadTest, RefusesAnotherInterface) {
   const gpu::ComputePipeline pipeline(context(), shaders::display_comp);
-  const std::vector<std::pair<std::string, std::string>> changes{
-      {"binding = kBindDisplay", "binding = 46"},
-      {"local_size_x = 8", "local_size_x = 16"},
-      {"layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile",
-       "layout(binding = kBindFrame) uniform sampler2D blue_noise_tile"}};
-  for (const auto& [from, to] : changes) {
+  const std::vector<Change> changes{
+      {"display.comp", "binding = kBindDisplay", "binding = 46"},
+      {"display.comp", "local_size_x = 8", "local_size_x = 16"},
+      {"lib/displayed.glsl", "binding = kBindBlueNoise", "binding = kBindFrame"}};
+  for (const Change& change : changes) {
     const cli::WorkFolder folder;
-    const auto words = compile(folder, from, to);
+    const auto words = compile(folder, change);
     ASSERT_TRUE(words) << words.failure().message;
-    EXPECT_FALSE(check_fit(*words, pipeline, "display.comp")) << to;
+    EXPECT_FALSE(check_fit(*words, pipeline, "display.comp")) << change.to;
   }
   const auto same = compile_shader(kShaders, "display.comp");
   ASSERT_TRUE(same);

@@ -233,7 +233,7 @@ TEST_F(WindowTest, ReloadsShadersAndRejectsBrokenOnes) {
     std::filesystem::last_write_time(file("shaders/display.new"), changed += std::chrono::seconds(2));
     std::filesystem::rename(file("shaders/display.new"), file("shaders/display.comp"));
   };
-  const std::string colour = "vec4(clamp(shown + noise * (params.dither / 255.0), 0.0, 1.0), 1.0)";
+  const std::string colour = "displayed(px, imageLoad(radiance_image, px).rgb, params.dither)";
   const std::string red = "vec4(1.0, 0.0, 0.0, 1.0)";
   const auto is_red = [](const image::Image8& now) {
     return count_colours(now) == 1 && now.rgba[0] == 255 && now.rgba[1] == 0;
