@@ -1,10 +1,12 @@
-// The media in each cell: the mean of the smoke's voxels, eroded by the noise on average, and of points in volumes.
+// The media in each cell: the mean of the smoke's voxels, eroded by the noise on average and cut by holes, and of
+// points in volumes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/indirect_cells.glsl"
 #include "lib/bricks.glsl"
+#include "lib/cell_holes.glsl"
 #include "lib/erosion.glsl"
 #include "shared/media.h"
 #include "shared/noise.h"
@@ -31,13 +33,24 @@ float eroded(float density) {
   return effective_density(vec2(effective_density(remaining[0], k), effective_density(remaining[1], k)).xyxy, k);
 }
 
+/// Mean fraction of the density of a voxel of a brick that the holes leave.
+float remaining_in_voxel(uint slot, ivec3 local) {
+  if (frame.holes.count == 0u || hole_cells[slot] == 0u) return 1.0;
+  float sum = 0.0;
+  for (int i = 0; i < 8; ++i)
+    sum += remaining_in_cell(slot, vec3(local) + 0.25 + 0.5 * vec3(i & 1, i >> 1 & 1, i >> 2));
+  return sum / 8.0;
+}
+
 float density_at(ivec3 voxel) {
   const ivec3 brick = voxel >> 3;
   int empty_edge;
   const uint slot = slot_at(frame.volume.bricks, brick, empty_edge);
   if (slot == kNoSlot) return 0.0;
-  const vec3 at = atlas_corner(frame.volume.bricks, slot) + vec3(voxel - brick * kBrickVoxels) + 0.5;
-  return eroded(textureLod(density_atlas, at * frame.volume.bricks.atlas_texel, 0.0).r);
+  const ivec3 local = voxel - brick * kBrickVoxels;
+  const vec3 at = atlas_corner(frame.volume.bricks, slot) + vec3(local) + 0.5;
+  const float density = textureLod(density_atlas, at * frame.volume.bricks.atlas_texel, 0.0).r;
+  return eroded(density) * remaining_in_voxel(slot, local);
 }
 
 /// Scattering coefficient and extinction of a medium, as of a similar one that scatters evenly.

@@ -1,46 +1,100 @@
-// Light of the lights in each cell of smoke, the mean over all directions.
+// Light of the lights in each cell of a medium, the mean over all directions; and what the formulas of
+// shared/scattering.h find in the cell, on average. Cells know better where beams are narrow or walls hide a light; the
+// formulas know better what happens within a cell. So media have the light of the cells, times the formula at the point
+// itself, divided by its mean.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/indirect_lights.glsl"
+#include "shared/scattering.h"
 
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(local_size_x = 64) in;
+layout(scalar, binding = kBindIndirectProbes) readonly buffer Probes { uint probes[]; };
+layout(scalar, binding = kBindIndirectHits) readonly buffer Hits { uint hits[]; };
 layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
+layout(binding = kBindIndirectCubeTarget, rgba16f) uniform writeonly image3D cube;
 
-/// Light at a point of a cell of a medium.
-vec3 light_in_medium(Light light, vec3 p_world, float extinction) {
-  const Incident incident = light_at(light, p_world);
-  if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance)
-    return vec3(0.0);
-  const float lit = light_visibility(light, p_world);
-  if (lit <= 0.0) return vec3(0.0);
-  // Its own cell, and from its border on.
-  const float depth = medium_depth(p_world, incident.to_light, incident.distance, 0.5);
-  return incident.irradiance * (lit * out_of_cell(extinction) * exp(-depth));
+/// Points of a cell: light falls off too fast from its border for the mean to be that of the middle. Along each axis
+/// half of them are at each point of the Gauss-Legendre rule.
+const uint kPoints = 4u;
+
+/// Relative to the middle of the cell [cells].
+vec3 point_of_cell(uint i) { return (vec3(i & 1u, i >> 1u, (i & 1u) ^ (i >> 1u)) - 0.5) * 0.577350269; }
+
+/// What the formula for a light needs at each of the points.
+struct Formula {
+  vec3 fraction[kPoints];
+  vec3 decay;  // per optical depth of the cells
+};
+
+/// Mean transmittance out of the media at a place [cells], over all directions.
+float escape_at(uint probe, uint phase, vec3 p_cells) {
+  float sum = 0.0;
+  for (uint i = 0u; i < kProbeRays; ++i)
+    sum += exp(-medium_depth(p_cells, probe_direction(i, phase), hit_cells(hits[i * params.probe_count + probe])));
+  return sum / float(kProbeRays);
 }
 
-/// The mean over a cell: by 8 points near a light and 64 next to it, around which it grows beyond all bounds.
-vec3 light_in_cell(Light light, vec3 p_world, float extinction) {
-  const float cell = frame.indirect.cell_size;
-  const float cells = light.kind == kLightDirectional ? 1e9 : distance(light.position_world, p_world) / cell;
-  if (cells > 2.0) return light_in_medium(light, p_world, extinction);
-  const int edge = cells < 1.0 ? 4 : 2;
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < edge * edge * edge; ++i) {
-    const vec3 at = (vec3(i % edge, i / edge % edge, i / (edge * edge)) + 0.5) / float(edge) - 0.5;
-    sum += light_in_medium(light, p_world + at * cell, extinction);
+struct Arriving {
+  vec3 direct, formula;
+};
+
+/// Light at a place [cells], which is at point k of the cell.
+Arriving light_at_place(Light light, vec3 p_cells, Formula formula, uint k) {
+  const vec3 p_world = world_from_indirect(p_cells);
+  const Incident incident = light_at(light, p_world);
+  if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance)
+    return Arriving(vec3(0.0), vec3(0.0));
+  const float lit = light_visibility(light, p_world);
+  if (lit <= 0.0) return Arriving(vec3(0.0), vec3(0.0));
+  const float depth = medium_depth(p_cells, incident.to_light, incident.distance / frame.indirect.cell_size);
+  const vec3 arriving = incident.irradiance * lit;
+  return Arriving(arriving * exp(-depth), arriving * formula.fraction[k] * exp(-formula.decay * depth));
+}
+
+/// The mean over a cell: by the points of the formula, and by 64 next to a light, around which it grows beyond all
+/// bounds.
+Arriving light_in_cell(Light light, vec3 p_cells, Formula formula) {
+  const float cells = light.kind == kLightDirectional
+                          ? 1e9
+                          : distance(light.position_world, world_from_indirect(p_cells)) / frame.indirect.cell_size;
+  const uint points = cells < 1.0 ? 64u : kPoints;
+  Arriving sum = Arriving(vec3(0.0), vec3(0.0));
+  for (uint i = 0u; i < points; ++i) {
+    const vec3 at = points == kPoints ? point_of_cell(i) : (vec3(i & 3u, i >> 2u & 3u, i >> 4u) + 0.5) / 4.0 - 0.5;
+    const Arriving here = light_at_place(light, p_cells + at, formula, i % kPoints);
+    sum.direct += here.direct / float(points);
+    sum.formula += here.formula / float(points);
   }
-  return sum / float(edge * edge * edge);
+  return sum;
 }
 
 void main() {
-  const ivec3 cell = params.media_low + ivec3(gl_GlobalInvocationID);
-  if (any(greaterThanEqual(cell, params.media_high))) return;
-  const float extinction = texelFetch(medium_matter, cell, 0).a;
-  vec3 sum = vec3(0.0);
-  if (extinction > 0.0) {
-    const vec3 p_world = frame.indirect.origin_world + (vec3(cell) + 0.5) * frame.indirect.cell_size;
-    for (uint i = 0u; i < params.light_count; ++i) sum += light_in_cell(lights[i], p_world, extinction);
+  const uint probe = gl_GlobalInvocationID.x;
+  if (probe >= params.probe_count) return;
+  const ivec3 cell = cell_at(frame.indirect, probes[probe]);
+  const vec4 matter = texelFetch(medium_matter, cell, 0);
+  if (matter.a <= 0.0) return;
+  const vec3 p_cells = vec3(cell) + 0.5;
+  // Of the medium itself, which the cells replace by a similar one.
+  const float similar = 1.0 - params.g * dot(params.albedo, vec3(1.0 / 3.0));
+  Formula formula;
+  vec3 sky = vec3(0.0);
+  for (uint k = 0u; k < kPoints; ++k) {
+    const float escape = escape_at(probe, probe_phase(cell), p_cells + point_of_cell(k));
+    sky += scattered_sky(min(matter.rgb / matter.a, 1.0), 1.0, 0.0, escape) / float(kPoints);
+    const ManyScatterings many = multiple_scattering(many_fit(), params.albedo, params.g, pow(escape, 1.0 / similar));
+    formula.fraction[k] = many.fraction;
+    formula.decay = many.decay / similar;
   }
-  imageStore(target, cell, vec4(sum * (0.25 / 3.14159265), extinction));
+  Arriving sum = Arriving(vec3(0.0), vec3(0.0));
+  for (uint i = 0u; i < params.light_count; ++i) {
+    const Arriving here = light_in_cell(lights[i], p_cells, formula);
+    sum.direct += here.direct;
+    sum.formula += here.formula;
+  }
+  const float per_sphere = 0.25 / 3.14159265;
+  imageStore(target, cell, vec4(sum.direct * per_sphere, 1.0));
+  imageStore(cube, cell + ivec3(0, 0, int(kSkySlab) * frame.indirect.size.z), vec4(sky, 1.0));
+  imageStore(cube, cell + ivec3(0, 0, int(kFormulaSlab) * frame.indirect.size.z), vec4(sum.formula * per_sphere, 1.0));
 }

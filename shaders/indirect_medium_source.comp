@@ -13,13 +13,13 @@ layout(scalar, push_constant) uniform Push { IndirectParams params; };
 void main() {
   const ivec3 cell = params.media_low + ivec3(gl_GlobalInvocationID);
   if (any(greaterThanEqual(cell, params.media_high))) return;
-  const vec4 direct = texelFetch(medium_direct, cell, 0);
+  const vec4 direct = texelFetch(medium_direct, cell, 0), matter = texelFetch(medium_matter, cell, 0);
   vec3 source = vec3(0.0);
   if (direct.a > 0.0) {
     vec4 sum = vec4(0.0);
-    for (int slab = 0; slab < 6; ++slab)
+    for (int slab = 0; slab < int(kLightSlabs); ++slab)
       sum += texelFetch(indirect_cube, cell + ivec3(0, 0, slab * frame.indirect.size.z), 0);
-    source = texelFetch(medium_matter, cell, 0).rgb * (direct.rgb + sum.rgb / 6.0);
+    source = matter.rgb * (direct.rgb + sum.rgb / float(kLightSlabs));
   }
-  imageStore(target, cell, vec4(source, direct.a));
+  imageStore(target, cell, vec4(source, matter.a));
 }

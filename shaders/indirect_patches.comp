@@ -21,7 +21,8 @@ void main() {
     const vec3 off = surface.position_world + (0.01 + 0.006 * min(incident.distance, 10.0)) * surface.normal;
     const float lit = light_visibility(lights[i], off);
     if (lit <= 0.0) continue;
-    sum += incident.irradiance * (cosine * lit * exp(-medium_depth(off, incident.to_light, incident.distance, 0.0)));
+    sum += incident.irradiance * (cosine * lit * exp(-medium_depth(indirect_from_world(off), incident.to_light,
+                                                                incident.distance / frame.indirect.cell_size)));
   }
   irradiance[at] = sum / 3.14159265;
 }

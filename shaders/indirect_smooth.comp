@@ -1,5 +1,5 @@
 // Smooths the light of the probes: a neighbourhood of 3^3 cells has the rays of all phases in equal parts, so what
-// differs from phase to phase averages out.
+// differs from phase to phase averages out. Not in media, through which that would spread light too far.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -16,17 +16,14 @@ void main() {
   const ivec3 size = frame.indirect.size;
   if (index >= uint(size.x * size.y * size.z)) return;
   const ivec3 cell = cell_at(frame.indirect, index);
-  // Light changes fast at the border of a medium.
   const bool in_medium = params.media_low.x < params.media_high.x && texelFetch(medium_matter, cell, 0).a > 0.0;
   vec4 sums[kIndirectSlabs];
   for (uint slab = 0u; slab < kIndirectSlabs; ++slab) sums[slab] = vec4(0.0);
   for (int i = 0; i < 27; ++i) {
-    const ivec3 step = ivec3(i % 3, i / 3 % 3, i / 9) - 1, at = cell + step;
-    if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, size))) continue;
-    const ivec3 far = abs(step);
+    const ivec3 step = ivec3(i % 3, i / 3 % 3, i / 9) - 1, at = cell + step, far = abs(step);
+    if (in_medium && step != ivec3(0) || any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, size))) continue;
     // Binomial weights; solid cells have an alpha of 0.
-    float weight = 1.0 / float(1 << (far.x + far.y + far.z));
-    if (in_medium && texelFetch(medium_matter, at, 0).a <= 0.0) weight = 0.0;
+    const float weight = 1.0 / float(1 << (far.x + far.y + far.z));
     for (uint slab = 0u; slab < kIndirectSlabs; ++slab)
       sums[slab] += weight * texelFetch(noisy_cube, at + ivec3(0, 0, int(slab) * size.z), 0);
   }
@@ -36,6 +33,6 @@ void main() {
     const ivec3 at = cell + ivec3(0, 0, int(slab) * size.z);
     if (sums[slab].a <= 0.0) continue;
     const vec3 light = alpha * sums[slab].rgb / sums[slab].a, before = imageLoad(target, at).rgb;
-    imageStore(target, at, vec4(max(mix(before, light, slab >= kEscapeSlab ? 1.0 : params.relaxation), 0.0), alpha));
+    imageStore(target, at, vec4(max(mix(before, light, slab >= kLightSlabs ? 1.0 : params.relaxation), 0.0), alpha));
   }
 }

@@ -104,7 +104,8 @@ void light_texel(LightGather brick, uint local) {
     light += indirect_at(p_world, to_eye, lights.often / excess, escape);
   else
     light += lights.often / excess + frame.sky.ambient * sky_visibility(p_world) *
-                                         scattered_sky(frame.look.albedo, frame.look.multiple_scattering, escape);
+                                         scattered_sky(frame.look.albedo, frame.look.multiple_scattering,
+                                                       mean_cosine(frame.look.phase), escape);
   imageStore(inscatter, at, vec4(light, 1.0));
   if (frame.look.erosion > 0.0)
     imageStore(light_side, at, light_side_at(texel_position(brick.slot, local), lights.side, light * excess));

@@ -143,7 +143,8 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   light.rgb = others.once;
   const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
   const vec3 sky = is_dense ? albedo * arrivals.sky + many.fraction * arrivals.many
-                            : albedo * scattered_sky(look.albedo, look.multiple_scattering, arrivals.escape);
+                            : albedo * scattered_sky(look.albedo, look.multiple_scattering, look.anisotropy,
+                                                     arrivals.escape);
   if (in_cells)
     light.rgb += refined_by_formula(albedo * indirect_field(p_world).mean, albedo * formula_in_cells(p_world), often,
                                     detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering,

@@ -54,15 +54,13 @@ IndirectField indirect_field(vec3 p_world) {
   return field;
 }
 
-/// How much brighter a place in a medium is than the cells know: they are coarse, so where light leaves easily it is
-/// brighter than their mean. `escape`: mean transmittance out of the medium there, whose phase function has the mean
-/// cosine g; the cells have that of a similar medium.
+/// How much brighter a place in a medium is than the cells know, which are coarse. `escape`: mean transmittance out of
+/// the medium there, whose phase function has the mean cosine g.
 vec3 detail_in_cells(vec3 p_world, vec3 albedo, float g, float weight, float escape) {
-  const float here = pow(escape, 1.0 - g * dot(albedo, vec3(1.0 / 3.0)));
-  const vec3 p = indirect_from_world(p_world);
-  const vec4 slab = indirect_slab(p, kEscapeSlab);
-  const float mean = mix(slab.r / max(slab.a, 1e-3), here, outside_of_cells(p));
-  return clamp(scattered_sky(albedo, weight, here) / scattered_sky(albedo, weight, mean), 0.25, 4.0);
+  const vec3 p = indirect_from_world(p_world), here = scattered_sky(albedo, weight, g, escape);
+  const vec4 slab = indirect_slab(p, kSkySlab);
+  if (slab.a <= 0.0) return vec3(1.0);
+  return clamp(here / mix(slab.rgb / slab.a, here, outside_of_cells(p)), 0.25, 4.0);
 }
 
 /// What the formula of shared/scattering.h takes for light that is scattered more than once, as coarse as the cells.

@@ -9,16 +9,16 @@ layout(scalar, push_constant) uniform Push { IndirectParams params; };
 layout(binding = kBindMediumMatter) uniform sampler3D medium_matter;
 #include "lib/light_visibility.glsl"
 
-/// Optical depth of the media from a point over a distance [m], from `nearest` cells on.
-float medium_depth(vec3 p_world, vec3 direction, float distance_m, float nearest) {
-  const vec3 p = indirect_from_world(p_world);
-  const vec2 span = span_in_media(params, p, direction, nearest, distance_m / frame.indirect.cell_size);
-  if (span.y <= span.x) return 0.0;
-  const float steps = ceil(span.y - span.x), ds = (span.y - span.x) / steps;
+/// Deeper media count as opaque.
+const float kOpaqueDepth = 12.0;
+
+/// Optical depth of the media from a place [cells] over a distance [cells].
+float medium_depth(vec3 p_cells, vec3 direction, float reach) {
   float sum = 0.0;
-  for (float i = 0.5; i < steps; ++i)
-    sum += textureLod(medium_matter, (p + direction * (span.x + i * ds)) / vec3(frame.indirect.size), 0.0).a;
-  return sum * ds * frame.indirect.cell_size;
+  for (Dda ray = ray_in_media(params, p_cells, direction, reach); ray.t < ray.t_end && sum < kOpaqueDepth;
+       ray = dda_step(ray))
+    sum += length_in_cell(ray) * texelFetch(medium_matter, ray.cell, 0).a;
+  return sum;
 }
 
 #endif

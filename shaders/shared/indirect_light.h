@@ -7,12 +7,12 @@
 //   patch_irradiance   per patch the irradiance / pi by the lights
 //   patch_radiance     per patch the radiance that leaves it
 //   cube      half floats, eight slabs of the grid's size along z: irradiance / pi of a surface that faces along
-//             cube_forward(slab), and 1; then in red the mean transmittance of the media out of the cell; then what the
-//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside
+//             cube_forward(slab), and 1; then, in media, the means over the cell of what the formulas of scattering.h
+//             find: scattered_sky, and the light of the lights that is scattered more than once. Solid cells beside
 //             free ones have the mean of those times kSolidWeight, all others are 0
 //   medium    half floats, a texel per cell: radiance that it scatters per metre, the same in all directions, and
 //             extinction [1/m]
-//   medium_direct       mean radiance of the lights alone, over all directions, and extinction
+//   medium_direct       mean radiance of the lights alone, over all directions, and 1
 //   medium_matter       scattering coefficient and extinction
 // Extinction and scattering here are those of similar media that scatter evenly: of forward scattering, the part g, the
 // mean cosine, counts as not scattered at all (van de Hulst 1980, "Multiple Light Scattering", similarity relations).
@@ -31,6 +31,7 @@ SHARED_BINDING(kBindIndirectMedium, 88u);
 SHARED_BINDING(kBindMediumDirect, 89u);
 SHARED_BINDING(kBindMediumMatter, 90u);
 SHARED_BINDING(kBindIndirectTarget, 91u);
+SHARED_BINDING(kBindIndirectCubeTarget, 95u);
 
 /// A piece of surface that a free cell sees.
 struct SurfacePatch {
@@ -52,9 +53,10 @@ struct IndirectParams {
 };
 SHARED_SIZE(IndirectParams, 64);
 
-/// Slabs of the cube, and those of the transmittance and of the formula.
+/// Slabs of the cube, those of light, and those of the formulas.
 SHARED_CONST uint kIndirectSlabs = 8u;
-SHARED_CONST uint kEscapeSlab = 6u;
+SHARED_CONST uint kLightSlabs = 6u;
+SHARED_CONST uint kSkySlab = 6u;
 SHARED_CONST uint kFormulaSlab = 7u;
 /// Alpha of solid cells beside free ones: they count only where there is nothing else, in corners.
 SHARED_CONST float kSolidWeight = 0.015625f;

@@ -54,13 +54,14 @@ SHARED_FUNCTION ManyScatterings multiple_scattering(SmokeLook look, float escape
   return many;
 }
 
-/// Radiance from all directions under a uniform sky of radiance 1, without the level: a fraction p arrives directly,
-/// the rest was scattered in a medium as bright as here, dimmed by the albedo: J = p + albedo (1 - p) J. Without
-/// absorption the medium is as bright as the sky, whatever its density: also where p is 0 by underflow, for which the
-/// formula would be 0 / 0. `weight` is that of multiple scattering.
-SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float p) {
-  float arrives = max(p, 1e-6f);
-  return vec3(arrives) / (vec3(1.0f) - weight * albedo * (1.0f - arrives));
+/// Mean radiance over all directions under a uniform sky of radiance 1, without the level, where a fraction p of it
+/// arrives directly: p^sqrt((1 - albedo) (1 - g albedo)). So it decays as diffusing light does (ManyFit), is p without
+/// scattering, and 1 without absorption, whatever the density. In a half-space under a sky of radiance 1 that scatters
+/// evenly it is within 0.11 of the truth, with an albedo of at most 0.9 within 0.06 (tests/light). `weight` is that of
+/// multiple scattering; g: the mean cosine of the phase function.
+SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float g, float p) {
+  vec3 again = weight * albedo;
+  return pow(vec3(max(p, 1e-30f)), sqrt((vec3(1.0f) - again) * (vec3(1.0f) - g * again)));
 }
 
 /// The part of `scattered` that is scattered more than once.

@@ -56,7 +56,6 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
       gather_pass_(context, shaders::indirect_gather_comp, {0u}),
       gather_in_media_pass_(context, shaders::indirect_gather_comp, {1u}),
       smooth_pass_(context, shaders::indirect_smooth_comp),
-      formula_pass_(context, shaders::indirect_formula_comp),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
   cube_ = make_image(context, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
@@ -103,7 +102,6 @@ void IndirectLightPass::record(gpu::Recorder& recorder, const Inputs& in,
     record_gather(recorder, in, slice, together);
     i += together;
     if (i % planning::kSlicesPerBounce != 0) continue;
-    if (bounce == 0 && has_media()) record_formula(recorder, in);
     record_smooth(recorder, in, relaxation(bounce, plan.bounces));
     if (bounce + 1 == plan.bounces) std::swap(cube_, next_cube_);
   }
@@ -128,6 +126,7 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
   if (has_media()) {
     recorder.clear(medium_, {});
     recorder.clear(medium_matter_, {});
+    recorder.clear(medium_direct_, {});
     record_media(recorder, in);
   }
   dispatch_lit(recorder, in, patches_pass_, {patch_count_, 1, 1},
@@ -157,6 +156,7 @@ void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) 
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindPages, gpu::read(in.smoke.pages)},
                  {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                 {shared::kBindHoleCells, gpu::read(in.hole_cells)},
                  {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
                  {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                  {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
@@ -166,8 +166,11 @@ void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) 
                  {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
                 params_);
   recorder.dispatch_threads(medium_pass, cells.x, cells.y, cells.z);
-  dispatch_lit(recorder, in, medium_light_pass_, cells,
-               gpu::BoundResource{shared::kBindIndirectTarget, gpu::stored(medium_direct_)});
+  dispatch_lit(recorder, in, medium_light_pass_, {probe_count_, 1, 1},
+               gpu::BoundResource{shared::kBindIndirectProbes, gpu::read(probes_)},
+               gpu::BoundResource{shared::kBindIndirectHits, gpu::read(hits_)},
+               gpu::BoundResource{shared::kBindIndirectTarget, gpu::stored(medium_direct_)},
+               gpu::BoundResource{shared::kBindIndirectCubeTarget, gpu::stored(noisy_cube_)});
 }
 
 /// What patches and media send out, of the light that is known so far.
@@ -210,11 +213,6 @@ void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in,
                  {shared::kBindIndirectTarget, gpu::stored(noisy_cube_)}},
                 params_);
   recorder.dispatch_threads(gather, params_.end_probe - params_.first_probe);
-}
-
-void IndirectLightPass::record_formula(gpu::Recorder& recorder, const Inputs& in) {
-  dispatch_lit(recorder, in, formula_pass_, glm::uvec3(params_.media_high - params_.media_low),
-               gpu::BoundResource{shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)});
 }
 
 void IndirectLightPass::record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation) {

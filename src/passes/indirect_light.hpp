@@ -29,6 +29,7 @@ class IndirectLightPass {
     const ShadowMaps& shadows;
     const SolidVolume& solid;
     const SmokeResources& smoke;
+    const gpu::Buffer& hole_cells;  ///< HoleResources::cells
     const gpu::Image& noise;
     VolumeResources volumes;
     std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
@@ -55,13 +56,12 @@ class IndirectLightPass {
   void record_media(gpu::Recorder& recorder, const Inputs& in);
   void record_sources(gpu::Recorder& recorder, const Inputs& in);
   void record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice, std::uint32_t count);
-  void record_formula(gpu::Recorder& recorder, const Inputs& in);
   void record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation);
   bool has_media() const { return params_.media_low.x < params_.media_high.x; }
 
   gpu::Context& context_;
   gpu::ComputePipeline patches_pass_, medium_light_pass_, patch_radiance_pass_, medium_source_pass_,
-      gather_pass_, gather_in_media_pass_, smooth_pass_, formula_pass_;
+      gather_pass_, gather_in_media_pass_, smooth_pass_;
   std::map<std::uint32_t, gpu::ComputePipeline> medium_passes_;  ///< By the media of a frame.
   gpu::Sampler linear_, compare_;
   gpu::Buffer patches_, probes_, hits_, irradiance_, radiance_, lights_;

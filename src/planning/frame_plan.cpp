@@ -31,7 +31,8 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& his
   plan.decals = plan_decals(plan.input, plan.frustum);
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
-  plan.indirect_light = history.indirect_light.plan(plan.input, plan.lit_media, std::move(lights));
+  plan.indirect_light =
+      history.indirect_light.plan(plan.input, plan.lit_media, plan.holes, std::move(lights));
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -115,13 +116,13 @@ const sim::State& FramePlan::state() const {
 
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
   FramePlan plan(input, target.size_px);
-  plan_visibility(plan, target, history);
-  plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
-  plan_level(plan, history);
   const SmokeInput& smoke = plan.input.smoke;
   const std::uint32_t slots = smoke.volume ? smoke.volume->slot_count() : 0;
   plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
                           slots > 0 ? smoke.volume->layout() : shared::VolumeLayout(), slots, target.size_px);
+  plan_visibility(plan, target, history);
+  plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
+  plan_level(plan, history);
   plan_noise_updates(plan, history);
   plan_volume_light(plan, history);
   plan_smoke_shadow_update(plan, target, history);

@@ -11,7 +11,7 @@ namespace brume::planning {
 namespace {
 
 std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
-                              std::span<const shared::Light> lights) {
+                              const HolePlan& holes, std::span<const shared::Light> lights) {
   KeyBytes key;
   key.add(bounces);
   key.add(input.environment.sky.ambient);
@@ -24,6 +24,8 @@ std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
     key.add(input.smoke.look.erosion);
     key.add(input.smoke.look.multiple_scattering);
     key.add(input.smoke.look.phase);
+    for (const shared::Hole& hole : holes.holes) key.add(hole);
+    if (!holes.holes.empty()) key.add(holes.time);  // they open and close
   }
   add_volumes(key, media, input.volumes);
   return key.take();
@@ -32,7 +34,7 @@ std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
 }  // namespace
 
 IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaPlan& media,
-                                           std::vector<shared::Light> lights) {
+                                           const HolePlan& holes, std::vector<shared::Light> lights) {
   IndirectLightPlan plan;
   const std::uint32_t bounces = input.environment.bounces;
   if (!input.level.voxels.grid || bounces == 0) return plan;
@@ -52,7 +54,7 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
   if (plan.level_changed) shown_key_.clear();
 
   // What is being found goes on, unless it must be there at once or the number of its bounces changed.
-  std::vector<std::byte> key = key_of(input, bounces, media, plan.lights);
+  std::vector<std::byte> key = key_of(input, bounces, media, holes, plan.lights);
   const float fraction =
       std::min(input.quality.light_update_fraction, input.quality.indirect_update_fraction);
   const bool at_once = shown_key_.empty() || fraction >= 1;

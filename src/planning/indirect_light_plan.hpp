@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "planning/hole_plan.hpp"
 #include "planning/media_plan.hpp"
 #include "volume/range_arena.hpp"
 
@@ -31,7 +32,8 @@ constexpr std::uint32_t kSlicesPerBounce = 8;
 class IndirectLightCache {
  public:
   /// The plan of a frame. It counts as done from then on.
-  IndirectLightPlan plan(const FrameInput& input, const MediaPlan& media, std::vector<shared::Light> lights);
+  IndirectLightPlan plan(const FrameInput& input, const MediaPlan& media, const HolePlan& holes,
+                         std::vector<shared::Light> lights);
 
  private:
   /// The next slices of what is being found; it shows after the last one.

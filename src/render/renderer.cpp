@@ -204,13 +204,14 @@ void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int p
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
-  if (plan.indirect_light.slices.count > 0)
-    scope(recorder, "indirect_light", [&] {
-      scene_.record_indirect_light(recorder, plan, frame_,
-                                   {smoke_.resources(), smoke_.noise(), smoke_.lit_volumes()});
-    });
   scope(recorder, "gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
+  if (plan.indirect_light.slices.count > 0)
+    scope(recorder, "indirect_light", [&] {
+      scene_.record_indirect_light(
+          recorder, plan, frame_,
+          {smoke_.resources(), smoke_.holes().cells, smoke_.noise(), smoke_.lit_volumes()});
+    });
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
   scope(recorder, "volume_light", [&] { smoke_.record_volume_light(recorder, plan, in); });
 }

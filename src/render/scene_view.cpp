@@ -66,6 +66,7 @@ void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::F
                                        .shadows = shadows_,
                                        .solid = solid_,
                                        .smoke = media.smoke,
+                                       .hole_cells = media.hole_cells,
                                        .noise = media.noise,
                                        .volumes = media.volumes,
                                        .casters = plan.media.casters};

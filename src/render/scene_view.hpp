@@ -24,9 +24,10 @@ class SceneView {
   /// Updates solid voxels and sky light where the level changed. `frame` holds FrameConstants, here and
   /// below.
   void record_level(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame);
-  /// Finds the indirect light of a plan, after the upload of its media.
+  /// Finds the indirect light of a plan, after the upload of its media and the holes in them.
   struct MediaResources {
     const passes::SmokeResources& smoke;
+    const gpu::Buffer& hole_cells;
     const gpu::Image& noise;  ///< Its tile.
     passes::VolumeResources volumes;
   };

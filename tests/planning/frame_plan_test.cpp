@@ -66,6 +66,33 @@ TEST_F(FramePlanTest, APausedCameraThatFliesOnlyGathersLight) {
   }
 }
 
+// Holes open and close, so that indirect light changes with the time while there are any.
+TEST_F(FramePlanTest, IndirectLightFollowsHoles) {
+  input_.environment.bounces = 2;
+  EXPECT_GT(plan().indirect_light.slices.count, 0u);
+  input_.smoke.time += 0.1f;
+  EXPECT_EQ(plan().indirect_light.slices.count, 0u);
+  shared::Hole hole{};
+  hole.origin_world = {8, 1, 20};
+  hole.forward = {0, 0, -1};
+  hole.right = {1, 0, 0};
+  hole.up = {0, 1, 0};
+  hole.radius = 0.5f;
+  hole.distance_to_far = 20;
+  hole.time_start = 4;
+  hole.time_to_reach_far = hole.time_to_expand = 0.1f;
+  hole.time_to_stay_open = 10;
+  input_.smoke.holes = {&hole, 1};
+  EXPECT_GT(plan().indirect_light.slices.count, 0u);
+  EXPECT_EQ(plan().indirect_light.slices.count, 0u);
+  input_.smoke.time += 0.1f;
+  EXPECT_GT(plan().indirect_light.slices.count, 0u);
+  hole.time_start = 100;  // not shot yet: no hole
+  EXPECT_GT(plan().indirect_light.slices.count, 0u);
+  input_.smoke.time += 0.1f;
+  EXPECT_EQ(plan().indirect_light.slices.count, 0u);
+}
+
 TEST_F(FramePlanTest, EditsAndHiddenObjectsOfTheLevelReachWhatTheyMayChange) {
   plan();
   input_.level.voxels.edits = std::make_shared<sim::EditBlocks>();

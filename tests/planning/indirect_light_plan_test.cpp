@@ -12,12 +12,13 @@ class IndirectLightCacheTest : public testing::Test {
     input_.environment.bounces = 3;
     lights_.resize(1);
   }
-  IndirectLightPlan plan() { return cache_.plan(input_, media_, lights_); }
+  IndirectLightPlan plan() { return cache_.plan(input_, media_, holes_, lights_); }
   static constexpr std::uint32_t kAll = 3 * kSlicesPerBounce;
 
   voxel::BitGrid grid_{{glm::ivec3(8), 0.5f, glm::vec3(0)}}, other_grid_{{glm::ivec3(8), 0.5f, glm::vec3(0)}};
   FrameInput input_;
   MediaPlan media_;
+  HolePlan holes_;
   std::vector<shared::Light> lights_;
   IndirectLightCache cache_;
 };
