@@ -59,12 +59,13 @@ std::uint32_t RepeatedFrame::texture_samples() const {
 }
 
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
-                       const render::RendererOptions& options, double seconds, float step_scale) {
+                       const render::RendererOptions& options, double seconds,
+                       const std::function<void(planning::Quality&)>& change) {
   const bool slow = bench.context().info().kind == "cpu";
   const unsigned count = bench.repetitions(slow ? 3 : 200);
   const VkDeviceSize before = bench.context().memory().bytes_in_use();
   RepeatedFrame frame(bench.context(), scenario, options, seconds);
-  frame.input().quality.step_scale = step_scale;
+  if (change) change(frame.input().quality);
   for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
   std::map<std::string, std::vector<double>> details;
   std::vector<double> sums;

@@ -1,6 +1,8 @@
 // Renders one frame of a scenario repeatedly and measures each of its passes.
 #pragma once
 
+#include <functional>
+
 #include "bench/bench.hpp"
 #include "render/playback.hpp"
 
@@ -48,9 +50,10 @@ struct FrameTimes {
   Measurement march;
 };
 
-/// Measures the frame at `seconds` of a scenario, marched in steps of Quality::step_scale: about 200 draws on
-/// a GPU, three on a software device.
+/// Measures the frame at `seconds` of a scenario, with a quality other than the usual one if given: about 200
+/// draws on a GPU, three on a software device.
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
-                       const render::RendererOptions& options, double seconds, float step_scale = 1);
+                       const render::RendererOptions& options, double seconds,
+                       const std::function<void(planning::Quality&)>& change = {});
 
 }  // namespace brume::bench

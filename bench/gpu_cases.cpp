@@ -79,7 +79,27 @@ Result<std::vector<Measurement>> march(Bench& bench) {
   Measurement m = time_frames(bench, "march/1080p", *scenario, options, kGrown).march;
   const double samples = count_texture_samples(bench.context(), *scenario, options);
   m.details = {{"texture_samples", samples}, {"gsamples_per_second", samples / m.median * 1e-6}};
-  return std::vector{m};
+  const Measurement soft = time_frames(bench, "march/1080p_without_fine_shadows", *scenario, options, kGrown,
+                                       [](planning::Quality& quality) { quality.fine_shadows = false; })
+                               .march;
+  return std::vector{m, soft};
+}
+
+/// All bounces of the indirect light of the demo scene and of a smoke in it.
+Result<std::vector<Measurement>> indirect_light(Bench& bench) {
+  auto scenario = smoke_in_the_yard({});
+  if (!scenario) return scenario.failure();
+  scenario->timeline.bounces = 8;
+  render::RendererOptions options;
+  options.size_px = {64, 36};
+  RepeatedFrame frame(bench.context(), *scenario, options, kGrown);
+  frame.input().quality.indirect_update_fraction = 1;
+  const bool slow = bench.context().info().kind == "cpu";
+  for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
+  std::vector<double> milliseconds;
+  for (unsigned i = 0; i < bench.repetitions(slow ? 3 : 200); ++i)
+    milliseconds.push_back(frame.draw().passes.at("indirect_light"));
+  return std::vector{summarize("indirect_light", "ms", "gpu", milliseconds)};
 }
 
 /// 51 lights and 64 open holes. `is_film`: smoothed over frames.
@@ -244,6 +264,7 @@ std::vector<Case> gpu_cases() {
        [](Bench& b) {
          return frames(b, "frame/4k", {3840, 2160}, 1);
        }},
+      {"indirect_light", "8 bounces of indirect light in the demo scene and a smoke in it", indirect_light},
       {"frame/motel",
        "the motel with smoke, without and with 30 holes, at half resolution; at a quarter without a GPU",
        motel_frames},
