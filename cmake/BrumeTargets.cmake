@@ -124,7 +124,7 @@ endfunction()
 function(brume_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "LINKS;LABELS")
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+    set(arg_TIMEOUT 900)  # only ends a hang
   endif()
   if(NOT arg_COST)
     set(arg_COST 1)

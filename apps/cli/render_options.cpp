@@ -26,8 +26,9 @@ void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outp
 // Refuses options of the other mode.
 void refuse_other_mode(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
   if (is_reference(options)) {
-    for (const char* option : {"--march", "--raycast", "--temporal", "--step", "--resolve-error-scale",
-                               "--light-update-fraction", "--volume-memory", "--view", "--slice", "--device"})
+    for (const char* option :
+         {"--march", "--raycast", "--temporal", "--step", "--resolve-error-scale", "--light-update-fraction",
+          "--volume-memory", "--view", "--slice", "--device", "--bounces"})
       arguments.refuse(option, "is for --mode realtime");
     if (plan.kind != TargetKind::picture)
       arguments.refuse("--checkpoint", "is for a single picture; numbered frames have --resume");

@@ -37,7 +37,8 @@ void refuse_options_of_levels(const Arguments& arguments) {
                              "--smoke",
                              "--throw",
                              "--smoke-size",
-                             "--sun"})
+                             "--sun",
+                             "--bounces"})
     arguments.refuse(option, "is not for a tank of spheres");
 }
 

@@ -92,6 +92,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
   if (options.voxel) timeline.grid.voxel = *options.voxel;
   if (options.exposure) timeline.exposure = *options.exposure;
   if (options.tone) timeline.tone = *options.tone;
+  if (options.bounces) timeline.bounces = *options.bounces;
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
 }
 
@@ -175,6 +176,12 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
   arguments.add_option("--exposure", options.exposure, "Exposure [EV]; default: the timeline's, or measured")
       .range(-20.0, 20.0)
       .type_name("EV");
+  arguments
+      .add_option("--bounces", options.bounces,
+                  "Indirect light: how often surfaces and smoke pass light on to each other, 8 is enough; "
+                  "default: the timeline's, or 0, never")
+      .range(0u, scene::kMostBounces)
+      .type_name("N");
   declare_transfer(arguments, options);
 }
 
@@ -200,6 +207,7 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
     if (number) std::snprintf(text, sizeof text, "%.17g", *number);  // to_string() has but 6 decimals
     texts.emplace_back(text);
   }
+  texts.push_back(options.bounces ? std::to_string(*options.bounces) : "");
   return texts;
 }
 
@@ -209,6 +217,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.voxel = as_float(options.voxel);
   parsed.smoke_size = as_float(options.smoke_size);
   parsed.exposure = as_float(options.exposure);
+  parsed.bounces = options.bounces;
   if (!options.tone.empty())
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);

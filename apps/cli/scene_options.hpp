@@ -1,6 +1,7 @@
 // Options that stand in for a timeline: the smoke, scale, light and exposure of a scene alone.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
   std::string sun, tone, opacity, color_map, range;
+  std::optional<std::uint32_t> bounces;
 };
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options);

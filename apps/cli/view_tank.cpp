@@ -12,7 +12,7 @@ namespace {
 // What is for levels and their smoke.
 void refuse_options_of_levels(const Arguments& arguments) {
   for (const char* option : {"--quality", "--fps", "--view", "--word", "--shot", "--record",
-                             "--volume-memory", "--smoke-size", "--voxel", "--scale", "--sun"})
+                             "--volume-memory", "--smoke-size", "--voxel", "--scale", "--sun", "--bounces"})
     arguments.refuse(option, "is not for a tank of spheres");
 }
 

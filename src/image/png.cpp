@@ -57,6 +57,9 @@ Result<void> encode(const std::filesystem::path& path, const PngKind& kind,
   };
   if (!context) return failed(SPNG_EMEM);
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  // A seventh of the time of the defaults for a seventh more bytes: films write many.
+  spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 2);
+  spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB);
   spng_ihdr header{};
   header.width = kind.width;
   header.height = kind.height;

@@ -242,6 +242,7 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
     log_warning(path.string() + ": nothing to see: none of its triangles has an area");
   scene::Camera camera = scene::default_camera(scene, options.aspect);
   timeline.exposure = options.exposure.value_or(0);
+  timeline.bounces = options.bounces.value_or(0);
   timeline.tone = options.tone.value_or(timeline.tone);
 
   // Its smoke.

@@ -20,7 +20,8 @@ struct FirstViewOptions {
   /// What is looked from instead of the camera of the result [m]: the smoke is placed for it.
   std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};
-  std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
+  std::optional<float> exposure;              ///< [EV]; empty: measured (Scenario::measure_exposure).
+  std::optional<std::uint32_t> bounces = {};  ///< Timeline::bounces; empty: none.
   std::optional<scene::ToneCurve> tone = {};
   // Of a volume alone, as in scene::VolumeOptions.
   std::vector<scene::OpacityPoint> opacity = {};

@@ -40,11 +40,14 @@ void visit_timeline_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"exposure", "EV", "radiance is multiplied by 2^exposure", -20, 20}, o.exposure);
 }
 
+/// Most bounces of indirect light.
+constexpr std::uint32_t kMostBounces = 16;
+
 template <typename Options, typename Visitor>
 void visit_bounce_options(Options& o, Visitor&& visit) {
-  visit(
-      OptionInfo{"bounces", "", "how often surfaces and smoke pass light on to each other; 0: never", 0, 16},
-      o.bounces);
+  visit(OptionInfo{"bounces", "", "how often surfaces and smoke pass light on to each other; 0: never", 0,
+                   kMostBounces},
+        o.bounces);
 }
 
 /// How the scene's file becomes the level: settings that a running simulation cannot change.

@@ -44,6 +44,21 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   }
 }
 
+TEST_F(Documents, PicturesOfTheGalleryRender) {
+  RunOptions options;
+  options.program = BRUME_SOURCE_DIR "/script/gallery";
+  const Outcome run =
+      run_brume(folder_.path(), {"pictures", "--quick", "--film", "--build", BRUME_BUILD_DIR}, options);
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures/gallery.mp4"));
+  // Those of the page.
+  for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/docs/images/gallery")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find("_before.") != std::string::npos) continue;
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures" / name)) << name;
+  }
+}
+
 // Each change of a scene has an effect, be it in pictures of one sample.
 TEST_F(Documents, PicturesOfTanksRender) {
   RunOptions options;

@@ -70,6 +70,26 @@ TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
       EXPECT_EQ(render({"-o", "no.png", option, value}).exit_code, 2) << option << value;
 }
 
+TEST_F(Render, BouncesStandInForThoseOfTheTimeline) {
+  folder_.write("lit.toml", std::string("bounces = 2\n") + kTimeline);
+  const auto draw = [&](const std::string& timeline, const std::string& name, Arguments more) {
+    Arguments arguments{"render", timeline, "-o", name, "--size", "64x36", "--time", "0.8"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_brume(folder_.path(), arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return png(name).rgba;
+  };
+  const auto none = draw("room.toml", "none.png", {}), two = draw("lit.toml", "two.png", {});
+  EXPECT_NE(none, two);
+  EXPECT_EQ(draw("room.toml", "given.png", {"--bounces", "2"}), two);
+  EXPECT_EQ(draw("lit.toml", "off.png", {"--bounces", "0"}), none);
+  for (const char* bad : {"17", "-1", "1.5", "many"})
+    expect_failure(folder_, {"render", "room.toml", "-o", "bad.png", "--bounces", bad}, 2, {"--bounces"});
+  expect_failure(folder_, {"render", "room.toml", "-o", "bad.png", "--bounces", "2", "--mode", "reference"},
+                 2, {"--bounces", "is for --mode realtime"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "bad.png"));
+}
+
 TEST_F(Render, DebugViewsAndSlices) {
   const Arguments small{"--size", "48x27", "--time", "0.8"};
   const auto draw = [&](const std::string& name, Arguments more) {
