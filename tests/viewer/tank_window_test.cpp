@@ -197,12 +197,16 @@ TEST_F(TankWindowTest, TimeRunsWithPlayAndStopsByKey) {
 }
 
 TEST_F(TankWindowTest, SurvivesResizingAndTheLossOfDeviceAndSurface) {
-  run({"--exit-after", "1.5", "--lose-device", "0.4", "--lose-surface", "0.8", "--screenshot", "shot.png"});
+  program_.emplace(
+      desktop_, folder_.path(),
+      std::vector<std::string>{"--play", "tank.toml", "--size", "240x160", "--validation", "--json", "r.json",
+                               "--lose-device", "0.1", "--lose-surface", "0.2"});
   ASSERT_TRUE(program_->wait_for_window()) << program_->error();
   program_->resize(200, 120);
-  const auto result = report();
-  EXPECT_EQ(result.at("devices_lost"), 1);
-  EXPECT_EQ(image::load_image(file("shot.png")).value_or_throw().width, 200u);
+  ASSERT_TRUE(program_->wait_for_frame(
+      [](const Frame& frame) { return frame.size_px == glm::uvec2(200, 120) && frame.seconds > 0.3; }));
+  EXPECT_EQ(program_->contents().width, 200u);
+  EXPECT_EQ(finish().at("devices_lost"), 1);
 }
 
 TEST_F(TankWindowTest, AnEmptyTankIsAPictureOfTheSky) {
