@@ -9,6 +9,7 @@
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
 #include "lib/slice_texture.glsl"
+#include "lib/low_discrepancy.glsl"
 #include "shared/decal.h"
 #include "shared/gbuffer.h"
 
@@ -102,7 +103,7 @@ void add_decal(Decal decal, vec3 p_world, vec3 normal, Scatter scatter, inout Re
   }
   float sum = 0.0;
   for (uint i = scatter.first; i < scatter.first + scatter.count; ++i) {
-    const vec3 offset = fract(scatter.noise + float(i) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) - 0.5;
+    const vec3 offset = lattice_point(i, scatter.noise) - 0.5;
     sum += occlusion_at(decal, uvw + offset * decal.scatter, curve);
   }
   remaining.scattered *= 1.0 - sum / float(scatter.count);

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/indirect_cells.glsl"
+#include "lib/low_discrepancy.glsl"
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
@@ -28,9 +29,8 @@ vec4 through_media(vec3 p_cells, vec3 direction, float reach) {
   return vec4(sum, transmittance);
 }
 
-/// Where ray i starts in its cell, relative to the middle [cells]: places spread evenly, so that the rays find the mean
-/// of the cell (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-vec3 start_of(uint i) { return fract(float(i) * vec3(0.8191725, 0.6710436, 0.5497005) + 0.5) - 0.5; }
+/// Where ray i starts in its cell, relative to the middle [cells]: all over it, so that the rays find its mean.
+vec3 start_of(uint i) { return lattice_point(i, vec3(0.5)) - 0.5; }
 
 void main() {
   const uint probe = params.first_probe + gl_GlobalInvocationID.x;

@@ -8,6 +8,7 @@
 #include "lib/bricks.glsl"
 #include "lib/cell_holes.glsl"
 #include "lib/erosion.glsl"
+#include "lib/low_discrepancy.glsl"
 #include "shared/media.h"
 #include "shared/noise.h"
 
@@ -25,7 +26,7 @@ float eroded(float density) {
   if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
   vec4 remaining[2];
   for (int i = 0; i < 8; ++i) {
-    const vec3 place = fract(float(i) * vec3(0.8191725, 0.6710436, 0.5497005) + 0.5);
+    const vec3 place = lattice_point(uint(i), vec3(0.5));
     remaining[i >> 2][i & 3] = erode(frame.look, density, textureLod(noise_tile, place, 0.0));
   }
   // Along half a billow (shared/noise_functions.h) the noise hardly changes.

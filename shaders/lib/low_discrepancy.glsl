@@ -1,4 +1,5 @@
-// Sobol's points in two dimensions with Owen's scrambling: the functions of src/trace/low_discrepancy.hpp.
+// Points that fill a square or a cube evenly: Sobol's in two dimensions with Owen's scrambling, the functions of
+// src/trace/low_discrepancy.hpp, and a lattice in three.
 #ifndef LOW_DISCREPANCY_GLSL
 #define LOW_DISCREPANCY_GLSL
 
@@ -31,6 +32,12 @@ vec2 sobol_point(uint i, uint seed) {
   const uint x = bitfieldReverse(scrambled_upwards(shuffled, seed ^ 0x85ebca6bu));
   const uint y = bitfieldReverse(scrambled_upwards(bitfieldReverse(second_of_sobol(shuffled)), seed ^ 0xc2b2ae35u));
   return vec2(uvec2(x, y) >> 8u) * (1.0 / 16777216.0);
+}
+
+/// Point i of a sequence in [0, 1)^3 that is moved by `shift` (Roberts 2018, "The Unreasonable Effectiveness of
+/// Quasirandom Sequences").
+vec3 lattice_point(uint i, vec3 shift) {
+  return fract(shift + float(i) * vec3(0.8191725134, 0.6710436067, 0.5497004779));
 }
 
 #endif
