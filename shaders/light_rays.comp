@@ -16,6 +16,7 @@ layout(scalar, binding = kBindLightRows) readonly buffer Rows { uint rows[]; };
 layout(scalar, binding = kBindLightBlocks) writeonly buffer Blocks { uint blocks[]; };
 layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/light_visibility.glsl"
+#include "lib/low_discrepancy.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/row_texels.glsl"
 #include "lib/smoke_texels.glsl"
@@ -23,6 +24,10 @@ layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 
 /// Steps through each volume besides the smoke.
 const uint kVolumeSteps = 16u;
+/// Points of a voxel at which a light is visible or not.
+const uint kVisibilityPoints = 8u;
+/// Edge of the cube they fill [voxels]: narrower, steps show; wider, shafts blur.
+const float kVisibilityEdge = 1.0;
 
 /// Optical depth from a texel along a unit direction.
 float media_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
@@ -32,18 +37,46 @@ float media_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) 
   return depth;
 }
 
-/// Visibility of a light at a point; 0 also where the light is negligible (slightly below the threshold of
-/// inscatter.comp).
-float significant_visibility(Light light, Incident incident, vec3 p_world) {
+/// Point i of those at which the visibility of a light is taken, from the centre of the voxel [voxels]: a lattice and
+/// its opposites, so that their mean has no side.
+vec3 visibility_offset(uint i) {
+  const vec3 offset = (lattice_point(i / 2u, vec3(0.5)) - 0.5) * kVisibilityEdge;
+  return (i & 1u) == 0u ? offset : -offset;
+}
+
+/// Whether a point near a texel is on the texel's side of all surfaces.
+bool is_on_side(vec3 texel_voxel, vec3 offset) {
+  const vec3 p = texel_voxel + offset, brick = floor(p / float(kBrickVoxels));
+  int empty_edge;
+  const uint slot = slot_at(frame.volume.bricks, ivec3(brick), empty_edge);
+  return slot == kNoSlot || !is_behind_surface(slot, p - brick * float(kBrickVoxels), -offset);
+}
+
+/// Mean visibility of a light around a texel. At its centre alone, light would have the steps of the texels along the
+/// edges of shafts.
+float mean_visibility(Light light, vec3 p_voxel) {
+  float sum = 0.0;
+  for (uint i = 0u; i < kVisibilityPoints; ++i)
+    sum += light_visibility(light, world_from_voxel(p_voxel + visibility_offset(i)));
+  if (sum == 0.0 || sum == float(kVisibilityPoints)) return sum / float(kVisibilityPoints);
+  for (uint i = 0u; i < kVisibilityPoints; ++i)
+    if (!is_on_side(p_voxel, visibility_offset(i))) return light_visibility(light, world_from_voxel(p_voxel));
+  return sum / float(kVisibilityPoints);
+}
+
+/// Visibility of a light at a texel; 0 also where the light is negligible (slightly below the threshold of
+/// inscatter.comp). Rays through voxels are for flashes, which last a few frames: they go to the centre.
+float significant_visibility(Light light, Incident incident, vec3 p_voxel) {
   const float strongest = max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b));
   if (strongest < 0.99 * kLeastIrradiance) return 0.0;
-  return light_visibility(light, p_world);
+  if (light.shadow_layer >= kShadowByVoxels) return light_visibility(light, world_from_voxel(p_voxel));
+  return mean_visibility(light, p_voxel);
 }
 
 void to_light(ShadowRays pair, uint local) {
-  const vec3 p_voxel = texel_position(pair.slot, local), p_world = world_from_voxel(p_voxel);
-  const Incident incident = light_at(lights[pair.light], p_world);
-  const float lit = significant_visibility(lights[pair.light], incident, p_world);
+  const vec3 p_voxel = texel_position(pair.slot, local);
+  const Incident incident = light_at(lights[pair.light], world_from_voxel(p_voxel));
+  const float lit = significant_visibility(lights[pair.light], incident, p_voxel);
   const float depth = media_depth(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
   blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(vec2(depth, lit));
 }
