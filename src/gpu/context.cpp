@@ -1,5 +1,7 @@
 #include "gpu/context.hpp"
 
+#include <string>
+
 #include "core/error.hpp"
 #include "gpu/device_features.hpp"
 
@@ -95,11 +97,41 @@ void Context::read_properties() {
 }
 
 Context::~Context() {
+  for (const RetiredFrame& retired : retired_) destroy(retired.handles);
   if (!owns_device()) return;
   vk_.DeviceWaitIdle(device_);  // Fails for a lost device, which is destroyed all the same.
   vk_.DestroySemaphore(device_, done_, nullptr);
   memory_.reset();
   vk_.DestroyDevice(device_, nullptr);
+}
+
+void Context::destroy(const Retired& handles) noexcept {
+  vk_.DestroyPipeline(device_, handles.pipeline, nullptr);
+  vk_.DestroyPipelineLayout(device_, handles.layout, nullptr);
+  vk_.DestroyDescriptorSetLayout(device_, handles.set_layout, nullptr);
+  vk_.DestroyDescriptorPool(device_, handles.descriptors, nullptr);
+  vk_.DestroyQueryPool(device_, handles.queries, nullptr);
+  vk_.DestroySampler(device_, handles.sampler, nullptr);
+  vk_.DestroyImageView(device_, handles.view, nullptr);
+  vk_.DestroyImage(device_, handles.image, nullptr);
+  vk_.DestroyBuffer(device_, handles.buffer, nullptr);
+  memory_->free(handles.range);
+}
+
+void Context::retire(const Retired& handles) noexcept {
+  const std::scoped_lock lock(retired_mutex_);
+  if (frame_ <= completed_) return destroy(handles);
+  retired_.push_back({frame_, handles});
+}
+
+void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
+  BRUME_ASSERT(!owns_device() && frame > frame_ && completed < frame && completed >= completed_,
+               std::to_string(frame) + ", " + std::to_string(completed));
+  const std::scoped_lock lock(retired_mutex_);
+  frame_ = frame;
+  completed_ = completed;
+  for (; !retired_.empty() && retired_.front().frame <= completed; retired_.pop_front())
+    destroy(retired_.front().handles);
 }
 
 void Context::submit(VkCommandBuffer commands, const WindowSemaphores& window) {

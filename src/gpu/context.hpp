@@ -1,8 +1,10 @@
 // The Vulkan device that everything runs on: our own, or a host application's.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -46,12 +48,27 @@ struct WindowSemaphores {
 
 class Pipeline;
 
+/// Handles that are no longer used by commands yet to be recorded; null: none.
+struct Retired {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkSampler sampler = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkDescriptorPool descriptors = VK_NULL_HANDLE;
+  VkQueryPool queries = VK_NULL_HANDLE;
+  Memory::Range range = {};
+};
+
 class Context {
  public:
   /// Creates its own instance and device. Throws no_device when no device fits.
   explicit Context(const ContextOptions& options);
   /// Uses the host's device: records only, never submits or waits.
   explicit Context(const HostDevice& host);
+  /// The device has completed all that was recorded.
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -71,6 +88,12 @@ class Context {
   std::vector<Pipeline*>& pipelines() { return pipelines_; }
   bool owns_device() const { return instance_ != nullptr; }
 
+  /// Destroys handles once the device has completed the frames that were begun before: at once on a device of
+  /// our own, whose programs wait before they destroy.
+  void retire(const Retired& handles) noexcept;
+  /// A host begins to record a frame; the device has completed all frames up to `completed`. Frames rise.
+  void begin_frame(std::uint64_t frame, std::uint64_t completed);
+
   // Only when owns_device():
   VkInstance instance() const { return instance_->handle(); }
   VkQueue queue() const { return queue_; }
@@ -85,6 +108,7 @@ class Context {
  private:
   void create_device(const Presentation& presentation);
   void read_properties();
+  void destroy(const Retired& handles) noexcept;
 
   std::unique_ptr<Instance> instance_;  // null: the device is the host's
   Functions vk_;
@@ -98,6 +122,15 @@ class Context {
   std::uint64_t max_allocation_bytes_ = 0;
   std::unique_ptr<Memory> memory_;
   std::vector<Pipeline*> pipelines_;
+
+  // Of a host's device.
+  struct RetiredFrame {
+    std::uint64_t frame;
+    Retired handles;
+  };
+  std::mutex retired_mutex_;
+  std::uint64_t frame_ = 0, completed_ = 0;
+  std::deque<RetiredFrame> retired_;  // frames rising
 };
 
 }  // namespace brume::gpu

@@ -123,10 +123,7 @@ Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderSta
 
 Pipeline::~Pipeline() {
   std::erase(context_.pipelines(), this);
-  const Functions& vk = context_.vk();
-  vk.DestroyPipeline(context_.device(), handle_, nullptr);
-  vk.DestroyPipelineLayout(context_.device(), layout_, nullptr);
-  vk.DestroyDescriptorSetLayout(context_.device(), set_layout_, nullptr);
+  context_.retire({.pipeline = handle_, .layout = layout_, .set_layout = set_layout_});
 }
 
 void Pipeline::make_first() {
@@ -142,7 +139,7 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
   if (result != VK_SUCCESS)
     return Failure{ErrorCode::bad_input,
                    std::string(code.name) + ": the driver rejects it with " + result_name(result)};
-  context_.vk().DestroyPipeline(context_.device(), handle_, nullptr);
+  context_.retire({.pipeline = handle_});
   handle_ = made;
   shaders_ = std::move(shaders);
   return {};

@@ -42,9 +42,7 @@ Dependency advance(LastUse& last, VkPipelineStageFlags2 stages, VkAccessFlags2 a
   return after_all;
 }
 
-}  // namespace
-
-FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
+VkDescriptorPool make_descriptor_pool(Context& context) {
   const VkDescriptorPoolSize sizes[] = {{kBuffer, 4 * kSetsPerFrame},
                                         {kUniform, kSetsPerFrame},
                                         {kSampled, 4 * kSetsPerFrame},
@@ -54,17 +52,26 @@ FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
   info.maxSets = kSetsPerFrame;
   info.poolSizeCount = 4;
   info.pPoolSizes = sizes;
-  check(context.vk().CreateDescriptorPool(context.device(), &info, nullptr, &descriptors_),
-        "vkCreateDescriptorPool");
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(context.vk().CreateDescriptorPool(context.device(), &info, nullptr, &pool), "vkCreateDescriptorPool");
+  return pool;
+}
+
+}  // namespace
+
+FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
+  descriptors_.push_back(make_descriptor_pool(context));
 }
 
 FrameSlot::~FrameSlot() {
-  context_.vk().DestroyDescriptorPool(context_.device(), descriptors_, nullptr);
+  for (const VkDescriptorPool pool : descriptors_) context_.retire({.descriptors = pool});
 }
 
 Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
     : context_(context), slot_(slot), commands_(commands) {
-  check(context.vk().ResetDescriptorPool(context.device(), slot.descriptors_, 0), "vkResetDescriptorPool");
+  for (const VkDescriptorPool pool : slot.descriptors_)
+    check(context.vk().ResetDescriptorPool(context.device(), pool, 0), "vkResetDescriptorPool");
+  slot.descriptors_index_ = 0;
   slot.staging_index_ = 0;
   slot.staging_used_ = 0;
   slot.timings_.reset(commands);
@@ -132,18 +139,29 @@ void Recorder::flush_barriers() {
   image_barriers_.clear();
 }
 
+VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout) {
+  VkDescriptorSetAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &layout;
+  for (;; ++slot_.descriptors_index_) {
+    std::vector<VkDescriptorPool>& pools = slot_.descriptors_;
+    const bool is_new = slot_.descriptors_index_ == pools.size();
+    if (is_new) pools.push_back(make_descriptor_pool(context_));
+    info.descriptorPool = pools[slot_.descriptors_index_];
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    const VkResult result = context_.vk().AllocateDescriptorSets(context_.device(), &info, &set);
+    const bool is_full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+    if (is_full && !is_new) continue;
+    check(result, "vkAllocateDescriptorSets");
+    return set;
+  }
+}
+
 VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const BoundResource> resources) {
   const std::string fault = binding_fault(pipeline.interface(), resources);
   BRUME_ASSERT(fault.empty(), std::string(pipeline.shaders().front().name) + ": " + fault);
-  VkDescriptorSetAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  info.descriptorPool = slot_.descriptors_;
-  info.descriptorSetCount = 1;
-  const VkDescriptorSetLayout layout = pipeline.set_layout();
-  info.pSetLayouts = &layout;
-  VkDescriptorSet set = VK_NULL_HANDLE;
-  check(context_.vk().AllocateDescriptorSets(context_.device(), &info, &set), "vkAllocateDescriptorSets");
-
+  const VkDescriptorSet set = allocate_set(pipeline.set_layout());
   std::vector<VkDescriptorBufferInfo> buffers(resources.size());
   std::vector<VkDescriptorImageInfo> images(resources.size());
   std::vector<VkWriteDescriptorSet> writes;
@@ -285,6 +303,7 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   info.pDepthAttachment = attachments.depth ? &depth : nullptr;
   const Functions& vk = context_.vk();
   vk.CmdBeginRendering(commands_, &info);
+  rendering_ = true;
   const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
   vk.CmdSetViewport(commands_, 0, 1, &viewport);
   vk.CmdSetScissor(commands_, 0, 1, &info.renderArea);
@@ -293,6 +312,15 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
 
 void Recorder::end_rendering() {
   context_.vk().CmdEndRendering(commands_);
+  rendering_ = false;
+}
+
+void Recorder::complete() {
+  if (rendering_) end_rendering();
+  concurrently_ = false;
+  dispatches_.clear();
+  flush_transfers();
+  flush_barriers();
 }
 
 void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,

@@ -75,7 +75,9 @@ class FrameSlot {
  private:
   friend class Recorder;
   Context& context_;
-  VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+  // Filled in order, as staging is.
+  std::vector<VkDescriptorPool> descriptors_;
+  std::size_t descriptors_index_ = 0;
   std::deque<Buffer> staging_;  // Filled in order; a new one is added when all are full.
   std::size_t staging_index_ = 0;
   VkDeviceSize staging_used_ = 0;
@@ -87,7 +89,7 @@ class Recorder {
   /// `commands` is in the recording state and remains so. `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
   /// Records what is left to record: before that, the commands must not end.
-  ~Recorder() { flush_transfers(); }
+  ~Recorder() { complete(); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -165,6 +167,10 @@ class Recorder {
     slot_.timings_.end(commands_);
   }
 
+  /// Records what is left to record, and ends a rendering that a failure left: the commands are valid then,
+  /// whatever was recorded.
+  void complete();
+
   VkCommandBuffer commands() const { return commands_; }
 
  private:
@@ -173,6 +179,7 @@ class Recorder {
     VkDeviceSize offset;
   };
   Staged stage_bytes(std::span<const std::byte> bytes);
+  VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
   VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
   void bind_set(const Pipeline& pipeline, VkDescriptorSet set);
   void add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
@@ -207,7 +214,7 @@ class Recorder {
   std::vector<VkImageMemoryBarrier2> image_barriers_;
   std::vector<Transfer> transfers_;
   std::vector<Dispatch> dispatches_;
-  bool concurrently_ = false;
+  bool concurrently_ = false, rendering_ = false;
 };
 
 /// Measures the GPU time of the commands recorded during its lifetime.
@@ -222,16 +229,30 @@ class Scope {
   Recorder& recorder_;
 };
 
+/// Where commands are recorded. Later ones see what earlier ones wrote.
+class CommandStream {
+ public:
+  virtual ~CommandStream() = default;
+  /// Records commands; the device executes them before it returns, or later. Throws what `record` throws, or
+  /// DeviceLost.
+  virtual void run(const std::function<void(Recorder&)>& record) = 0;
+
+ protected:
+  CommandStream() = default;
+  CommandStream(const CommandStream&) = default;
+  CommandStream& operator=(const CommandStream&) = default;
+};
+
 /// Its own command buffer, for programs that own the device.
-class CommandRunner {
+class CommandRunner : public CommandStream {
  public:
   explicit CommandRunner(Context& context);
-  ~CommandRunner();
+  ~CommandRunner() override;
   CommandRunner(const CommandRunner&) = delete;
   CommandRunner& operator=(const CommandRunner&) = delete;
 
-  /// Records, submits and waits. Throws what `record` throws, or DeviceLost.
-  void run(const std::function<void(Recorder&)>& record);
+  /// Records, submits and waits.
+  void run(const std::function<void(Recorder&)>& record) override;
   /// The same without the wait: call Context::wait before the next recording.
   void start(const std::function<void(Recorder&)>& record, const WindowSemaphores& window);
   std::vector<Timings::Scope> timings() const { return slot_.timings().read(); }

@@ -58,9 +58,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 }
 
 Buffer::~Buffer() {
-  if (!handle_) return;
-  context_->vk().DestroyBuffer(context_->device(), handle_, nullptr);
-  context_->memory().free(range_);  // NOLINT(clang-analyzer-unix.Malloc): not that of the C library
+  if (handle_) context_->retire({.buffer = handle_, .range = range_});
 }
 
 namespace {
@@ -109,6 +107,12 @@ Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), in
   }
 }
 
+Image::Image(const LentImage& lent) : handle_(lent.handle), view_(lent.view), lent_layout_(lent.layout) {
+  info_.format = lent.format;
+  info_.size = {lent.size_px, 1};
+  last_use.layout = lent.layout;
+}
+
 Image::Image(Image&& other) noexcept {
   *this = std::move(other);
 }
@@ -118,16 +122,14 @@ Image& Image::operator=(Image&& other) noexcept {
   std::swap(handle_, other.handle_);
   std::swap(view_, other.view_);
   std::swap(info_, other.info_);
+  std::swap(lent_layout_, other.lent_layout_);
   std::swap(range_, other.range_);
   std::swap(last_use, other.last_use);
   return *this;
 }
 
 Image::~Image() {
-  if (!handle_) return;
-  context_->vk().DestroyImageView(context_->device(), view_, nullptr);
-  context_->vk().DestroyImage(context_->device(), handle_, nullptr);
-  context_->memory().free(range_);
+  if (handle_ && context_) context_->retire({.image = handle_, .view = view_, .range = range_});
 }
 
 VkImageAspectFlags Image::aspect() const {
@@ -144,7 +146,7 @@ LayerView::LayerView(LayerView&& other) noexcept
     : context_(other.context_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
 
 LayerView::~LayerView() {
-  if (handle_) context_->vk().DestroyImageView(context_->device(), handle_, nullptr);
+  if (handle_) context_->retire({.view = handle_});
 }
 
 Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context) {
@@ -162,7 +164,7 @@ Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context
 }
 
 Sampler::~Sampler() {
-  context_.vk().DestroySampler(context_.device(), handle_, nullptr);
+  context_.retire({.sampler = handle_});
 }
 
 }  // namespace brume::gpu

@@ -55,11 +55,24 @@ struct ImageInfo {
   VkImageUsageFlags usage = 0;
 };
 
+/// An image of a host, lent for as long as the Image is used.
+struct LentImage {
+  VkImage handle = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;  ///< Of the aspect that is read, or of what is rendered into.
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  glm::uvec2 size_px{1};
+  /// That it has when it is lent, and has again afterwards: the host makes its own writes visible before, and
+  /// waits for the accesses to it afterwards.
+  VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
+};
+
 class Image {
  public:
   Image() = default;
   /// Throws resource_limit when there is no memory.
   Image(Context& context, const ImageInfo& info);
+  /// Owns nothing.
+  explicit Image(const LentImage& lent);
   Image(Image&& other) noexcept;
   Image& operator=(Image&& other) noexcept;
   ~Image();
@@ -71,6 +84,7 @@ class Image {
   VkImageAspectFlags aspect() const;
   /// Images that shaders write remain in GENERAL; others are read in SHADER_READ_ONLY.
   VkImageLayout sampled_layout() const {
+    if (lent_layout_ != VK_IMAGE_LAYOUT_UNDEFINED) return lent_layout_;
     return info_.usage & VK_IMAGE_USAGE_STORAGE_BIT ? VK_IMAGE_LAYOUT_GENERAL
                                                     : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   }
@@ -82,6 +96,7 @@ class Image {
   VkImage handle_ = VK_NULL_HANDLE;
   VkImageView view_ = VK_NULL_HANDLE;
   ImageInfo info_;
+  VkImageLayout lent_layout_ = VK_IMAGE_LAYOUT_UNDEFINED;  // of a LentImage
   Memory::Range range_;
 };
 

@@ -11,7 +11,7 @@ Timings::Timings(Context& context) : context_(context) {
 }
 
 Timings::~Timings() {
-  context_.vk().DestroyQueryPool(context_.device(), pool_, nullptr);
+  context_.retire({.queries = pool_});
 }
 
 void Timings::reset(VkCommandBuffer commands) {
@@ -32,14 +32,17 @@ void Timings::end(VkCommandBuffer commands) {
   context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
 }
 
-std::vector<Timings::Scope> Timings::read() const {
+std::vector<Timings::Scope> Timings::read(bool wait) const {
   const auto count = std::min<std::size_t>(names_.size(), kMaxScopes);
   if (count == 0) return {};
   std::vector<std::uint64_t> ticks(2 * count);
-  check(context_.vk().GetQueryPoolResults(context_.device(), pool_, 0, static_cast<std::uint32_t>(2 * count),
-                                          ticks.size() * 8, ticks.data(), 8,
-                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "vkGetQueryPoolResults");
+  VkQueryResultFlags flags = VK_QUERY_RESULT_64_BIT;
+  if (wait) flags |= VK_QUERY_RESULT_WAIT_BIT;
+  const VkResult result =
+      context_.vk().GetQueryPoolResults(context_.device(), pool_, 0, static_cast<std::uint32_t>(2 * count),
+                                        ticks.size() * 8, ticks.data(), 8, flags);
+  if (result == VK_NOT_READY) return {};
+  check(result, "vkGetQueryPoolResults");
   std::vector<Scope> scopes;
   for (std::size_t i = 0; i < count; ++i) {
     const auto duration = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);

@@ -27,9 +27,13 @@ class Timings {
   void begin(VkCommandBuffer commands, const char* name);
   void end(VkCommandBuffer commands);
   /// The scopes in order, once the device has completed the recording.
-  std::vector<Scope> read() const;
+  std::vector<Scope> read() const { return read(true); }
+  /// The same, and none where the recording was not submitted.
+  std::vector<Scope> read_available() const { return read(false); }
 
  private:
+  std::vector<Scope> read(bool wait) const;
+
   Context& context_;
   VkQueryPool pool_ = VK_NULL_HANDLE;
   std::vector<const char*> names_;

@@ -72,6 +72,13 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT)),
       depth(target_image(context, size, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)) {}
 
+GBuffer GBuffer::imported(gpu::Context& context, glm::uvec2 size) {
+  GBuffer made;
+  made.emission = target_image(context, size, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  made.depth = target_image(context, size, VK_FORMAT_R32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT);
+  return made;
+}
+
 GBufferPass::DepthFirst::DepthFirst(gpu::Context& context)
     : depth(context, pipeline_info(shaders::gbuffer_vert, nullptr)),
       dull(context, dull_info()),

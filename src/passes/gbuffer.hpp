@@ -17,6 +17,11 @@ struct GBuffer {
   gpu::Image emission;          ///< Half floats: radiance; 0 without a surface.
   gpu::Image depth;             ///< Reverse depth, 0: no surface.
   GBuffer(gpu::Context& context, glm::uvec2 size_px);
+  /// Of surfaces that a host draws (SurfaceImport): depth, and an emission of 0.
+  static GBuffer imported(gpu::Context& context, glm::uvec2 size_px);
+
+ private:
+  GBuffer() = default;
 };
 
 class GBufferPass {

@@ -32,14 +32,14 @@ CloudGenerator::CloudGenerator(gpu::Context& context)
   gpu::grow(context, values_, copy_.size());
 }
 
-void CloudGenerator::evaluate(gpu::CommandRunner& runner, shared::CloudParams params,
+void CloudGenerator::evaluate(gpu::CommandStream& stream, shared::CloudParams params,
                               std::span<const glm::ivec3> first_voxels, std::span<float> values) {
   for (std::size_t done = 0; done < first_voxels.size(); done += params.brick_count) {
     const auto bricks = first_voxels.subspan(
         done, std::min<std::size_t>(first_voxels.size() - done, GenerateCloudPass::kMaxBricks));
     params.brick_count = static_cast<std::uint32_t>(bricks.size());
     const std::size_t bytes = bricks.size() * kVoxels * sizeof(float);
-    runner.run([&](gpu::Recorder& recorder) {
+    stream.run([&](gpu::Recorder& recorder) {
       recorder.upload(bricks_, 0, std::as_bytes(bricks));
       pass_.record(recorder, bricks_, values_, params);
       recorder.read_back(values_, copy_, bytes);

@@ -26,7 +26,7 @@ class CloudGenerator {
  public:
   explicit CloudGenerator(gpu::Context& context);
   /// A grids::CloudEvaluator. The values differ from those of the CPU by rounding. Throws DeviceLost.
-  void evaluate(gpu::CommandRunner& runner, shared::CloudParams params,
+  void evaluate(gpu::CommandStream& stream, shared::CloudParams params,
                 std::span<const glm::ivec3> first_voxels, std::span<float> values);
 
  private:

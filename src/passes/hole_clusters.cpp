@@ -13,7 +13,7 @@ constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups a
 
 }  // namespace
 
-HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks)
+HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandStream& stream, const smoke::MaskAtlas& masks)
     : context_(context),
       tiles_pass_(context, shaders::hole_coarse_tiles_comp),
       groups_pass_(context, shaders::hole_clusters_comp),
@@ -25,12 +25,12 @@ HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, co
       words_taken_(context, sizeof(std::uint32_t),
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
   reserve(planning::plan_holes({}, 0, 0, {}, 0, {1, 1}));
-  set_masks(context, runner, masks);
+  set_masks(context, stream, masks);
 }
 
-void HoleClusters::set_masks(gpu::Context& context, gpu::CommandRunner& runner,
+void HoleClusters::set_masks(gpu::Context& context, gpu::CommandStream& stream,
                              const smoke::MaskAtlas& masks) {
-  runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
+  stream.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
 }
 
 void HoleClusters::reserve(const planning::HolePlan& plan) {

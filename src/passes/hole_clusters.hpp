@@ -19,9 +19,9 @@ struct HoleResources {
 class HoleClusters {
  public:
   /// Uploads the masks.
-  HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks);
+  HoleClusters(gpu::Context& context, gpu::CommandStream& stream, const smoke::MaskAtlas& masks);
   /// Other masks instead. When the device is done with what was recorded before.
-  void set_masks(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks);
+  void set_masks(gpu::Context& context, gpu::CommandStream& stream, const smoke::MaskAtlas& masks);
 
   /// Makes room for a plan. Not between the begin and the end of a recording, and only when the device is
   /// done with what it recorded before. Throws resource_limit.

@@ -97,13 +97,13 @@ gpu::Buffer upload_list(gpu::Context& context, gpu::Recorder& recorder, const st
 }
 
 /// The scene's images and the three stand-ins, sRGB where a material uses them as a colour.
-void upload_images(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+void upload_images(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene,
                    SceneResources& out) {
   std::vector<bool> is_colour(scene.images.size(), false);
   for (const scene::Material& material : scene.materials) {
     if (material.base_color_image != scene::kNone) is_colour[material.base_color_image] = true;
   }
-  runner.run([&](gpu::Recorder& recorder) {
+  stream.run([&](gpu::Recorder& recorder) {
     for (const auto& texel :
          {single_texel(255, 255, 255), single_texel(128, 128, 255), single_texel(255, 255, 255)}) {
       out.images.push_back(upload_image(context, recorder, texel, false));
@@ -112,7 +112,7 @@ void upload_images(gpu::Context& context, gpu::CommandRunner& runner, const scen
   // One submission an image: staging memory stays small.
   Progress job("upload", scene.images.size());
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    runner.run([&](gpu::Recorder& recorder) {
+    stream.run([&](gpu::Recorder& recorder) {
       out.images.push_back(upload_image(context, recorder, scene.images[i].pixels, is_colour[i]));
     });
     job.advance();
@@ -135,19 +135,19 @@ MaterialImages device_material(const scene::Material& material) {
 
 }  // namespace
 
-SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene) {
+SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene) {
   SceneResources out;
   const Geometry geometry = gather_geometry(scene);
   out.light_list =
       planning::device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
-  runner.run([&](gpu::Recorder& recorder) {
+  stream.run([&](gpu::Recorder& recorder) {
     out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     out.lights = gpu::Buffer(context, (out.light_list.size() + kMaxFlashes) * sizeof(shared::Light),
                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     recorder.upload(out.lights, 0, std::as_bytes(std::span(out.light_list)));
   });
-  upload_images(context, runner, scene, out);
+  upload_images(context, stream, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     out.draws.emplace_back(place(geometry, scene.objects[i])).object = i;

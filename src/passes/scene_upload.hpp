@@ -49,6 +49,6 @@ struct SceneResources {
 };
 
 /// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
-SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
+SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene);
 
 }  // namespace brume::passes

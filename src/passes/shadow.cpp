@@ -82,30 +82,30 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
   return maps;
 }
 
-void ShadowPass::record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+void ShadowPass::record(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                         HiddenObjects hidden, const ShadowMaps& maps) const {
-  runner.run([&](gpu::Recorder& recorder) {
+  stream.run([&](gpu::Recorder& recorder) {
     const shared::ShadowView sun{maps.sun_clip_from_world, glm::inverse(maps.sun_clip_from_world)};
     recorder.upload(maps.sun, 0, std::as_bytes(std::span(&sun, 1)));
   });
-  record_layers(context, runner, scene, hidden, maps, [](const Sees&) { return true; });
+  record_layers(context, stream, scene, hidden, maps, [](const Sees&) { return true; });
 }
 
-void ShadowPass::record_changed(gpu::Context& context, gpu::CommandRunner& runner,
+void ShadowPass::record_changed(gpu::Context& context, gpu::CommandStream& stream,
                                 const SceneResources& scene, HiddenObjects hidden,
                                 std::span<const std::uint32_t> changed, const ShadowMaps& maps) const {
-  record_layers(context, runner, scene, hidden, maps, [&](const Sees& sees) {
+  record_layers(context, stream, scene, hidden, maps, [&](const Sees& sees) {
     return std::any_of(scene.draws.begin(), scene.draws.end(),
                        [&](const Draw& draw) { return is_hidden(draw, changed) && sees(draw); });
   });
 }
 
-void ShadowPass::record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                                HiddenObjects hidden, const ShadowMaps& maps,
                                const std::function<bool(const Sees&)>& accepts) const {
   const auto record_one = [&](std::uint32_t layer, const glm::mat4& clip_from_world, const Sees& sees) {
     if (!accepts(sees)) return;
-    record_layer(context, runner, scene, maps, layer, clip_from_world,
+    record_layer(context, stream, scene, maps, layer, clip_from_world,
                  [&](const Draw& draw) { return !is_hidden(draw, hidden) && sees(draw); });
   };
   for (const shared::Light& light : scene.light_list) {
@@ -120,12 +120,12 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandRunner& runner
   }
 }
 
-void ShadowPass::record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                               const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
                               const Sees& draws) const {
   // One submission a layer: its view lives until the device is done with it.
   const gpu::LayerView view(context, maps.layers, layer);
-  runner.run([&](gpu::Recorder& recorder) {
+  stream.run([&](gpu::Recorder& recorder) {
     recorder.prepare_for_draws({gpu::read(scene.vertices)});
     recorder.prepare_indices(scene.indices);
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));

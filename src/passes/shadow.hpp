@@ -22,19 +22,19 @@ class ShadowPass {
   ShadowMaps make_maps(gpu::Context& context, const SceneResources& scene) const;
   /// Draws every layer without the hidden objects. The scene is static: once suffices until other objects are
   /// hidden.
-  void record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+  void record(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
               HiddenObjects hidden, const ShadowMaps& maps) const;
   /// Redraws the layers in which one of the `changed` objects (ascending) may be visible.
-  void record_changed(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+  void record_changed(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                       HiddenObjects hidden, std::span<const std::uint32_t> changed,
                       const ShadowMaps& maps) const;
 
  private:
   using Sees = std::function<bool(const Draw&)>;
-  void record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+  void record_layers(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                      HiddenObjects hidden, const ShadowMaps& maps,
                      const std::function<bool(const Sees&)>& accepts) const;
-  void record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+  void record_layer(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                     const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
                     const Sees& draws) const;
   gpu::GraphicsPipeline pipeline_;

@@ -108,16 +108,16 @@ Result<SlicePacking> pack_slices(std::span<const glm::uvec3> sizes, std::uint32_
   return packing;
 }
 
-SliceTextures::SliceTextures(gpu::Context& context, gpu::CommandRunner& runner)
+SliceTextures::SliceTextures(gpu::Context& context, gpu::CommandStream& stream)
     : image_(slice_image(context, glm::uvec2(1))) {
   const std::vector<Half4> nothing(1, 0);
   const gpu::Recorder::Region all = slice_region(nothing, {0, 0}, {1, 1});
-  runner.run([&](gpu::Recorder& recorder) { recorder.upload(image_, {&all, 1}); });
+  stream.run([&](gpu::Recorder& recorder) { recorder.upload(image_, {&all, 1}); });
 }
 
-Result<SliceTextures> SliceTextures::create(gpu::Context& context, gpu::CommandRunner& runner,
+Result<SliceTextures> SliceTextures::create(gpu::Context& context, gpu::CommandStream& stream,
                                             std::span<const std::span<const grids::DenseGrid>> volumes) {
-  if (volumes.empty()) return SliceTextures(context, runner);
+  if (volumes.empty()) return SliceTextures(context, stream);
   std::vector<glm::uvec3> sizes;
   for (const std::span<const grids::DenseGrid> channels : volumes) {
     if (const auto fault = fault_of_channels(channels))
@@ -134,7 +134,7 @@ Result<SliceTextures> SliceTextures::create(gpu::Context& context, gpu::CommandR
     // One at a time: staging memory holds no more than the largest.
     const std::vector<Half4> texels = texels_of(volumes[i], layout);
     const gpu::Recorder::Region part = slice_region(texels, packing->first_texels[i], layout.image_size());
-    runner.run([&](gpu::Recorder& recorder) { recorder.upload(image, {&part, 1}); });
+    stream.run([&](gpu::Recorder& recorder) { recorder.upload(image, {&part, 1}); });
     textures.push_back(packing->texture(i));
   }
   return SliceTextures(std::move(image), std::move(textures));

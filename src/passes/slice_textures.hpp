@@ -33,12 +33,12 @@ Result<SlicePacking> pack_slices(std::span<const glm::uvec3> sizes, std::uint32_
 class SliceTextures {
  public:
   /// No volumes.
-  SliceTextures(gpu::Context& context, gpu::CommandRunner& runner);
+  SliceTextures(gpu::Context& context, gpu::CommandStream& stream);
   /// Uploads volumes of one to four channels each, all of a volume of one size and box: r, g, b and a of its
   /// samples; those that it lacks are 0. Values are rounded to half floats and clamped to their range, NaN is
   /// 0. Fails as pack_slices, and with bad_input for a volume of another number of channels or of several
   /// sizes. Throws resource_limit when the device has too little memory.
-  static Result<SliceTextures> create(gpu::Context& context, gpu::CommandRunner& runner,
+  static Result<SliceTextures> create(gpu::Context& context, gpu::CommandStream& stream,
                                       std::span<const std::span<const grids::DenseGrid>> volumes);
 
   std::size_t size() const { return textures_.size(); }

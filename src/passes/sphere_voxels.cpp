@@ -28,17 +28,17 @@ gpu::Image whole_image(gpu::Context& context, const glm::uvec3& size, VkFormat f
 
 }  // namespace
 
-void upload_bytes(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+void upload_bytes(gpu::Context& context, gpu::CommandStream& stream, gpu::Buffer& buffer,
                   std::span<const std::byte> bytes) {
   constexpr std::size_t kPart = std::size_t{32} << 20;
   gpu::grow(context, buffer, std::max<std::size_t>(bytes.size(), 16));
   for (std::size_t done = 0; done < bytes.size(); done += kPart)
-    runner.run([&](gpu::Recorder& recorder) {
+    stream.run([&](gpu::Recorder& recorder) {
       recorder.upload(buffer, done, bytes.subspan(done, std::min(kPart, bytes.size() - done)));
     });
 }
 
-TankVolume::TankVolume(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+TankVolume::TankVolume(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
                        const spheres::BrickLists& lists)
     : size(tank.size),
       bricks(lists.bricks),
@@ -46,10 +46,10 @@ TankVolume::TankVolume(gpu::Context& context, gpu::CommandRunner& runner, const 
       is_opaque(std::ranges::all_of(tank.colors, [](spheres::Color color) { return color >> 24 == 255; })),
       ids(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32_UINT)),
       colors(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32_UINT)) {
-  upload_list(context, runner, spheres, tank.spheres);
-  upload_list(context, runner, sphere_colors, tank.colors);
-  upload_list(context, runner, brick_ranges, lists.ranges);
-  upload_list(context, runner, brick_spheres, lists.spheres);
+  upload_list(context, stream, spheres, tank.spheres);
+  upload_list(context, stream, sphere_colors, tank.colors);
+  upload_list(context, stream, brick_ranges, lists.ranges);
+  upload_list(context, stream, brick_spheres, lists.spheres);
 }
 
 void TankVolume::add_ids(gpu::Context& context) {

@@ -13,19 +13,19 @@ namespace brume::passes {
 
 /// Makes a buffer at least as large as a list and uploads it, in parts, so that staging memory stays small.
 /// Not while the device uses the buffer. Throws resource_limit.
-void upload_bytes(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+void upload_bytes(gpu::Context& context, gpu::CommandStream& stream, gpu::Buffer& buffer,
                   std::span<const std::byte> bytes);
 template <typename Element>
-void upload_list(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+void upload_list(gpu::Context& context, gpu::CommandStream& stream, gpu::Buffer& buffer,
                  const std::vector<Element>& list) {
-  upload_bytes(context, runner, buffer, std::as_bytes(std::span(list)));
+  upload_bytes(context, stream, buffer, std::as_bytes(std::span(list)));
 }
 
 /// Buffers and images of a tank.
 class TankVolume {
  public:
   /// Uploads the spheres of a tank. Throws resource_limit when the device has too little memory.
-  TankVolume(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+  TankVolume(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
              const spheres::BrickLists& lists);
 
   /// Make room for ids, and for the colours of voxels: SphereVoxelsPass must then follow. When the device is

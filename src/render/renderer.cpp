@@ -66,23 +66,27 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
 
 }  // namespace
 
-Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene,
                    const RendererOptions& options)
     : context_(context),
-      runner_(runner),
-      scene_(context, runner, scene),
-      targets_(context, options.size_px),
-      smoke_(context, runner, scene_, options.size_px, options.smoke),
-      shade_pass_(context),
+      stream_(stream),
+      scene_(context, stream, scene),
+      targets_(options.media_alone ? Targets::of_media(context, options.size_px)
+                                   : Targets(context, options.size_px)),
+      smoke_(context, stream, scene_, options.size_px, options.smoke),
       shading_displays_(context.info().kind != "cpu" && !options.antialias),
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+  if (options.media_alone)
+    surface_import_.emplace(context);
+  else
+    shade_pass_.emplace(context);
   if (options.antialias) antialias_pass_.emplace(context, options.size_px);
-  runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
-  if (options.smoke.prepare_all)
+  stream.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
+  if (options.smoke.prepare_all && shade_pass_)
     for (const bool voxel_shadows : {false, true})
-      shade_pass_.reserve({.voxel_shadows = voxel_shadows, .display = shading_displays_});
+      shade_pass_->reserve({.voxel_shadows = voxel_shadows, .display = shading_displays_});
 }
 
 void Renderer::set_march_scale(std::uint32_t scale) {
@@ -90,7 +94,7 @@ void Renderer::set_march_scale(std::uint32_t scale) {
 }
 
 void Renderer::resize(glm::uvec2 size_px) {
-  targets_ = Targets(context_, size_px);
+  targets_ = surface_import_ ? Targets::of_media(context_, size_px) : Targets(context_, size_px);
   smoke_.resize(scene_, size_px);
   decal_pass_.reset();
   average_pass_.reset();
@@ -140,7 +144,7 @@ void Renderer::upload_volumes(const FrameInput& input) {
   while (!streaming.is_ready(input.volumes, budget)) {
     const std::vector<planning::VolumeResidency> part =
         streaming.plan_part(input.volumes, budget, kPartBytes);
-    runner_.run([&](gpu::Recorder& recorder) { smoke_.record_volume_part(recorder, input.volumes, part); });
+    stream_.run([&](gpu::Recorder& recorder) { smoke_.record_volume_part(recorder, input.volumes, part); });
   }
 }
 
@@ -151,7 +155,7 @@ void Renderer::upload_slices(const FrameInput& input) {
   if (input.slices)
     for (const grids::DenseVolume& volume : *input.slices) volumes.emplace_back(volume);
   if (volumes.empty() && !slices_) return;
-  slices_.emplace(passes::SliceTextures::create(context_, runner_, volumes).value_or_throw());
+  slices_.emplace(passes::SliceTextures::create(context_, stream_, volumes).value_or_throw());
   loaded_slices_ = input.slices;
 }
 
@@ -159,6 +163,7 @@ void Renderer::upload_slices(const FrameInput& input) {
 void Renderer::reserve(FramePlan& plan) {
   scene_.reserve(plan);
   smoke_.reserve(plan, history_);
+  if (surface_import_) return;
   if (!plan.decals.empty() && !decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
   if (!plan.particles.empty()) {
     if (!particle_pass_) particle_pass_.emplace(context_);
@@ -168,7 +173,7 @@ void Renderer::reserve(FramePlan& plan) {
   if (plan.input.view.sample.count > 1 && !average_pass_) average_pass_.emplace(context_, targets_.size_px);
   if (plan.input.debug.view == planning::DebugView::none) {
     const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
-    shade_pass_.reserve(needs);
+    shade_pass_->reserve(needs);
     if (!needs.display && !display_pass_) display_pass_.emplace(context_);
     return;
   }
@@ -178,7 +183,7 @@ void Renderer::reserve(FramePlan& plan) {
 
 void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then) {
   const FramePlan plan = this->plan(input);
-  runner_.run([&](gpu::Recorder& recorder) {
+  stream_.run([&](gpu::Recorder& recorder) {
     record_frame(recorder, plan);
     if (then) then(recorder);
   });
@@ -195,16 +200,32 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
 
 void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int part) {
   const FrameResources in = resources(plan);
-  if (part == 0) record_light(recorder, plan, in);
+  if (part == 0) record_light(recorder, plan, in, nullptr);
   if (part == 1) record_media(recorder, plan, in);
   if (part == 2) record_image(recorder, plan, in);
 }
 
+void Renderer::record_media_over(gpu::Recorder& recorder, const FramePlan& plan,
+                                 const HostSurfaces& surfaces) {
+  const FrameResources in = resources(plan);
+  record_light(recorder, plan, in, &surfaces);
+  record_media(recorder, plan, in);
+  record_accumulate(recorder, plan, in);
+}
+
+void Renderer::record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host) {
+  if (host)
+    surface_import_->record(recorder, host->depth, host->range, plan.camera.near_z, targets_.gbuffer);
+  else
+    scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer);
+}
+
 /// What later frames rely on, too: everything that the plan's history counts as updated.
-void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                            const HostSurfaces* host) {
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
-  scope(recorder, "gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
+  scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
@@ -221,9 +242,13 @@ void Renderer::record_media(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (smoke_.march_tiles()) scope(recorder, "resolve", [&] { smoke_.record_resolve(recorder, plan, in); });
 }
 
-void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+void Renderer::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (smoke_.is_accumulated())
     scope(recorder, "accumulate", [&] { smoke_.record_accumulate(recorder, plan, in); });
+}
+
+void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  record_accumulate(recorder, plan, in);
   has_decals_ = !plan.input.decals.empty();
   occlusion_ = nullptr;
   const bool is_debug_view = plan.input.debug.view != planning::DebugView::none;
@@ -233,10 +258,10 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
   const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
   scope(recorder, "shade", [&] {
-    shade_pass_.record(recorder, needs,
-                       {frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(), scene_.level(),
-                        targets_.gbuffer, media(), blue_noise_, occlusion_},
-                       {targets_.radiance, targets_.display});
+    shade_pass_->record(recorder, needs,
+                        {frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(), scene_.level(),
+                         targets_.gbuffer, media(), blue_noise_, occlusion_},
+                        {targets_.radiance, targets_.display});
   });
   if (needs.display) return;
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });

@@ -13,6 +13,7 @@
 #include "passes/display.hpp"
 #include "passes/particles.hpp"
 #include "passes/slice_textures.hpp"
+#include "passes/surface_import.hpp"
 #include "planning/frame_plan.hpp"
 #include "render/smoke_frame.hpp"
 
@@ -27,13 +28,22 @@ struct RendererOptions {
   /// Smooths edges over the frames of a film (View::continues), each of which shows another point of every
   /// pixel (planning::film_sample).
   bool antialias = false;
+  /// The surfaces are a host's: frames are recorded by record_media_over alone, and there are no decals,
+  /// particles and debug views.
+  bool media_alone = false;
+};
+
+/// The surfaces that a host drew for a frame, from its camera.
+struct HostSurfaces {
+  const gpu::Image& depth;  ///< Of the renderer's size.
+  passes::HostDepthRange range;
 };
 
 class Renderer {
  public:
-  /// Uploads the scene and draws its shadows. `context`, `runner` and `scene`, which must not change, must
+  /// Uploads the scene and draws its shadows. `context`, `stream` and `scene`, which must not change, must
   /// outlive the renderer. Throws resource_limit when the device has too little memory.
-  Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+  Renderer(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene,
            const RendererOptions& options);
 
   /// Rays of the march from the next frame on, as SmokeFrameOptions::march_scale. When the device is done
@@ -57,6 +67,9 @@ class Renderer {
   /// omitted: then the targets hold nothing of use, and the next frame does not continue a film.
   void record_part(gpu::Recorder& recorder, const FramePlan& plan, int part);
   static constexpr int kParts = 3;
+  /// Records the media of the last plan in front of a host's surfaces: media(). Where
+  /// RendererOptions::media_alone.
+  void record_media_over(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& surfaces);
   /// Plans and records a frame, and what `then` records after it, and waits until the device has drawn it.
   /// Throws as `plan`.
   void draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then = {});
@@ -90,19 +103,23 @@ class Renderer {
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);
-  void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host);
+  void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                    const HostSurfaces* host);
   void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_particles(gpu::Recorder& recorder, const FramePlan& plan);
   void record_antialias(gpu::Recorder& recorder, const FramePlan& plan);
   void record_debug_view(gpu::Recorder& recorder, const FramePlan& plan);
 
   gpu::Context& context_;
-  gpu::CommandRunner& runner_;
+  gpu::CommandStream& stream_;
   SceneView scene_;
   Targets targets_;
   SmokeFrame smoke_;
-  passes::ShadePass shade_pass_;
+  std::optional<passes::SurfaceImport> surface_import_;  ///< Where RendererOptions::media_alone, and else:
+  std::optional<passes::ShadePass> shade_pass_;
   const bool shading_displays_;
   std::optional<passes::DisplayPass>
       display_pass_;  ///< From the first frame on that is not displayed as it is shaded.

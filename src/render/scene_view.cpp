@@ -19,18 +19,18 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
 
 }  // namespace
 
-SceneView::SceneView(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene)
+SceneView::SceneView(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
     : context_(context),
-      runner_(runner),
+      stream_(stream),
       source_(&scene),
-      scene_(passes::upload_scene(context, runner, scene)),
+      scene_(passes::upload_scene(context, stream, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       solid_(context),
       sky_light_(context),
       indirect_light_(context) {
-  shadow_pass_.record(context, runner, scene_, {}, shadows_);
+  shadow_pass_.record(context, stream, scene_, {}, shadows_);
 }
 
 void SceneView::reserve(const planning::FramePlan& plan) {
@@ -39,7 +39,7 @@ void SceneView::reserve(const planning::FramePlan& plan) {
   sky_light_.reserve(solid_);
   reserve_indirect_light(plan);
   if (!plan.changed_objects.empty())
-    shadow_pass_.record_changed(context_, runner_, scene_, level.hidden_objects, plan.changed_objects,
+    shadow_pass_.record_changed(context_, stream_, scene_, level.hidden_objects, plan.changed_objects,
                                 shadows_);
 }
 

@@ -13,7 +13,7 @@ class SceneView {
  public:
   /// Uploads the scene and draws its shadows. All three must outlive the view. Throws
   /// resource_limit.
-  SceneView(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
+  SceneView(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene);
 
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
   /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
@@ -47,7 +47,7 @@ class SceneView {
   void reserve_indirect_light(const planning::FramePlan& plan);
 
   gpu::Context& context_;
-  gpu::CommandRunner& runner_;
+  gpu::CommandStream& stream_;
   const scene::Scene* source_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;

@@ -17,17 +17,17 @@ gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
 
 }  // namespace
 
-SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene,
+SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const SceneView& scene,
                        glm::uvec2 size_px, const SmokeFrameOptions& options)
     : context_(context),
-      runner_(runner),
+      stream_(stream),
       size_px_(size_px),
       brute_force_holes_(options.brute_force_holes),
       record_entries_(options.record_entries),
       prepare_all_(options.prepare_all),
       smoke_upload_(context),
       volume_upload_(context),
-      hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
+      hole_clusters_(context, stream, options.masks ? *options.masks : smoke::MaskAtlas()),
       noise_(passes::make_noise_tile(context, smoke::kSmokeNoise.size)),
       noise_advection_pass_(context),
       shadow_pass_(context),
@@ -48,7 +48,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
 void SmokeFrame::make_noise() {
   if (has_noise_) return;
   const passes::NoisePass noise(context_);
-  runner_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
+  stream_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
   has_noise_ = true;
 }
 
@@ -70,7 +70,7 @@ void SmokeFrame::set_march_scale(std::uint32_t scale) {
 }
 
 void SmokeFrame::set_masks(const smoke::MaskAtlas& masks) {
-  hole_clusters_.set_masks(context_, runner_, masks);
+  hole_clusters_.set_masks(context_, stream_, masks);
 }
 
 void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {

@@ -45,8 +45,8 @@ struct FrameResources {
 /// submit nor wait. What needs room outside of a recording says so.
 class SmokeFrame {
  public:
-  /// `context` and `runner` must outlive it. Throws resource_limit.
-  SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene, glm::uvec2 size_px,
+  /// `context` and `stream` must outlive it. Throws resource_limit.
+  SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const SceneView& scene, glm::uvec2 size_px,
              const SmokeFrameOptions& options);
 
   // When the device is done with what was recorded before; all throw resource_limit.
@@ -118,7 +118,7 @@ class SmokeFrame {
   passes::MarchPass::Inputs march_inputs(const planning::FramePlan& plan, const FrameResources& in) const;
 
   gpu::Context& context_;
-  gpu::CommandRunner& runner_;
+  gpu::CommandStream& stream_;
   glm::uvec2 size_px_;
   bool brute_force_holes_, record_entries_;
   bool prepare_all_, has_noise_ = false;

@@ -22,13 +22,13 @@ gpu::Buffer constants_buffer(gpu::Context& context, std::size_t bytes, VkBufferU
 
 }  // namespace
 
-TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
                            glm::uvec2 size_px, bool with_ids)
     : context_(context),
-      runner_(runner),
+      stream_(stream),
       volume_([&] {
         const spheres::BrickLists lists = spheres::list_bricks(tank);
-        return passes::TankVolume(context, runner, tank, lists);
+        return passes::TankVolume(context, stream, tank, lists);
       }()),
       spheres_pass_(context),
       sphere_voxels_pass_(context),
@@ -41,7 +41,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       frame_(constants_buffer(context, sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
   set_photons({});
-  runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
+  stream.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
   if (with_ids) {
     volume_.add_ids(context);
     find_voxels();
@@ -58,7 +58,7 @@ void TankRenderer::set_kind(scene::TankView kind) {
 }
 
 void TankRenderer::find_voxels() {
-  runner_.run([&](gpu::Recorder& recorder) {
+  stream_.run([&](gpu::Recorder& recorder) {
     const gpu::Scope scope(recorder, "sphere_voxels");
     sphere_voxels_pass_.record(recorder, volume_);
   });
@@ -89,8 +89,8 @@ void TankRenderer::set_photons(const spheres::LightPaths& paths) {
 
 void TankRenderer::replace_photons(const spheres::LightPaths& paths) {
   photon_grid_ = paths.photons.empty() ? shared::PhotonGrid{0, 0} : paths.grid;
-  passes::upload_list(context_, runner_, photons_, paths.photons);
-  passes::upload_list(context_, runner_, photon_cells_, paths.cells);
+  passes::upload_list(context_, stream_, photons_, paths.photons);
+  passes::upload_list(context_, stream_, photon_cells_, paths.cells);
 }
 
 void TankRenderer::record_upload(gpu::Recorder& recorder) {

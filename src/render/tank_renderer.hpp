@@ -17,11 +17,11 @@ class TankRenderer {
   /// Of a workgroup: what parts of a sample are multiples of.
   static constexpr std::uint32_t kRows = 8;
 
-  /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
+  /// Uploads the tank and finds its voxels. `context` and `stream` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
   /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
   /// and slower on every device so far (docs/performance.md).
-  TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+  TankRenderer(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
                glm::uvec2 size_px, bool with_ids = false);
 
   /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done
@@ -82,7 +82,7 @@ class TankRenderer {
   };
 
   gpu::Context& context_;
-  gpu::CommandRunner& runner_;
+  gpu::CommandStream& stream_;
   passes::TankVolume volume_;
   passes::TankSpheresPass spheres_pass_;
   passes::SphereVoxelsPass sphere_voxels_pass_;

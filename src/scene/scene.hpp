@@ -86,6 +86,8 @@ struct Camera {
   glm::vec3 position_world{0, 1.7f, 5};
   glm::vec3 target_world{0, 1.7f, 0};
   float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
+  /// What is up in the picture, unit. A view along it is valid.
+  glm::vec3 up_world{0, 1, 0};
   Lens lens = {};
   /// How long the shutter stays open, from the picture's time on [s]; 0: nothing is blurred by motion.
   float shutter = 0;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
-#include "gpu/device_features.hpp"
+#include "tests/gpu/host_application.hpp"
 
 namespace brume::gpu {
 namespace {
@@ -69,63 +69,55 @@ TEST(Devices, ChoosesByNumberByNameAndBySpeed) {
 }
 
 /// A device created by a host application and borrowed by Brume.
-TEST_F(GpuTest, WorksOnADeviceOfTheHost) {
-  HostDevice host;
-  host.get_instance_proc_addr = system_loader();
-  const Instance instance(true);
-  host.instance = instance.handle();
-  const auto devices = list_devices(instance.vk(), host.instance);
-  host.physical_device = choose_device(devices, "").handle;
-  const float priority = 1;
-  VkDeviceQueueCreateInfo queue{};
-  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-  queue.queueCount = 1;
-  queue.pQueuePriorities = &priority;
-  const DeviceFeatures features;
-  VkDeviceCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = features.chain();
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queue;
-  ASSERT_EQ(instance.vk().CreateDevice(host.physical_device, &info, nullptr, &host.device), VK_SUCCESS);
-  Functions vk = instance.vk();
-  vk.load_device(host.device);
-  VkQueue host_queue = VK_NULL_HANDLE;
-  vk.GetDeviceQueue(host.device, 0, 0, &host_queue);
+TEST(HostedContext, RecordsIntoCommandsOfTheHost) {
+  HostApplication host(1);
   {
-    Context borrowed(host);
+    Context borrowed(host.device());
     EXPECT_FALSE(borrowed.owns_device());
-    FrameSlot slot(borrowed);
-    const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, 0};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    ASSERT_EQ(vk.CreateCommandPool(host.device, &pool_info, nullptr, &pool), VK_SUCCESS);
-    const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
-                                               VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    ASSERT_EQ(vk.AllocateCommandBuffers(host.device, &allocate, &commands), VK_SUCCESS);
-    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
-    ASSERT_EQ(vk.BeginCommandBuffer(commands, &begin), VK_SUCCESS);
-
+    HostRecording recording(borrowed);
     const Buffer from(borrowed, 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const Buffer to(borrowed, 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    Recorder recorder(borrowed, slot, commands);
-    recorder.fill(from, 0x01020304u);
-    recorder.read_back(from, to, 64);
-
-    ASSERT_EQ(vk.EndCommandBuffer(commands), VK_SUCCESS);
-    const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
-                                           0};
-    VkSubmitInfo2 submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-    submit.commandBufferInfoCount = 1;
-    submit.pCommandBufferInfos = &buffer;
-    ASSERT_EQ(vk.QueueSubmit2(host_queue, 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
-    ASSERT_EQ(vk.DeviceWaitIdle(host.device), VK_SUCCESS);
+    host.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+      recording.begin(commands, frame, completed);
+      recording.recorder().fill(from, 0x01020304u);
+      recording.recorder().read_back(from, to, 64);
+      recording.end();
+    });
+    host.wait();
     EXPECT_EQ(static_cast<std::uint8_t>(to.mapped()[63]), 1);
-    vk.DestroyCommandPool(host.device, pool, nullptr);
   }
-  vk.DestroyDevice(host.device, nullptr);
-  for (const std::string& message : instance.take_messages()) ADD_FAILURE() << message;
+  for (const std::string& message : host.take_messages()) ADD_FAILURE() << message;
+}
+
+// What commands in flight use is destroyed when the device has completed them, and not before.
+TEST(HostedContext, DestroysNothingThatIsInFlight) {
+  HostApplication host(3);
+  {
+    Context borrowed(host.device());
+    HostRecording recording(borrowed);
+    const Buffer to(borrowed, 1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    const VkDeviceSize before = borrowed.memory().bytes_in_use();
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      host.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+        recording.begin(commands, frame, completed);
+        const Buffer of_frame(borrowed, 1 << 20,
+                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        recording.recorder().fill(of_frame, i);
+        recording.recorder().read_back(of_frame, to, 1 << 20);
+        recording.end();
+      });
+      EXPECT_GT(borrowed.memory().bytes_in_use(), before);
+      EXPECT_LE(borrowed.memory().bytes_in_use(), before + (4u << 20));
+    }
+    host.wait();
+    host.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+      recording.begin(commands, frame, completed);
+      recording.end();
+    });
+    EXPECT_EQ(borrowed.memory().bytes_in_use(), before);
+    host.wait();
+  }
+  for (const std::string& message : host.take_messages()) ADD_FAILURE() << message;
 }
 
 }  // namespace

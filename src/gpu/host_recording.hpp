@@ -1,0 +1,51 @@
+// Commands in the command buffers of a host, which submits them.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <optional>
+
+#include "gpu/recorder.hpp"
+
+namespace brume::gpu {
+
+class HostRecording : public CommandStream {
+ public:
+  /// `context` is of a host's device and must outlive it.
+  explicit HostRecording(Context& context) : context_(context) {}
+  /// Frees nothing that the device uses: see Context::retire.
+  ~HostRecording() override = default;
+  HostRecording(const HostRecording&) = delete;
+  HostRecording& operator=(const HostRecording&) = delete;
+
+  /// Begins to record a frame into `commands`, which are in the recording state. The device has completed the
+  /// commands of all frames up to `completed`; those after it may be in flight, as many as there are. Frames
+  /// rise, and their commands are submitted in that order to one queue, or not at all together with all that
+  /// follow.
+  void begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed);
+  /// Ends the frame: the commands are valid, also after a failure, and belong to the host again.
+  void end();
+
+  /// Between begin and end.
+  Recorder& recorder() { return *recorder_; }
+  /// Records at once, between begin and end.
+  void run(const std::function<void(Recorder&)>& record) override;
+
+  /// GPU times of the newest frame that the device had completed when the present one began; empty: of none.
+  const std::vector<Timings::Scope>& timings() const { return timings_; }
+
+ private:
+  struct Slot {
+    explicit Slot(Context& context) : resources(context) {}
+    FrameSlot resources;
+    std::uint64_t frame = 0;  ///< The last one that it was used for; 0: none.
+  };
+  Slot& free_slot(std::uint64_t completed);
+
+  Context& context_;
+  std::list<Slot> slots_;  // as many as frames were in flight, and one
+  std::optional<Recorder> recorder_;
+  std::vector<Timings::Scope> timings_;
+};
+
+}  // namespace brume::gpu

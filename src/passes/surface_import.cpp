@@ -1,0 +1,63 @@
+#include "passes/surface_import.hpp"
+
+#include <cmath>
+
+#include "brume_shaders.hpp"
+#include "shared/surface_import.h"
+
+namespace brume::passes {
+namespace {
+
+shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z, glm::uvec2 size_px) {
+  // d = f / (f - n) - f n / (f - n) / distance, 1 minus that where it is reversed.
+  const double n = range.near_plane, f = range.far_plane;
+  const double offset = std::isinf(f) ? 1 : f / (f - n), scale = std::isinf(f) ? n : f * n / (f - n);
+  const double sign = range.reversed ? 1 : -1;
+  return {size_px, static_cast<float>(range.reversed ? 1 - offset : offset),
+          static_cast<float>(near_z / (sign * scale)), range.reversed ? 0.0f : 1.0f};
+}
+
+}  // namespace
+
+SurfaceImport::SurfaceImport(gpu::Context& context)
+    : pipeline_(context, shaders::surface_import_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
+
+void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
+                           float near_z, const GBuffer& target) const {
+  const glm::uvec2 size_px(target.depth.info().size);
+  recorder.clear(target.emission, {});
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindHostDepth, gpu::sampled(host_depth, nearest_)},
+                    {shared::kBindImportedDepth, gpu::stored(target.depth)},
+                },
+                params_of(range, near_z, size_px));
+  recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+}
+
+MediaLayerPass::MediaLayerPass(gpu::Context& context)
+    : context_(context), nearest_(context, {VK_FILTER_NEAREST}) {}
+
+void MediaLayerPass::reserve(VkFormat format) {
+  gpu::GraphicsInfo info{
+      &shaders::media_layer_vert, &shaders::media_layer_frag, {format}, VK_FORMAT_UNDEFINED};
+  info.blend = gpu::Blend::medium;
+  pipelines_.try_emplace(format, context_, info);
+}
+
+void MediaLayerPass::record(gpu::Recorder& recorder, const gpu::Image& media, float exposure,
+                            const gpu::Image& picture) const {
+  const gpu::GraphicsPipeline& pipeline = pipelines_.at(picture.info().format);
+  recorder.prepare_for_draws({gpu::sampled(media, nearest_)});
+  gpu::Recorder::Attachments attachments;
+  attachments.colours = {&picture};
+  attachments.keep = 1;
+  recorder.begin_rendering(attachments, glm::uvec2(picture.info().size));
+  recorder.bind_for_draws(pipeline, {{shared::kBindMediaLayer, gpu::sampled(media, nearest_)}});
+  const shared::MediaLayerParams params{exposure};
+  recorder.push(pipeline, std::as_bytes(std::span(&params, 1)));
+  recorder.draw(3);
+  recorder.end_rendering();
+}
+
+}  // namespace brume::passes
