@@ -1,4 +1,4 @@
-// The media over a host's picture: premultiplied radiance, and in alpha the transmittance, which blending multiplies the
+// The media over a host picture: premultiplied radiance, and in alpha the transmittance, which blending multiplies the
 // picture by.
 #version 460
 #extension GL_GOOGLE_include_directive : require
