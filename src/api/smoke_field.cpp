@@ -1,0 +1,95 @@
+#include "api/smoke_field.hpp"
+
+#include <array>
+
+#include "sim/level_edit.hpp"
+#include "smoke/holes.hpp"
+
+namespace brume::api {
+namespace {
+
+using sim::EditBlock;
+using sim::EditBlocks;
+
+constexpr int kBlock = 4;  // voxels per axis of an EditBlock
+
+/// The blocks of two lists that are not in both.
+EditBlocks differing(const EditBlocks& a, const EditBlocks& b) {
+  const auto before = [](const EditBlock& x, const EditBlock& y) { return sim::block_before(x.at, y.at); };
+  EditBlocks blocks;
+  auto i = a.begin(), j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && before(*i, *j)))
+      blocks.push_back({(i++)->at, 0, 0});
+    else if (i == a.end() || before(*j, *i))
+      blocks.push_back(*j++);
+    else {
+      if (*i != *j) blocks.push_back(*j);
+      ++i, ++j;
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+SmokeField::SmokeField(std::shared_ptr<const LevelData> level, std::shared_ptr<const smoke::MaskAtlas> masks,
+                       float extinction)
+    : level_(std::move(level)),
+      masks_(std::move(masks)),
+      extinction_(extinction),
+      volume_(level_->grid, [this](glm::ivec3 cell) { return planes_at(cell); }) {
+  sim::State empty;
+  empty.layout = layout();
+  empty.masks = this->masks();
+  update(empty);
+}
+
+/// Surfaces are those of the level, but for cells with a voxel that is edited: there smoke ends at the
+/// voxels' faces. So the field depends on the state alone, not on the order of its edits.
+std::span<const voxel::Plane> SmokeField::planes_at(glm::ivec3 cell) const {
+  if (changed_voxels_)
+    for (int corner = 0; corner < 8; ++corner)
+      if (changed_voxels_->solid(cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2))) return {};
+  return level_->planes.at(cell);
+}
+
+void SmokeField::update(const sim::State& state) {
+  sight_.reset();
+  follow_edits(state.edits);
+  volume_.update(state, grid());
+  look(state);
+}
+
+void SmokeField::look(const sim::State& state) {
+  holes_ = smoke::holes_of(state, masks_.get());
+  smoke::SightSettings settings;
+  settings.extinction = extinction_;
+  settings.masks = masks_.get();
+  sight_.emplace(volume_, grid(), holes_, state.seconds(state.tick), settings);
+}
+
+void SmokeField::follow_edits(const std::shared_ptr<const EditBlocks>& edits) {
+  static const EditBlocks kNone;
+  if (edits == edits_) return;
+  const EditBlocks blocks = differing(edits_ ? *edits_ : kNone, edits ? *edits : kNone);
+  if (!blocks.empty() && !edited_) {
+    edited_.emplace(level_->grid);
+    changed_voxels_.emplace(layout());
+  }
+  for (const EditBlock& block : blocks) set_block(block);
+  edits_ = edits;
+}
+
+/// Makes a block that of the level with these edits.
+void SmokeField::set_block(const EditBlock& block) {
+  const std::uint64_t loaded = sim::solid_bits(level_->grid, glm::ivec3(block.at));
+  const std::uint64_t solid = (loaded | block.make_solid) & ~block.make_free;
+  sim::apply_edits(*edited_, std::array{EditBlock{block.at, solid, ~solid}});
+  sim::apply_edits(*changed_voxels_, std::array{EditBlock{block.at, loaded ^ solid, ~(loaded ^ solid)}});
+  // The cells that have one of its voxels as a corner.
+  const glm::ivec3 low = glm::ivec3(block.at) * kBlock;
+  volume_.planes_changed(low - 1, low + kBlock - 1);
+}
+
+}  // namespace brume::api

@@ -1,0 +1,49 @@
+// The density field of a level and what queries of it require. Worlds may advance, and end, while it is
+// queried.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "api/objects.hpp"
+#include "smoke/sight.hpp"
+#include "smoke/smoke_volume.hpp"
+
+namespace brume::api {
+
+class SmokeField {
+ public:
+  SmokeField(std::shared_ptr<const LevelData> level, std::shared_ptr<const smoke::MaskAtlas> masks,
+             float extinction);
+  SmokeField(const SmokeField&) = delete;
+
+  /// Takes over a state of the level's layout and with the field's masks. Throws what SmokeVolume::update
+  /// does; it is then of no further use.
+  void update(const sim::State& state);
+
+  const voxel::GridLayout& layout() const { return level_->grid.layout(); }
+  sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
+  const smoke::Sight& sight() const { return *sight_; }
+  const smoke::SmokeVolume& volume() const { return volume_; }
+
+ private:
+  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_->grid; }
+  std::span<const voxel::Plane> planes_at(glm::ivec3 cell) const;
+  void follow_edits(const std::shared_ptr<const sim::EditBlocks>& edits);
+  void set_block(const sim::EditBlock& block);
+  void look(const sim::State& state);
+
+  std::shared_ptr<const LevelData> level_;
+  std::shared_ptr<const smoke::MaskAtlas> masks_;
+  float extinction_;
+  std::shared_ptr<const sim::EditBlocks> edits_;  // of the last state
+  std::optional<voxel::BitGrid> edited_,
+      changed_voxels_;  // the level with them; where it differs; none: no edits yet
+  smoke::SmokeVolume volume_;
+  std::vector<shared::Hole> holes_;
+  std::optional<smoke::Sight> sight_;
+};
+
+}  // namespace brume::api
