@@ -13,8 +13,7 @@
 // Handles    Created by *_create and similar, released by *_destroy, which accepts null. What a handle refers
 //            to lives as long as required: a level may be destroyed before its worlds. A destroyed handle
 //            must not be used again.
-// Threads    Any function may be called from any thread. Calls that change one handle run one after the
-// other;
+// Threads    Any function may be called from any thread. Calls that change one handle run one after another,
 //            reads of it run concurrently. Destroying a handle is the last call with it: no other may run.
 //            Nothing is set for the whole process. A context has its own number of threads, which a call may
 //            start and which end before it returns. Floating-point settings of the calling thread must be the
@@ -25,6 +24,7 @@
 // Bytes      Functions that write bytes take `buffer`, `capacity` and `size`: *size receives the number of
 //            bytes; a null buffer with capacity 0 queries it. BRUME_ERROR_BUFFER: the capacity is too small;
 //            *size is set, the buffer is unchanged.
+// Lists      The same for functions that write lists: `capacity` and `count` are numbers of elements.
 // Units      Metres, right-handed, Y up. Voxel i of a level covers [i, i + 1) in voxel space;
 //            position_voxel = (position - origin) / voxel_size. Positions of events are integers of 1/1024 m,
 //            times are ticks: the same events give the same bits on every machine.
@@ -47,8 +47,7 @@ extern "C" {
 #define BRUME_API
 #endif
 
-// ---- Version and errors
-// ------------------------------------------------------------------------------------
+// ---- Version and errors ----
 
 /// Version of this header. Before 1.0, a minor version may change the interface; the library's SOVERSION
 /// then changes too.
@@ -67,8 +66,8 @@ typedef enum brume_result {
   BRUME_ERROR_BUFFER = 7,    ///< The capacity of an output is too small.
   BRUME_ERROR_LIMIT = 8,     ///< More than a limit of the library allows.
   BRUME_ERROR_MEMORY = 9,    ///< Out of memory or threads.
-  /// An earlier call ran out of memory halfway. Until brume_world_restore (world) or brume_field_update
-  /// (field) succeeds, only *_destroy works.
+  /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (world) or
+  /// brume_field_update (field) succeeds, only *_destroy works.
   BRUME_ERROR_BROKEN = 10,
   BRUME_ERROR_INTERNAL = 11  ///< A defect of the library.
 } brume_result;
@@ -84,8 +83,7 @@ BRUME_API const char* brume_last_error(void) BRUME_NOEXCEPT;
 /// Returns the name of a result: "BRUME_OK"; "unknown" for a number that is none. A constant.
 BRUME_API const char* brume_result_name(brume_result result) BRUME_NOEXCEPT;
 
-// ---- Context
-// -----------------------------------------------------------------------------------------------
+// ---- Context ----
 
 typedef struct brume_context brume_context;
 typedef struct brume_level brume_level;
@@ -121,8 +119,7 @@ BRUME_API brume_result brume_context_create(const brume_context_params* params,
 /// call in another thread is about to.
 BRUME_API brume_result brume_context_destroy(brume_context* context) BRUME_NOEXCEPT;
 
-// ---- Levels
-// ------------------------------------------------------------------------------------------------
+// ---- Levels ----
 
 /// Voxels per axis of the largest level.
 #define BRUME_MAX_AXIS 4096
@@ -185,8 +182,8 @@ BRUME_API brume_result brume_level_create_from_voxels(brume_context* context,
                                                       const brume_voxels_params* params,
                                                       brume_level** level) BRUME_NOEXCEPT;
 /// Creates a level from the triangles of its collision mesh: every voxel that one touches is solid, exactly,
-/// and smoke ends at the surface of the triangles, not at the grid. About 20 million triangles a second and
-/// core. The same triangles and layout give the same level on every machine.
+/// and smoke ends at the surface of the triangles, not at the grid. The same triangles and layout give the
+/// same level on every machine.
 /// Errors: BRUME_ERROR_LIMIT when an axis would exceed BRUME_MAX_AXIS.
 BRUME_API brume_result brume_level_create_from_triangles(brume_context* context,
                                                          const brume_triangles_params* params,
@@ -200,8 +197,7 @@ BRUME_API brume_result brume_level_layout(const brume_level* level, brume_layout
 BRUME_API brume_result brume_level_solid(const brume_level* level, brume_voxel low, brume_voxel high,
                                          uint8_t* solid, size_t count) BRUME_NOEXCEPT;
 
-// ---- Masks: images that shots may cut out of smoke
-// ---------------------------------------------------------
+// ---- Masks: images that shots may cut out of smoke ----
 
 typedef struct brume_mask_image {
   uint32_t width, height;  ///< [1, 4094] texels.
@@ -214,8 +210,7 @@ BRUME_API brume_result brume_masks_create(brume_context* context, const brume_ma
                                           size_t count, brume_masks** masks) BRUME_NOEXCEPT;
 BRUME_API brume_result brume_masks_destroy(brume_masks* masks) BRUME_NOEXCEPT;
 
-// ---- Worlds
-// ------------------------------------------------------------------------------------------------
+// ---- Worlds ----
 
 /// Largest tick: 97 days at 64 ticks per second.
 #define BRUME_MAX_TICK 536870912u
@@ -388,8 +383,7 @@ BRUME_API brume_result brume_world_state(const brume_world* world, brume_state**
 /// Events up to its tick are dropped from the log, later ones remain; its tick becomes the earliest one.
 BRUME_API brume_result brume_world_restore(brume_world* world, const brume_state* state) BRUME_NOEXCEPT;
 
-// ---- States: immutable snapshots
-// ---------------------------------------------------------------------------
+// ---- States: immutable snapshots ----
 
 typedef struct brume_state_info {
   uint32_t tick;
@@ -416,8 +410,64 @@ BRUME_API brume_result brume_state_save(const brume_state* state, void* buffer, 
 BRUME_API brume_result brume_state_load(brume_context* context, const void* bytes, size_t size,
                                         brume_state** state) BRUME_NOEXCEPT;
 
-// ---- Packets
-// -----------------------------------------------------------------------------------------------
+/// A grenade in the air. An id is the number of the event that something comes from, the same on all
+/// machines.
+typedef struct brume_grenade {
+  uint32_t id;  ///< Its cloud will have the same.
+  uint32_t throw_tick, detonation_tick;
+  brume_voxel landing;   ///< Where it detonates.
+  brume_point position;  ///< At the state's tick [m].
+} brume_grenade;
+
+/// A smoke.
+typedef struct brume_cloud {
+  uint32_t id;
+  uint32_t detonation_tick;
+  uint32_t end_tick;      ///< When the last of it is gone.
+  brume_voxel source;     ///< Where it detonated.
+  brume_voxel low, high;  ///< Around all voxels that it may fill at some tick, [low, high).
+} brume_cloud;
+
+/// The cavity of an explosion.
+typedef struct brume_blast {
+  uint32_t id;
+  uint32_t tick;
+  uint32_t end_tick;  ///< When it has refilled.
+  brume_position centre;
+  uint32_t radius;  ///< [1/1024 m]
+} brume_blast;
+
+/// A hole of a shot.
+typedef struct brume_hole {
+  uint32_t id;
+  uint32_t tick;  ///< Of the shot.
+  brume_position origin, toward;
+  uint32_t radius;    ///< [1/1024 m]
+  uint32_t distance;  ///< Depth from the origin [1/1024 m].
+  uint32_t shape;     ///< brume_hole_shape.
+  uint32_t mask, roll;
+} brume_hole;
+
+/// A body, and where it was before its last move.
+typedef struct brume_body {
+  uint32_t body;
+  uint32_t tick, previous_tick;
+  brume_position position, previous;
+} brume_body;
+
+/// Write what a state holds, by rising id (bodies: by rising number).
+BRUME_API brume_result brume_state_grenades(const brume_state* state, brume_grenade* grenades,
+                                            size_t capacity, size_t* count) BRUME_NOEXCEPT;
+BRUME_API brume_result brume_state_clouds(const brume_state* state, brume_cloud* clouds, size_t capacity,
+                                          size_t* count) BRUME_NOEXCEPT;
+BRUME_API brume_result brume_state_blasts(const brume_state* state, brume_blast* blasts, size_t capacity,
+                                          size_t* count) BRUME_NOEXCEPT;
+BRUME_API brume_result brume_state_holes(const brume_state* state, brume_hole* holes, size_t capacity,
+                                         size_t* count) BRUME_NOEXCEPT;
+BRUME_API brume_result brume_state_bodies(const brume_state* state, brume_body* bodies, size_t capacity,
+                                          size_t* count) BRUME_NOEXCEPT;
+
+// ---- Packets ----
 
 typedef struct brume_sender_params {
   uint32_t struct_size;
@@ -489,8 +539,7 @@ BRUME_API brume_result brume_receiver_state(const brume_receiver* receiver,
 /// Drops all states: a new match starts.
 BRUME_API brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEXCEPT;
 
-// ---- The density field and the line of sight
-// ---------------------------------------------------------------
+// ---- The density field and the line of sight ----
 
 /// Most elements of one array of queries.
 #define BRUME_MAX_QUERIES 268435456u
@@ -531,13 +580,18 @@ BRUME_API brume_result brume_field_destroy(brume_field* field) BRUME_NOEXCEPT;
 /// when the smoke fills more than 2^22 bricks of 8^3 voxels.
 BRUME_API brume_result brume_field_update(brume_field* field, const brume_state* state) BRUME_NOEXCEPT;
 
+/// Writes the bricks (8^3 voxels, voxel / 8) in which the last update may have changed densities, by rising
+/// z, then y, then x: what a copy of the densities has to read again.
+BRUME_API brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* bricks,
+                                                  size_t capacity, size_t* count) BRUME_NOEXCEPT;
+
 /// Writes the optical depth of the smoke along each segment, holes included; walls do not count. exp(-depth)
 /// of the light passes. The same bits on every machine, for any number of threads, for one segment or many.
-/// About 1.3 million a second and core.
 BRUME_API brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments,
                                                   size_t count, float* depths) BRUME_NOEXCEPT;
 /// Writes 1 for each segment whose ends see each other, else 0: no solid voxel between the voxels of a and b,
-/// and an optical depth of at most `threshold` (at least 0; infinity: walls only). Faster than the depth.
+/// and an optical depth of at most `threshold` (at least 0; infinity: walls only). Faster than the depth: it
+/// ends at the first obstacle.
 BRUME_API brume_result brume_field_visible(const brume_field* field, const brume_segment* segments,
                                            size_t count, float threshold, uint8_t* visible) BRUME_NOEXCEPT;
 /// Writes the first solid voxel along each segment, other than those that a and b lie in.

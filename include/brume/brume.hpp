@@ -82,6 +82,16 @@ Bytes bytes_of(Write write) {
   return bytes;
 }
 
+/// The elements that write(elements, capacity, &count) writes.
+template <typename T, typename Write>
+std::vector<T> list_of(Write write) {
+  std::size_t count = 0;
+  check(write(nullptr, std::size_t{0}, &count));
+  std::vector<T> list(count);
+  if (count > 0) check(write(list.data(), list.size(), &count));
+  return list;
+}
+
 /// The number of voxels of a box; 0 for none, which the functions reject.
 inline std::size_t voxels_of(const brume_voxel& low, const brume_voxel& high) {
   if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return 0;
@@ -159,6 +169,31 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
   Bytes save() const {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {
       return brume_state_save(get(), buffer, capacity, size);
+    });
+  }
+  std::vector<brume_grenade> grenades() const {
+    return detail::list_of<brume_grenade>([&](brume_grenade* list, std::size_t capacity, std::size_t* count) {
+      return brume_state_grenades(get(), list, capacity, count);
+    });
+  }
+  std::vector<brume_cloud> clouds() const {
+    return detail::list_of<brume_cloud>([&](brume_cloud* list, std::size_t capacity, std::size_t* count) {
+      return brume_state_clouds(get(), list, capacity, count);
+    });
+  }
+  std::vector<brume_blast> blasts() const {
+    return detail::list_of<brume_blast>([&](brume_blast* list, std::size_t capacity, std::size_t* count) {
+      return brume_state_blasts(get(), list, capacity, count);
+    });
+  }
+  std::vector<brume_hole> holes() const {
+    return detail::list_of<brume_hole>([&](brume_hole* list, std::size_t capacity, std::size_t* count) {
+      return brume_state_holes(get(), list, capacity, count);
+    });
+  }
+  std::vector<brume_body> bodies() const {
+    return detail::list_of<brume_body>([&](brume_body* list, std::size_t capacity, std::size_t* count) {
+      return brume_state_bodies(get(), list, capacity, count);
     });
   }
 };
@@ -254,6 +289,12 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
             [&](brume_field** out) { return brume_field_create(level.get(), &params, out); })) {}
 
   void update(const State& state) { check(brume_field_update(get(), state.get())); }
+
+  std::vector<brume_voxel> changed_bricks() const {
+    return detail::list_of<brume_voxel>([&](brume_voxel* list, std::size_t capacity, std::size_t* count) {
+      return brume_field_changed_bricks(get(), list, capacity, count);
+    });
+  }
 
   float optical_depth(const brume_segment& segment) const {
     return detail::value_of<float>(

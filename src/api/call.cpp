@@ -74,20 +74,20 @@ void write_bytes(const void* bytes, std::size_t count, void* buffer, std::size_t
 }
 
 void Call::check(const void* pointer, Kind kind) {
-  const std::string expected = std::string("expected a ") + kind_name(kind);
-  if (!pointer) fail(BRUME_ERROR_HANDLE, expected + ", not null");
-  if (reinterpret_cast<std::uintptr_t>(pointer) % alignof(Handle) != 0)
-    fail(BRUME_ERROR_HANDLE, expected + ", not an odd address");
+  const auto wrong = [&](const char* what) {
+    fail(BRUME_ERROR_HANDLE, std::string("expected a ") + kind_name(kind) + ", not " + what);
+  };
+  if (!pointer) wrong("null");
+  if (reinterpret_cast<std::uintptr_t>(pointer) % alignof(Handle) != 0) wrong("an odd address");
   const auto& handle = *static_cast<const Handle*>(pointer);
-  if (handle.magic != Handle::kMagic)
-    fail(BRUME_ERROR_HANDLE, expected + ", not something else or destroyed");
-  if (handle.kind != kind) fail(BRUME_ERROR_HANDLE, expected + ", not a " + kind_name(handle.kind));
+  if (handle.magic != Handle::kMagic) wrong("something else, or what was destroyed");
+  if (handle.kind != kind) wrong((std::string("a ") + kind_name(handle.kind)).c_str());
 }
 
 void Call::check_whole(const Handle& object) {
   if (object.broken)
     fail(BRUME_ERROR_BROKEN,
-         std::string("the ") + kind_name(object.kind) + " broke in an earlier call; destroy it");
+         std::string("the ") + kind_name(object.kind) + " broke in an earlier call: see BRUME_ERROR_BROKEN");
 }
 
 void Call::adopt(const std::shared_ptr<Settings>& settings) {

@@ -4,12 +4,14 @@
 
 #include <brume/brume.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -94,6 +96,19 @@ Params required_params(const Params* given) {
 
 /// Copies bytes to the caller, or only their number.
 void write_bytes(const void* bytes, std::size_t count, void* buffer, std::size_t capacity, std::size_t* size);
+
+/// Copies a list to the caller, or only its length.
+template <typename T>
+void write_list(std::span<const T> list, T* out, std::size_t capacity, std::size_t* count) {
+  required(count, "count");
+  require(out || capacity == 0, "the list is null, but its capacity is not 0");
+  *count = list.size();
+  if (!out) return;
+  if (capacity < list.size())
+    fail(BRUME_ERROR_BUFFER, "the capacity is " + std::to_string(capacity) + ", " +
+                                 std::to_string(list.size()) + " are required");
+  std::copy(list.begin(), list.end(), out);
+}
 
 /// One call of the interface.
 class Call {

@@ -18,8 +18,9 @@ struct brume_field : brume::api::Handle {
   }
   /// The same without smoke.
   void renew() {
-    field.reset();
-    field = std::make_unique<brume::api::SmokeField>(level, masks, extinction);
+    std::vector<glm::ivec3> bricks;
+    if (field) bricks = field->bricks();
+    field = std::make_unique<brume::api::SmokeField>(level, masks, extinction, std::move(bricks));
   }
 
   std::shared_ptr<const brume::api::LevelData> level;
@@ -155,6 +156,14 @@ brume_result brume_field_update(brume_field* field, const brume_state* state) BR
     const brume_state& from = call.handle(state);
     call.change(
         of, [&] { update(of, from.state); }, true);
+  });
+}
+
+brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* bricks, size_t capacity,
+                                        size_t* count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_field& of = call.handle(field);
+    call.read(of, [&] { write_list(of.field->changed_bricks(), bricks, capacity, count); });
   });
 }
 

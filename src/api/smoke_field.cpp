@@ -1,6 +1,8 @@
 #include "api/smoke_field.hpp"
 
+#include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "sim/level_edit.hpp"
 #include "smoke/holes.hpp"
@@ -34,7 +36,7 @@ EditBlocks differing(const EditBlocks& a, const EditBlocks& b) {
 }  // namespace
 
 SmokeField::SmokeField(std::shared_ptr<const LevelData> level, std::shared_ptr<const smoke::MaskAtlas> masks,
-                       float extinction)
+                       float extinction, std::vector<glm::ivec3> bricks)
     : level_(std::move(level)),
       masks_(std::move(masks)),
       extinction_(extinction),
@@ -43,6 +45,7 @@ SmokeField::SmokeField(std::shared_ptr<const LevelData> level, std::shared_ptr<c
   empty.layout = layout();
   empty.masks = this->masks();
   update(empty);
+  replaced_bricks_ = std::move(bricks);
 }
 
 /// Surfaces are those of the level, but for cells with a voxel that is edited: there smoke ends at the
@@ -58,6 +61,7 @@ void SmokeField::update(const sim::State& state) {
   sight_.reset();
   follow_edits(state.edits);
   volume_.update(state, grid());
+  find_changed_bricks();
   look(state);
 }
 
@@ -67,6 +71,46 @@ void SmokeField::look(const sim::State& state) {
   settings.extinction = extinction_;
   settings.masks = masks_.get();
   sight_.emplace(volume_, grid(), holes_, state.seconds(state.tick), settings);
+}
+
+void SmokeField::find_changed_bricks() {
+  // Slots that the update marked, and those beyond the last one now, whose bricks are gone.
+  std::vector<glm::ivec3> changed = std::move(replaced_bricks_);
+  replaced_bricks_.clear();
+  const std::uint32_t count = volume_.slot_count();
+  const auto add_before = [&](std::size_t slot) {
+    if (slot < brick_of_slot_.size() && brick_of_slot_[slot]) changed.push_back(*brick_of_slot_[slot]);
+  };
+  for (std::size_t slot = count; slot < brick_of_slot_.size(); ++slot) add_before(slot);
+  for (const std::uint32_t slot : volume_.dirty_slots()) add_before(slot);
+  brick_of_slot_.resize(count);
+  for (const std::uint32_t slot : volume_.dirty_slots()) {
+    brick_of_slot_[slot].reset();
+    if (!volume_.volume().in_use(slot)) continue;
+    brick_of_slot_[slot] = volume_.brick_of(slot);
+    changed.push_back(volume_.brick_of(slot));
+  }
+
+  // Each once, in order.
+  const auto key = [](const glm::ivec3& v) { return std::tie(v.z, v.y, v.x); };
+  std::ranges::sort(changed, {}, key);
+  const auto repeats = std::ranges::unique(changed);
+  changed.erase(repeats.begin(), repeats.end());
+  changed_bricks_.clear();
+  const glm::ivec3 end = (layout().size + voxel::kBrickSize - 1) / voxel::kBrickSize;
+  for (const glm::ivec3& brick : changed) {
+    // Smoke is shown up to two voxels outside of the level.
+    const bool inside =
+        glm::all(glm::greaterThanEqual(brick, glm::ivec3(0))) && glm::all(glm::lessThan(brick, end));
+    if (inside) changed_bricks_.push_back({brick.x, brick.y, brick.z});
+  }
+}
+
+std::vector<glm::ivec3> SmokeField::bricks() const {
+  std::vector<glm::ivec3> bricks = replaced_bricks_;
+  for (const auto& brick : brick_of_slot_)
+    if (brick) bricks.push_back(*brick);
+  return bricks;
 }
 
 void SmokeField::follow_edits(const std::shared_ptr<const EditBlocks>& edits) {

@@ -1,8 +1,10 @@
 // Density fields and lines of sight through the C interface: the same bits as the libraries below it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "sim/level_edit.hpp"
@@ -146,6 +148,40 @@ TEST_F(FieldTest, DensitiesAreThoseOfTheState) {
   }
   EXPECT_GT(some, 2000u);
   EXPECT_GT(full, 200u);
+}
+
+TEST_F(FieldTest, ChangedBricksAreAllThatChanges) {
+  World world = this->world();
+  Field field(level_, params_);
+  const brume_voxel size = match_.layout().size;
+  const auto index = [&](int x, int y, int z) {
+    return static_cast<std::size_t>(x + size.x * (y + size.y * z));
+  };
+  Bytes copy(index(size.x - 1, size.y - 1, size.z - 1) + 1);
+  std::size_t bricks = 0, updates = 0;
+  const auto follow = [&](std::uint32_t tick) {
+    world.advance_to(tick);
+    field.update(world.state());
+    for (const brume_voxel& brick : field.changed_bricks()) {
+      const brume_voxel low{8 * brick.x, 8 * brick.y, 8 * brick.z};
+      const brume_voxel high{std::min(low.x + 8, size.x), std::min(low.y + 8, size.y),
+                             std::min(low.z + 8, size.z)};
+      const Bytes densities = field.densities(low, high);
+      std::size_t i = 0;
+      for (int z = low.z; z < high.z; ++z)
+        for (int y = low.y; y < high.y; ++y)
+          for (int x = low.x; x < high.x; ++x) copy[index(x, y, z)] = densities[i++];
+      ++bricks;
+    }
+    ++updates;
+    ASSERT_EQ(copy, field.densities({0, 0, 0}, size)) << tick;
+  };
+  for (std::uint32_t tick = 0; tick < Match::kTicks; ++tick) follow(tick);
+  for (const std::uint32_t tick : {200u, 0u, 333u, 90u}) follow(tick);
+  EXPECT_GT(bricks, 1000u);
+  EXPECT_LT(bricks, updates * 30) << "of 60";
+  field.update(world.state());
+  EXPECT_TRUE(field.changed_bricks().empty());
 }
 
 TEST_F(FieldTest, ManyEqualOne) {

@@ -68,6 +68,53 @@ TEST_F(WorldTest, HasTheHashesOfTheSimulation) {
   EXPECT_GE(clouds, 3u);
 }
 
+TEST_F(WorldTest, ListsWhatAStateHolds) {
+  const voxel::BitGrid grid = *voxel::voxelize(match_.triangles(), match_.grid_layout());
+  sim::World expected(grid, {.masks = smoke::MaskAtlas::pack(match_.sim_masks())->key()});
+  expected.append(match_.sim_events()).value_or_throw();
+  World world = played();
+  std::size_t grenades = 0, blasts = 0;
+  for (std::uint32_t tick = 0; tick < Match::kTicks; tick += 3) {
+    expected.advance_to(tick);
+    world.advance_to(tick);
+    const State state = world.state();
+    const sim::State& truth = expected.state();
+    const auto clouds = state.clouds();
+    ASSERT_EQ(clouds.size(), truth.clouds.size());
+    for (std::size_t i = 0; i < clouds.size(); ++i) {
+      EXPECT_EQ(clouds[i].id, truth.clouds[i].id);
+      EXPECT_EQ(clouds[i].end_tick, truth.clouds[i].cloud->end_tick());
+      EXPECT_EQ(clouds[i].low.y, truth.clouds[i].cloud->low().y);
+      EXPECT_EQ(clouds[i].high.z, truth.clouds[i].cloud->high().z + 1);
+    }
+    const auto holes = state.holes();
+    ASSERT_EQ(holes.size(), truth.holes.size());
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      EXPECT_EQ(holes[i].distance, truth.holes[i].distance);
+      EXPECT_EQ(holes[i].toward.z, truth.holes[i].shot.toward.z);
+    }
+    const auto bodies = state.bodies();
+    ASSERT_EQ(bodies.size(), truth.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      EXPECT_EQ(bodies[i].previous.x, truth.bodies[i].previous.x);
+    const auto in_air = state.grenades();
+    ASSERT_EQ(in_air.size(), truth.flights.size());
+    for (std::size_t i = 0; i < in_air.size(); ++i) {
+      EXPECT_EQ(in_air[i].position.x, sim::grenades_of(truth)[i].position_world.x);
+      EXPECT_EQ(in_air[i].landing.x, truth.flights[i].landing.x);
+    }
+    ASSERT_EQ(state.blasts().size(), truth.blasts.size());
+    grenades += in_air.size();
+    blasts += truth.blasts.size();
+    const brume_state_info info = state.describe();
+    EXPECT_EQ(info.hole_count, holes.size());
+    EXPECT_EQ(info.body_count, bodies.size());
+    EXPECT_EQ(info.event_count, truth.events);
+  }
+  EXPECT_GT(grenades, 5u);
+  EXPECT_GT(blasts, 50u);
+}
+
 TEST_F(WorldTest, LateEventsGiveTheStatesOfEventsInTime) {
   const auto expected = hashes();
   World world = this->world();
