@@ -16,8 +16,8 @@
 // Threads    Any function may be called from any thread. Calls that change one handle run one after another,
 //            reads of it run concurrently. Destroying a handle is the last call with it: no other may run.
 //            Nothing is set for the whole process. A context has its own number of threads, which a call may
-//            start and which end before it returns. Floating-point settings of the calling thread must be the
-//            default ones: rounding to nearest, denormals kept.
+//            start and which end before it returns. Calls have their own floating-point environment: rounding
+//            modes, flushed denormals and traps of the caller do not matter.
 // Structs    Parameter structs begin with `struct_size` = sizeof(the struct) and `next` = NULL. Take their
 //            defaults from the *_defaults functions. Other structs never change.
 // Arrays     A null pointer is accepted where the count is 0. Outputs must not overlap inputs.

@@ -125,7 +125,8 @@ brume_result Call::report(brume_result result, const char* message) noexcept {
   const brume_log_callback log = settings_ ? settings_->log.load() : nullptr;
   if (!log) return result;
 
-  // The callback may call functions that fail.
+  // The callback runs as the caller does, and may call functions that fail.
+  floating_point_.reset();
   char line[kMaxLine];
   std::memcpy(line, t_last_error, kMaxLine);
   log(settings_->log_user, result, line);

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 
+#include "api/floating_point.hpp"
 #include "core/error.hpp"
 #include "core/tasks.hpp"
 
@@ -113,7 +114,7 @@ void write_list(std::span<const T> list, T* out, std::size_t capacity, std::size
 /// One call of the interface.
 class Call {
  public:
-  explicit Call(const char* function) : function_(function) {}
+  explicit Call(const char* function) : function_(function) { floating_point_.emplace(); }
 
   /// The object of a handle. Its context's number of threads holds for the rest of the call.
   template <typename T>
@@ -164,6 +165,7 @@ class Call {
   brume_result report(brume_result result, const char* message) noexcept;
 
   const char* function_;
+  std::optional<DefaultFloatingPoint> floating_point_;
   std::shared_ptr<Settings> settings_;
   std::optional<ThreadCountScope> threads_;
 };

@@ -34,6 +34,9 @@ namespace {
 
 constexpr std::size_t kChunk = 65536;
 constexpr std::size_t kGrain = 512;
+/// Up to so many segments, one after the other is faster than a packet of them; the results are the same
+/// bits.
+constexpr std::size_t kFew = 4;
 
 void create_field(Call& call, const brume_level* level, const brume_field_params* given,
                   brume_field** field) {
@@ -92,6 +95,19 @@ brume_result answer(const char* function, const brume_field* field, const brume_
       }
     });
   });
+}
+
+void find_depths(const smoke::Sight& sight, std::span<const smoke::Segment> segments, std::span<float> out) {
+  if (segments.size() > kFew) return unwrap(sight.optical_depths(segments, out));
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    out[i] = unwrap(sight.optical_depth(segments[i].a_world, segments[i].b_world));
+}
+
+void find_visible(const smoke::Sight& sight, std::span<const smoke::Segment> segments, float threshold,
+                  std::span<std::uint8_t> out) {
+  if (segments.size() > kFew) return unwrap(sight.visible(segments, threshold, out));
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    out[i] = unwrap(sight.visible(segments[i].a_world, segments[i].b_world, threshold)) ? 1 : 0;
 }
 
 void find_walls(const smoke::Sight& sight, std::span<const smoke::Segment> segments,
@@ -169,17 +185,14 @@ brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* b
 
 brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments, size_t count,
                                         float* depths) BRUME_NOEXCEPT {
-  return answer(__func__, field, segments, count, depths,
-                [](const Sight& sight, std::span<const Segment> chunk, std::span<float> out) {
-                  unwrap(sight.optical_depths(chunk, out));
-                });
+  return answer(__func__, field, segments, count, depths, find_depths);
 }
 
 brume_result brume_field_visible(const brume_field* field, const brume_segment* segments, size_t count,
                                  float threshold, uint8_t* visible) BRUME_NOEXCEPT {
   return answer(__func__, field, segments, count, visible,
                 [&](const Sight& sight, std::span<const Segment> chunk, std::span<std::uint8_t> out) {
-                  unwrap(sight.visible(chunk, threshold, out));
+                  find_visible(sight, chunk, threshold, out);
                 });
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,6 +43,7 @@ class FieldTest : public testing::Test {
   Context context_;
   Level level_ = match_.level(context_);
   Masks masks_ = match_.masks(context_);
+  brume_layout level_layout_ = match_.layout();
   brume_field_params params_ = brume_field_defaults();
 };
 
@@ -219,6 +221,40 @@ TEST_F(FieldTest, ThreadsDoNotMatter) {
     const auto depths = field.optical_depths(segments);
     if (first.empty()) first = depths;
     EXPECT_EQ(depths, first);
+  }
+}
+
+TEST_F(FieldTest, FloatingPointSettingsOfTheCallerDoNotMatter) {
+  World world = this->world();
+  const Field expected = field_at(world, 260);
+  const auto segments = match_.segments(600, 8);
+  const auto depths = expected.optical_depths(segments);
+  for (const int mode : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO}) {
+    std::fenv_t before;
+    std::fegetenv(&before);
+    std::fesetround(mode);
+    ::feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // Nearly every operation would trap.
+    brume_level* level = nullptr;
+    brume_triangles_params params = brume_triangles_defaults();
+    params.layout = level_layout_;
+    params.points = match_.points.data();
+    params.point_count = match_.points.size();
+    params.indices = match_.indices.data();
+    params.index_count = match_.indices.size();
+    EXPECT_EQ(brume_level_create_from_triangles(context_.get(), &params, &level), BRUME_OK);
+    brume_field* field = nullptr;
+    EXPECT_EQ(brume_field_create(level, &params_, &field), BRUME_OK);
+    brume_state* state = nullptr;
+    EXPECT_EQ(brume_world_state(world.get(), &state), BRUME_OK);
+    EXPECT_EQ(brume_field_update(field, state), BRUME_OK);
+    std::vector<float> out(segments.size());
+    EXPECT_EQ(brume_field_optical_depths(field, segments.data(), segments.size(), out.data()), BRUME_OK);
+    EXPECT_EQ(brume_world_tick(nullptr, nullptr), BRUME_ERROR_HANDLE);
+    EXPECT_EQ(std::fegetround(), mode) << "the caller has its own settings again";
+    EXPECT_EQ(::fegetexcept(), FE_INEXACT | FE_UNDERFLOW);
+    std::fesetenv(&before);
+    EXPECT_EQ(out, depths);
+    brume_field_destroy(field), brume_level_destroy(level), brume_state_destroy(state);
   }
 }
 

@@ -10,6 +10,6 @@ int main(void) {
   const brume_receiver_params receiver = brume_receiver_defaults();
   const brume_field_params field = brume_field_defaults();
   const brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, 1);
-  return context.next || voxels.next || triangles.next || world.next || sender.next || receiver.next || field.next ||
-         event.next;
+  return context.next || voxels.next || triangles.next || world.next || sender.next || receiver.next ||
+         field.next || event.next;
 }
