@@ -92,10 +92,10 @@ void SmokeField::find_changed_bricks() {
   }
 
   // Each once, in order.
-  const auto key = [](const glm::ivec3& v) { return std::tie(v.z, v.y, v.x); };
-  std::ranges::sort(changed, {}, key);
-  const auto repeats = std::ranges::unique(changed);
-  changed.erase(repeats.begin(), repeats.end());
+  std::sort(changed.begin(), changed.end(), [](const glm::ivec3& a, const glm::ivec3& b) {
+    return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+  });
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   changed_bricks_.clear();
   const glm::ivec3 end = (layout().size + voxel::kBrickSize - 1) / voxel::kBrickSize;
   for (const glm::ivec3& brick : changed) {
