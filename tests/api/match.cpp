@@ -42,7 +42,7 @@ Match::Match(unsigned seed) : random_(seed) {
     if (tick % 110 == 80) events.push_back(blast);
     brume_event door = brume_event_defaults(BRUME_EVENT_EDIT, tick);
     door.u.edit = {kDoorLow, kDoorHigh, tick % 180 == 90};
-    if (tick % 90 == 0) events.push_back(door);
+    if (tick % 90 == 0 && tick > 0) events.push_back(door);
   }
 }
 

@@ -94,6 +94,7 @@ void expect(int step, brume_result result, brume_result expected) {
     expect(1, brume_world_advance_to(world.get(), 64), BRUME_ERROR_MEMORY);
   }
   expect(2, brume_world_hash(world.get(), &hash), BRUME_ERROR_BROKEN);
+  expect(2, brume_world_step(world.get()), BRUME_ERROR_BROKEN);
   expect(3, brume_world_restore(world.get(), before.get()), BRUME_OK);
   const brume_event again = smoke();
   expect(4, brume_world_append(world.get(), &again, 1), BRUME_OK);
