@@ -36,9 +36,11 @@
 
 #ifdef __cplusplus
 #define BRUME_NOEXCEPT noexcept
+#define BRUME_NULL nullptr
 extern "C" {
 #else
 #define BRUME_NOEXCEPT
+#define BRUME_NULL NULL
 #endif
 
 #if defined(__GNUC__)
@@ -108,7 +110,7 @@ typedef struct brume_context_params {
 } brume_context_params;
 
 static inline brume_context_params brume_context_defaults(void) {
-  brume_context_params params = {sizeof(brume_context_params), NULL, 0, NULL, NULL};
+  brume_context_params params = {sizeof(brume_context_params), BRUME_NULL, 0, BRUME_NULL, BRUME_NULL};
   return params;
 }
 
@@ -153,7 +155,7 @@ typedef struct brume_voxels_params {
 
 static inline brume_voxels_params brume_voxels_defaults(void) {
   brume_voxels_params params = {
-      sizeof(brume_voxels_params), NULL, {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}}, NULL, 0};
+      sizeof(brume_voxels_params), BRUME_NULL, {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}}, BRUME_NULL, 0};
   return params;
 }
 
@@ -172,8 +174,14 @@ typedef struct brume_triangles_params {
 } brume_triangles_params;
 
 static inline brume_triangles_params brume_triangles_defaults(void) {
-  brume_triangles_params params = {
-      sizeof(brume_triangles_params), NULL, {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}}, 2, NULL, 0, NULL, 0};
+  brume_triangles_params params = {sizeof(brume_triangles_params),
+                                   BRUME_NULL,
+                                   {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}},
+                                   2,
+                                   BRUME_NULL,
+                                   0,
+                                   BRUME_NULL,
+                                   0};
   return params;
 }
 
@@ -309,7 +317,7 @@ typedef struct brume_event {
 /// An event of a kind (brume_event_kind) at a tick with the default settings of that kind and all positions
 /// 0. The defaults of ticks are 1 s, 18 s and 3 s at 64 ticks per second.
 static inline brume_event brume_event_defaults(uint32_t kind, uint32_t tick) {
-  brume_event event = {sizeof(brume_event), NULL, kind, tick, {{{0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0}}};
+  brume_event event = {sizeof(brume_event), BRUME_NULL, kind, tick, {{{0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0}}};
   for (int i = 0; i < 32; ++i) event.u.reserved[i] = 0;
   if (kind == BRUME_EVENT_SMOKE) {
     event.u.smoke.voxels = 1800;
@@ -340,7 +348,7 @@ typedef struct brume_world_params {
 } brume_world_params;
 
 static inline brume_world_params brume_world_defaults(void) {
-  brume_world_params params = {sizeof(brume_world_params), NULL, 64, NULL};
+  brume_world_params params = {sizeof(brume_world_params), BRUME_NULL, 64, BRUME_NULL};
   return params;
 }
 
@@ -476,7 +484,7 @@ typedef struct brume_sender_params {
 } brume_sender_params;
 
 static inline brume_sender_params brume_sender_defaults(void) {
-  brume_sender_params params = {sizeof(brume_sender_params), NULL, 128};
+  brume_sender_params params = {sizeof(brume_sender_params), BRUME_NULL, 128};
   return params;
 }
 
@@ -506,7 +514,7 @@ typedef struct brume_receiver_params {
 } brume_receiver_params;
 
 static inline brume_receiver_params brume_receiver_defaults(void) {
-  brume_receiver_params params = {sizeof(brume_receiver_params), NULL, 16777216u, 67108864u, 1048576u};
+  brume_receiver_params params = {sizeof(brume_receiver_params), BRUME_NULL, 16777216u, 67108864u, 1048576u};
   return params;
 }
 
@@ -552,7 +560,7 @@ typedef struct brume_field_params {
 } brume_field_params;
 
 static inline brume_field_params brume_field_defaults(void) {
-  brume_field_params params = {sizeof(brume_field_params), NULL, 3.0f, NULL};
+  brume_field_params params = {sizeof(brume_field_params), BRUME_NULL, 3.0f, BRUME_NULL};
   return params;
 }
 

@@ -136,8 +136,6 @@ brume_result Call::report(brume_result result, const char* message) noexcept {
 
 }  // namespace brume::api
 
-using brume::api::Call;
-
 extern "C" {
 
 brume_result brume_version(uint32_t* major, uint32_t* minor, uint32_t* patch) BRUME_NOEXCEPT {

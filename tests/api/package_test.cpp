@@ -37,8 +37,8 @@ TEST(Headers, CompileWithoutAWarning) {
   for (const char* compiler : {"g++", "clang++"}) {
     if (!has(compiler)) continue;
     for (const char* standard : {"c++11", "c++17", "c++20"})
-      expect_runs(compiler + warnings + "-Wold-style-cast -x c++ -std=" + standard +
-                  " " BRUME_SOURCE_DIR "/tests/api/header.c");
+      expect_runs(compiler + warnings + "-Wold-style-cast -Wzero-as-null-pointer-constant -x c++ -std=" +
+                  standard + " " BRUME_SOURCE_DIR "/tests/api/header.c");
     expect_runs("echo '#include <brume/brume.hpp>' | " + std::string(compiler) + warnings +
                 "-Wold-style-cast -std=c++17 -x c++ -");
   }
