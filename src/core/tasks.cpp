@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace brume {
 namespace {
 
 std::atomic<unsigned> g_thread_count{0};
+thread_local unsigned t_thread_count = 0;  // of ThreadCountScope
 
 }  // namespace
 
@@ -18,7 +20,16 @@ void set_thread_count(unsigned count) {
   g_thread_count = count;
 }
 
+ThreadCountScope::ThreadCountScope(unsigned count) : before_(t_thread_count) {
+  if (count > 0) t_thread_count = count;
+}
+
+ThreadCountScope::~ThreadCountScope() {
+  t_thread_count = before_;
+}
+
 unsigned thread_count() {
+  if (t_thread_count > 0) return t_thread_count;
   const unsigned chosen = g_thread_count;
   return chosen > 0 ? chosen : std::max(1u, std::thread::hardware_concurrency());
 }
@@ -50,9 +61,17 @@ void parallel_for(std::size_t count, std::size_t grain,
   const std::size_t ranges = (count + grain - 1) / grain;
   const std::size_t helpers = std::min<std::size_t>(thread_count(), ranges) - 1;
   {
+    const auto help = [&, count_here = t_thread_count] {
+      const ThreadCountScope scope(count_here);
+      work();
+    };
     std::vector<std::jthread> threads;
     threads.reserve(helpers);
-    for (std::size_t i = 0; i < helpers; ++i) threads.emplace_back(work);
+    try {
+      for (std::size_t i = 0; i < helpers; ++i) threads.emplace_back(help);
+    } catch (const std::system_error&) {
+      // No more threads: those that have started do the work.
+    }
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "core/atomic_file.hpp"
@@ -88,6 +89,19 @@ TEST(Tasks, RunsEveryIndexOnce) {
     for (const auto& hit : hits) EXPECT_EQ(hit, 1);
   }
   set_thread_count(0);
+}
+
+TEST(Tasks, ScopesSetTheNumberOfThreadsOfTheirThreadAndItsHelpers) {
+  const unsigned before = thread_count();
+  {
+    const ThreadCountScope scope(3);
+    EXPECT_EQ(thread_count(), 3u);
+    std::jthread([&] { EXPECT_EQ(thread_count(), before); });
+    parallel_for(20, 1, [&](std::size_t, std::size_t) { EXPECT_EQ(thread_count(), 3u); });
+    const ThreadCountScope inner(0);
+    EXPECT_EQ(thread_count(), 3u);
+  }
+  EXPECT_EQ(thread_count(), before);
 }
 
 TEST(Tasks, PropagatesExceptions) {

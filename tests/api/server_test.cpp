@@ -1,20 +1,10 @@
-// A match on a server: a minimal program around brume::sim and brume::smoke, without Vulkan, window or scene
-// files.
-//
-//   cmake -S . -B build/server -D BRUME_SERVER=ON -D CMAKE_BUILD_TYPE=Release
-//   cmake --build build/server --target brume_server
-//   build/server/examples/server/brume_server [--seconds N] [--realtime]
-//
-// Twelve bots run around in two rooms with a door in between, throw smokes and shoot through them. Each
-// second it prints the tick, the number of pairs that see each other, and the state hash: the same on every
-// machine.
+// The match of examples/server on the libraries below the C interface: the example, in C, must print the same
+// lines.
+#include <gtest/gtest.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <string_view>
-#include <thread>
+#include <string>
 #include <vector>
 
 #include "sim/level_edit.hpp"
@@ -22,10 +12,10 @@
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
+#include "tests/api/run_shell.hpp"
 
+namespace brume::api {
 namespace {
-
-using namespace brume;
 
 constexpr std::uint32_t kBots = 12;
 constexpr sim::Position kEyes{0, 1638, 0};  // 1.6 m above the feet
@@ -76,45 +66,39 @@ std::size_t count_visible_pairs(const sim::World& world, const smoke::SmokeVolum
   return static_cast<std::size_t>(std::count(visible.begin(), visible.end(), 1));
 }
 
-void run_match(std::uint32_t seconds, bool realtime) {
+std::string play_match(std::uint32_t seconds) {
   const voxel::BitGrid level = make_level();
   sim::World world(level);
   smoke::SmokeVolume smoke(level, [](glm::ivec3) { return std::span<const voxel::Plane>(); });
   const std::uint32_t rate = world.settings().ticks_per_second;
-  const auto start = std::chrono::steady_clock::now();
+  std::string lines;
   for (std::uint32_t tick = 0; tick <= seconds * rate; ++tick) {
-    if (realtime)
-      std::this_thread::sleep_until(start + std::chrono::nanoseconds(1'000'000'000 / rate) * tick);
     take_input(world, tick);
     world.advance_to(tick);
-    if (tick > rate) world.forget_before(tick - rate);  // accept input that is up to one second late
+    if (tick > rate) world.forget_before(tick - rate);
     smoke.update(world);
     const std::size_t visible = count_visible_pairs(world, smoke);
-    if (tick % rate == 0)
-      std::printf("tick %u: %zu smokes, %zu holes, %zu pairs of bots see each other, state %016llx\n", tick,
+    if (tick % rate != 0) continue;
+    char line[200];
+    std::snprintf(line, sizeof line,
+                  "tick %u: %zu smokes, %zu holes, %zu pairs of bots see each other, state %016llx\n", tick,
                   world.state().clouds.size(), world.state().holes.size(), visible,
                   static_cast<unsigned long long>(world.state_hash()));
+    lines += line;
   }
+  return lines;
+}
+
+TEST(Server, PrintsTheMatchOfTheLibraries) {
+  const ShellRun run = run_shell("'" BRUME_SERVER_PROGRAM "' --seconds 30");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.output, play_match(30));
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 31);
+}
+
+TEST(Server, RejectsArgumentsThatItDoesNotHave) {
+  EXPECT_EQ(run_shell("'" BRUME_SERVER_PROGRAM "' --minutes 3 2>&1").status, 2);
 }
 
 }  // namespace
-
-int main(int count, char** arguments) {
-  std::uint32_t seconds = 30;
-  bool realtime = false;
-  for (int i = 1; i < count; ++i) {
-    const std::string_view argument = arguments[i];
-    if (argument == "--realtime")
-      realtime = true;
-    else if (argument == "--seconds" && i + 1 < count)
-      seconds = static_cast<std::uint32_t>(std::clamp(std::atoi(arguments[++i]), 1, 86400));
-    else
-      return std::fprintf(stderr, "usage: brume_server [--seconds N] [--realtime]\n"), 2;
-  }
-  try {
-    run_match(seconds, realtime);
-    return 0;
-  } catch (const std::exception& error) {
-    return std::fprintf(stderr, "brume_server: %s\n", error.what()), 1;
-  }
-}
+}  // namespace brume::api

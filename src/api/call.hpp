@@ -1,0 +1,187 @@
+// What all functions of the C interface have in common: handles are checked, exceptions become results, the
+// last error of each thread is stored and logged.
+#pragma once
+
+#include <brume/brume.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <span>
+#include <string>
+
+#include "api/floating_point.hpp"
+#include "core/error.hpp"
+#include "core/tasks.hpp"
+
+namespace brume::api {
+
+/// Settings of a context; objects created from it hold them.
+struct Settings {
+  unsigned thread_count = 0;
+  std::atomic<brume_log_callback> log = nullptr;
+  void* log_user = nullptr;
+};
+
+enum class Kind : std::uint32_t { context = 1, level, masks, world, state, sender, receiver, field };
+
+/// The start of what every handle points to.
+struct Handle {
+  static constexpr std::uint64_t kMagic = 0x656d757242a9c37bu;
+
+  Handle(Kind of_kind, std::shared_ptr<Settings> of_context)
+      : kind(of_kind), settings(std::move(of_context)) {}
+  Handle(const Handle&) = delete;
+  ~Handle() { magic = 0; }
+
+  volatile std::uint64_t magic = kMagic;
+  Kind kind;
+  /// A call that changes the object ended by an exception.
+  bool broken = false;
+  std::shared_ptr<Settings> settings;
+  mutable std::shared_mutex mutex;
+};
+
+/// A failure with its result, thrown within a call.
+struct CallFailure {
+  brume_result result;
+  std::string message;
+};
+
+[[noreturn]] inline void fail(brume_result result, std::string message) {
+  throw CallFailure{result, std::move(message)};
+}
+[[noreturn]] inline void refuse(std::string message) {
+  fail(BRUME_ERROR_ARGUMENT, std::move(message));
+}
+inline void require(bool condition, const char* expected) {
+  if (!condition) refuse(expected);
+}
+/// A pointer that must not be null.
+template <typename T>
+T& required(T* pointer, const char* name) {
+  if (!pointer) refuse(std::string("`") + name + "` is null");
+  return *pointer;
+}
+
+/// The result for a failure of the code below; that of bad_input depends on the function.
+brume_result result_of(ErrorCode code, brume_result bad_input = BRUME_ERROR_ARGUMENT);
+
+/// The value of a Result; throws its failure.
+template <typename T>
+T unwrap(Result<T> result, brume_result bad_input = BRUME_ERROR_ARGUMENT) {
+  if (!result) fail(result_of(result.failure().code, bad_input), result.failure().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+/// A parameter struct, or the defaults for null.
+template <typename Params>
+Params params_or(const Params* given, const Params& defaults) {
+  if (!given) return defaults;
+  const std::uint32_t size = given->struct_size;
+  if (size != sizeof(Params))
+    refuse("`struct_size` is " + std::to_string(size) + ", expected " + std::to_string(sizeof(Params)) +
+           ": take the defaults from the *_defaults function of the same header");
+  require(given->next == nullptr, "`next` must be null");
+  return *given;
+}
+/// The same where there must be one.
+template <typename Params>
+Params required_params(const Params* given) {
+  return params_or(&required(given, "params"), Params{});
+}
+
+/// Copies bytes to the caller, or only their number.
+void write_bytes(const void* bytes, std::size_t count, void* buffer, std::size_t capacity, std::size_t* size);
+
+/// Copies a list to the caller, or only its length.
+template <typename T>
+void write_list(std::span<const T> list, T* out, std::size_t capacity, std::size_t* count) {
+  required(count, "count");
+  require(out || capacity == 0, "the list is null, but its capacity is not 0");
+  *count = list.size();
+  if (!out) return;
+  if (capacity < list.size())
+    fail(BRUME_ERROR_BUFFER, "the capacity is " + std::to_string(capacity) + ", " +
+                                 std::to_string(list.size()) + " are required");
+  std::copy(list.begin(), list.end(), out);
+}
+
+/// One call of the interface.
+class Call {
+ public:
+  explicit Call(const char* function) : function_(function) { floating_point_.emplace(); }
+
+  /// The object of a handle. Its context's number of threads holds for the rest of the call.
+  template <typename T>
+  T& handle(T* pointer) {
+    check(pointer, std::remove_const_t<T>::kKind);
+    adopt(pointer->settings);
+    return *pointer;
+  }
+  /// Runs what only reads an object, or what changes it: if that ends by an exception other than a
+  /// CallFailure, the object is broken.
+  template <typename T, typename Read>
+  void read(const T& object, Read body) {
+    const std::shared_lock lock(object.mutex);
+    check_whole(object);
+    body();
+  }
+  template <typename T, typename Change>
+  void change(T& object, Change body, bool repairs = false) {
+    const std::unique_lock lock(object.mutex);
+    if (!repairs) check_whole(object);
+    try {
+      body();
+      object.broken = false;
+    } catch (const CallFailure&) {
+      throw;
+    } catch (...) {
+      object.broken = true;
+      throw;
+    }
+  }
+
+  /// Runs the function: body(*this).
+  template <typename Body>
+  brume_result run(Body body) noexcept {
+    try {
+      body(*this);
+      return BRUME_OK;
+    } catch (...) {
+      return failed();
+    }
+  }
+
+ private:
+  static void check(const void* pointer, Kind kind);
+  static void check_whole(const Handle& object);
+  void adopt(const std::shared_ptr<Settings>& settings);
+  brume_result failed() noexcept;
+  brume_result report(brume_result result, const char* message) noexcept;
+
+  const char* function_;
+  std::optional<DefaultFloatingPoint> floating_point_;
+  std::shared_ptr<Settings> settings_;
+  std::optional<ThreadCountScope> threads_;
+};
+
+/// Creates an object and gives it to the caller.
+template <typename T, typename... Arguments>
+void create(T** out, Arguments&&... arguments) {
+  required(out, "the output");
+  *out = new T(std::forward<Arguments>(arguments)...);
+}
+
+/// Destroys the object of a handle, if any.
+template <typename T>
+brume_result destroy(const char* function, T* pointer) noexcept {
+  if (!pointer) return BRUME_OK;
+  return Call(function).run([&](Call& call) { delete &call.handle(pointer); });
+}
+
+}  // namespace brume::api

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "api/smoke_field.hpp"
+#include "core/tasks.hpp"
+#include "shared/volume.h"
+
+struct brume_field : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::field;
+  brume_field(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
+              std::shared_ptr<const brume::smoke::MaskAtlas> of_masks, float of_extinction)
+      : Handle(kKind, std::move(of)),
+        level(std::move(of_level)),
+        masks(std::move(of_masks)),
+        extinction(of_extinction) {
+    renew();
+  }
+  /// The same without smoke.
+  void renew() {
+    std::vector<glm::ivec3> bricks;
+    if (field) bricks = field->bricks();
+    field = std::make_unique<brume::api::SmokeField>(level, masks, extinction, std::move(bricks));
+  }
+
+  std::shared_ptr<const brume::api::LevelData> level;
+  std::shared_ptr<const brume::smoke::MaskAtlas> masks;
+  float extinction;
+  std::unique_ptr<brume::api::SmokeField> field;
+};
+
+namespace brume::api {
+namespace {
+
+constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kGrain = 512;
+/// Up to so many segments, one after the other is faster than a packet of them; the results are the same
+/// bits.
+constexpr std::size_t kFew = 4;
+
+void create_field(Call& call, const brume_level* level, const brume_field_params* given,
+                  brume_field** field) {
+  const brume_level& of = call.handle(level);
+  required(field, "field");
+  const brume_field_params params = params_or(given, brume_field_defaults());
+  require(params.extinction >= 0 && params.extinction <= 1e6f, "`extinction` must be from 0 to 10^6");
+  create(field, of.settings, of.data, atlas_of(call, params.masks), params.extinction);
+}
+
+void update(brume_field& of, const sim::State& state) {
+  if (state.layout != of.level->grid.layout())
+    fail(BRUME_ERROR_MISMATCH, "the state is of another level layout than the field");
+  const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
+  if (state.masks != masks) fail(BRUME_ERROR_MISMATCH, "the state's world has other masks than the field");
+  if (state.edits) unwrap(sim::check_event(sim::LevelEdit{0, *state.edits}, state.layout), BRUME_ERROR_DATA);
+  if (of.broken) of.renew();
+  of.field->update(state);
+}
+
+bool is_point(const brume_point& p) {
+  const auto within = [](float c) { return std::abs(c) <= smoke::kMaxSightMetres; };  // false for NaN
+  return within(p.x) && within(p.y) && within(p.z);
+}
+
+smoke::Segment segment_of(const brume_segment& s) {
+  return {{s.a.x, s.a.y, s.a.z}, {s.b.x, s.b.y, s.b.z}};
+}
+
+template <typename Out>
+void check_queries(const brume_segment* segments, std::size_t count, const Out* out) {
+  require(count <= BRUME_MAX_QUERIES, "at most 2^28 segments");
+  if (count == 0) return;
+  required(segments, "segments");
+  required(out, "the output");
+  for (std::size_t i = 0; i < count; ++i)
+    if (!is_point(segments[i].a) || !is_point(segments[i].b))
+      refuse("segment " + std::to_string(i) +
+             " must have finite coordinates within 16384 m of the world's origin");
+}
+
+/// Answers queries: query(segments of a chunk, their results).
+template <typename Out, typename Query>
+brume_result answer(const char* function, const brume_field* field, const brume_segment* segments,
+                    std::size_t count, Out* out, Query query) noexcept {
+  return Call(function).run([&](Call& call) {
+    const brume_field& of = call.handle(field);
+    check_queries(segments, count, out);
+    call.read(of, [&] {
+      std::vector<smoke::Segment> chunk(std::min(count, kChunk));
+      for (std::size_t first = 0; first < count; first += kChunk) {
+        const std::size_t size = std::min(kChunk, count - first);
+        std::transform(segments + first, segments + first + size, chunk.begin(), segment_of);
+        query(of.field->sight(), std::span<const smoke::Segment>(chunk).first(size),
+              std::span(out + first, size));
+      }
+    });
+  });
+}
+
+void find_depths(const smoke::Sight& sight, std::span<const smoke::Segment> segments, std::span<float> out) {
+  if (segments.size() > kFew) return unwrap(sight.optical_depths(segments, out));
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    out[i] = unwrap(sight.optical_depth(segments[i].a_world, segments[i].b_world));
+}
+
+void find_visible(const smoke::Sight& sight, std::span<const smoke::Segment> segments, float threshold,
+                  std::span<std::uint8_t> out) {
+  if (segments.size() > kFew) return unwrap(sight.visible(segments, threshold, out));
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    out[i] = unwrap(sight.visible(segments[i].a_world, segments[i].b_world, threshold)) ? 1 : 0;
+}
+
+void find_walls(const smoke::Sight& sight, std::span<const smoke::Segment> segments,
+                std::span<brume_wall> out) {
+  parallel_for(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto wall = unwrap(sight.first_wall(segments[i].a_world, segments[i].b_world));
+      out[i] = {};
+      if (!wall) continue;
+      out[i] = {1,
+                {wall->voxel.x, wall->voxel.y, wall->voxel.z},
+                {wall->normal.x, wall->normal.y, wall->normal.z},
+                wall->distance};
+    }
+  });
+}
+
+/// Copies the densities of a box, row by row of a brick.
+void read_densities(const smoke::SmokeVolume& volume, glm::ivec3 low, glm::ivec3 high, std::uint8_t* out) {
+  const glm::ivec3 size = high - low;
+  std::fill_n(
+      out,
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z),
+      std::uint8_t{0});
+  constexpr int kTexels = shared::kBrickTexels;
+  for (int z = low.z; z < high.z; ++z)
+    for (int y = low.y; y < high.y; ++y)
+      for (int x = low.x; x < high.x;) {
+        const glm::ivec3 brick = glm::ivec3(x, y, z) >> 3;
+        const int end = std::min(high.x, (brick.x + 1) * 8);
+        if (const std::uint32_t slot = volume.slot_at(brick); slot != smoke::SmokeVolume::kNoSlot) {
+          const auto row = volume.texels(slot).subspan(
+              static_cast<std::size_t>(1 + kTexels * ((y & 7) + 1 + kTexels * ((z & 7) + 1))), 8);
+          for (int i = x; i < end; ++i) out[i - x] = row[static_cast<std::size_t>(i & 7)].density;
+        }
+        out += end - x;
+        x = end;
+      }
+}
+
+}  // namespace
+}  // namespace brume::api
+
+using namespace brume::api;
+using brume::smoke::Segment;
+using brume::smoke::Sight;
+
+extern "C" {
+
+brume_result brume_field_create(const brume_level* level, const brume_field_params* params,
+                                brume_field** field) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) { create_field(call, level, params, field); });
+}
+
+brume_result brume_field_destroy(brume_field* field) BRUME_NOEXCEPT {
+  return destroy(__func__, field);
+}
+
+brume_result brume_field_update(brume_field* field, const brume_state* state) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_field& of = call.handle(field);
+    const brume_state& from = call.handle(state);
+    call.change(
+        of, [&] { update(of, from.state); }, true);
+  });
+}
+
+brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* bricks, size_t capacity,
+                                        size_t* count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_field& of = call.handle(field);
+    call.read(of, [&] { write_list(of.field->changed_bricks(), bricks, capacity, count); });
+  });
+}
+
+brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments, size_t count,
+                                        float* depths) BRUME_NOEXCEPT {
+  return answer(__func__, field, segments, count, depths, find_depths);
+}
+
+brume_result brume_field_visible(const brume_field* field, const brume_segment* segments, size_t count,
+                                 float threshold, uint8_t* visible) BRUME_NOEXCEPT {
+  return answer(__func__, field, segments, count, visible,
+                [&](const Sight& sight, std::span<const Segment> chunk, std::span<std::uint8_t> out) {
+                  find_visible(sight, chunk, threshold, out);
+                });
+}
+
+brume_result brume_field_first_walls(const brume_field* field, const brume_segment* segments, size_t count,
+                                     brume_wall* walls) BRUME_NOEXCEPT {
+  return answer(__func__, field, segments, count, walls, find_walls);
+}
+
+brume_result brume_field_densities(const brume_field* field, brume_voxel low, brume_voxel high,
+                                   uint8_t* densities, size_t count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_field& of = call.handle(field);
+    checked_box(of.level->grid.layout(), low, high, count);
+    required(densities, "densities");
+    call.read(of, [&] { read_densities(of.field->volume(), ivec3_of(low), ivec3_of(high), densities); });
+  });
+}
+
+}  // extern "C"

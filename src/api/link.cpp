@@ -1,0 +1,168 @@
+// The sender and receiver of packets.
+#include <algorithm>
+
+#include "api/objects.hpp"
+#include "wire/packet.hpp"
+
+namespace brume::api {
+namespace {
+
+constexpr std::uint32_t kMaxHistory = 65536;
+/// Longer bytes are no request.
+constexpr std::size_t kMaxRequest = 16;
+
+std::span<const std::byte> bytes_of(const void* bytes, std::size_t size) {
+  if (size > 0) required(static_cast<const std::byte*>(bytes), "bytes");
+  return {static_cast<const std::byte*>(bytes), size};
+}
+
+void push(brume_sender& of, const sim::State& state) {
+  if (of.last) {
+    if (state.tick <= of.last->tick)
+      fail(BRUME_ERROR_ORDER, "expected a state after tick " + std::to_string(of.last->tick) +
+                                  ", not of tick " + std::to_string(state.tick));
+    const bool is_new = state.events < of.last->events;
+    if (!is_new && (state.layout != of.last->layout || state.ticks_per_second != of.last->ticks_per_second ||
+                    state.masks != of.last->masks))
+      fail(BRUME_ERROR_MISMATCH,
+           "the state is of another layout, ticks per second or masks than the last one");
+  }
+  of.packet = unwrap(of.sender.push(state));
+  of.last = state;
+  of.request.clear();
+}
+
+void answer(brume_sender& of, std::span<const std::byte> request, void* buffer, std::size_t capacity,
+            std::size_t* size) {
+  if (!of.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
+  if (request.size() > kMaxRequest || request.empty()) fail(BRUME_ERROR_DATA, "not a request");
+  // Both calls of one query, and receivers that have the same state, get the answer that is there.
+  if (!std::ranges::equal(request, of.request)) {
+    of.request.clear();
+    of.answer = unwrap(of.sender.answer(request), BRUME_ERROR_DATA);
+    of.request.assign(request.begin(), request.end());
+  }
+  write_bytes(of.answer.data(), of.answer.size(), buffer, capacity, size);
+}
+
+wire::Limits limits_of(const brume_receiver_params* given) {
+  const brume_receiver_params most = brume_receiver_defaults();
+  const brume_receiver_params params = params_or(given, most);
+  require(params.max_bytes >= 1 && params.max_bytes <= most.max_bytes, "`max_bytes` must be from 1 to 2^24");
+  require(params.max_voxels >= 1 && params.max_voxels <= most.max_voxels,
+          "`max_voxels` must be from 1 to 2^26");
+  require(params.max_items >= 1 && params.max_items <= most.max_items, "`max_items` must be from 1 to 2^20");
+  return {params.max_bytes, params.max_voxels, params.max_items};
+}
+
+}  // namespace
+}  // namespace brume::api
+
+using namespace brume::api;
+
+extern "C" {
+
+brume_result brume_sender_create(brume_context* context, const brume_sender_params* params,
+                                 brume_sender** sender) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_context& owner = call.handle(context);
+    required(sender, "sender");
+    const std::uint32_t history = params_or(params, brume_sender_defaults()).history;
+    require(history >= 1 && history <= kMaxHistory, "`history` must be from 1 to 65536");
+    create(sender, owner.settings, brume::wire::SenderSettings{history});
+  });
+}
+
+brume_result brume_sender_destroy(brume_sender* sender) BRUME_NOEXCEPT {
+  return destroy(__func__, sender);
+}
+
+brume_result brume_sender_push(brume_sender* sender, const brume_state* state) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_sender& of = call.handle(sender);
+    const brume_state& next = call.handle(state);
+    call.change(of, [&] { push(of, next.state); });
+  });
+}
+
+brume_result brume_sender_packet(const brume_sender* sender, void* buffer, size_t capacity,
+                                 size_t* size) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_sender& of = call.handle(sender);
+    call.read(of, [&] {
+      if (!of.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
+      write_bytes(of.packet.data(), of.packet.size(), buffer, capacity, size);
+    });
+  });
+}
+
+brume_result brume_sender_answer(brume_sender* sender, const void* request, size_t request_size, void* buffer,
+                                 size_t capacity, size_t* size) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_sender& of = call.handle(sender);
+    call.change(of, [&] { answer(of, bytes_of(request, request_size), buffer, capacity, size); });
+  });
+}
+
+brume_result brume_receiver_create(brume_context* context, const brume_receiver_params* params,
+                                   brume_receiver** receiver) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_context& owner = call.handle(context);
+    required(receiver, "receiver");
+    create(receiver, owner.settings, limits_of(params));
+  });
+}
+
+brume_result brume_receiver_destroy(brume_receiver* receiver) BRUME_NOEXCEPT {
+  return destroy(__func__, receiver);
+}
+
+brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet, size_t size,
+                                    uint32_t* reception) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_receiver& of = call.handle(receiver);
+    call.change(of, [&] {
+      const auto became = unwrap(of.receiver.receive(bytes_of(packet, size)), BRUME_ERROR_DATA);
+      if (reception) *reception = static_cast<std::uint32_t>(became);
+    });
+  });
+}
+
+brume_result brume_receiver_behind(const brume_receiver* receiver, uint32_t* behind) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_receiver& of = call.handle(receiver);
+    required(behind, "behind");
+    call.read(of, [&] { *behind = of.receiver.behind() ? 1 : 0; });
+  });
+}
+
+brume_result brume_receiver_request(const brume_receiver* receiver, void* buffer, size_t capacity,
+                                    size_t* size) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_receiver& of = call.handle(receiver);
+    call.read(of, [&] {
+      const std::vector<std::byte> request = of.receiver.request();
+      write_bytes(request.data(), request.size(), buffer, capacity, size);
+    });
+  });
+}
+
+brume_result brume_receiver_state(const brume_receiver* receiver, brume_state** state) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_receiver& of = call.handle(receiver);
+    required(state, "state");
+    call.read(of, [&] {
+      if (!of.receiver.state()) fail(BRUME_ERROR_ORDER, "no state has been received yet");
+      create(state, of.settings, *of.receiver.state());
+    });
+  });
+}
+
+brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_receiver& of = call.handle(receiver);
+    call.change(of, [&] { of.receiver.reset(); });
+  });
+}
+
+}  // extern "C"

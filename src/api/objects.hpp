@@ -1,0 +1,95 @@
+// The objects behind the handles.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "api/call.hpp"
+#include "sim/world.hpp"
+#include "smoke/mask_atlas.hpp"
+#include "voxel/bit_grid.hpp"
+#include "voxel/surface_planes.hpp"
+#include "wire/receiver.hpp"
+#include "wire/sender.hpp"
+
+namespace brume::api {
+
+/// What levels share with their worlds and fields.
+struct LevelData {
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
+};
+
+glm::ivec3 ivec3_of(const brume_voxel& v);
+/// The number of voxels of a box; throws a CallFailure unless it lies in the grid, has a voxel, and `count`
+/// is right.
+std::size_t checked_box(const voxel::GridLayout& layout, const brume_voxel& low, const brume_voxel& high,
+                        std::size_t count);
+/// The atlas of masks, or null.
+std::shared_ptr<const smoke::MaskAtlas> atlas_of(Call& call, const brume_masks* masks);
+
+}  // namespace brume::api
+
+struct brume_context : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::context;
+  explicit brume_context(std::shared_ptr<brume::api::Settings> of) : Handle(kKind, std::move(of)) {}
+};
+
+struct brume_level : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::level;
+  brume_level(std::shared_ptr<brume::api::Settings> of, brume::api::LevelData level)
+      : Handle(kKind, std::move(of)), data(std::make_shared<const brume::api::LevelData>(std::move(level))) {}
+
+  std::shared_ptr<const brume::api::LevelData> data;
+};
+
+struct brume_masks : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::masks;
+  brume_masks(std::shared_ptr<brume::api::Settings> of, brume::smoke::MaskAtlas masks)
+      : Handle(kKind, std::move(of)),
+        atlas(std::make_shared<const brume::smoke::MaskAtlas>(std::move(masks))) {}
+
+  std::shared_ptr<const brume::smoke::MaskAtlas> atlas;
+};
+
+struct brume_world : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::world;
+  brume_world(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
+              const brume::sim::WorldSettings& world_settings)
+      : Handle(kKind, std::move(of)), level(std::move(of_level)) {
+    world.emplace(level->grid, world_settings);
+  }
+
+  std::shared_ptr<const brume::api::LevelData> level;
+  std::optional<brume::sim::World> world;
+};
+
+struct brume_state : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::state;
+  brume_state(std::shared_ptr<brume::api::Settings> of, brume::sim::State value)
+      : Handle(kKind, std::move(of)), state(std::move(value)) {}
+
+  const brume::sim::State state;
+  mutable std::vector<std::byte> saved;  // empty: not encoded yet
+};
+
+struct brume_sender : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::sender;
+  brume_sender(std::shared_ptr<brume::api::Settings> of, const brume::wire::SenderSettings& sender_settings)
+      : Handle(kKind, std::move(of)), sender(sender_settings) {}
+
+  brume::wire::Sender sender;
+  std::optional<brume::sim::State> last;  // the state pushed
+  std::vector<std::byte> packet;
+  std::vector<std::byte> request, answer;  // the last of each since the push
+};
+
+struct brume_receiver : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::receiver;
+  brume_receiver(std::shared_ptr<brume::api::Settings> of, const brume::wire::Limits& limits)
+      : Handle(kKind, std::move(of)), receiver(limits) {}
+
+  brume::wire::Receiver receiver;
+};

@@ -1,0 +1,58 @@
+// The density field of a level and what queries of it require. Worlds may advance, and end, while it is
+// queried.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "api/objects.hpp"
+#include "smoke/sight.hpp"
+#include "smoke/smoke_volume.hpp"
+
+namespace brume::api {
+
+class SmokeField {
+ public:
+  /// `bricks`: where a field that this one replaces had smoke.
+  SmokeField(std::shared_ptr<const LevelData> level, std::shared_ptr<const smoke::MaskAtlas> masks,
+             float extinction, std::vector<glm::ivec3> bricks = {});
+  SmokeField(const SmokeField&) = delete;
+
+  /// Takes over a state of the level's layout and with the field's masks. Throws what SmokeVolume::update
+  /// does; it is then of no further use.
+  void update(const sim::State& state);
+
+  const voxel::GridLayout& layout() const { return level_->grid.layout(); }
+  sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
+  const smoke::Sight& sight() const { return *sight_; }
+  const smoke::SmokeVolume& volume() const { return volume_; }
+  /// The bricks in which the last update may have changed densities, by z, y, x.
+  std::span<const brume_voxel> changed_bricks() const { return changed_bricks_; }
+  /// Those with smoke, as of the last update that succeeded.
+  std::vector<glm::ivec3> bricks() const;
+
+ private:
+  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_->grid; }
+  std::span<const voxel::Plane> planes_at(glm::ivec3 cell) const;
+  void follow_edits(const std::shared_ptr<const sim::EditBlocks>& edits);
+  void set_block(const sim::EditBlock& block);
+  void look(const sim::State& state);
+  void find_changed_bricks();
+
+  std::shared_ptr<const LevelData> level_;
+  std::shared_ptr<const smoke::MaskAtlas> masks_;
+  float extinction_;
+  std::shared_ptr<const sim::EditBlocks> edits_;  // of the last state
+  std::optional<voxel::BitGrid> edited_,
+      changed_voxels_;  // the level with them; where it differs; none: no edits yet
+  smoke::SmokeVolume volume_;
+  std::vector<shared::Hole> holes_;
+  std::vector<std::optional<glm::ivec3>> brick_of_slot_;  // as of the last update
+  std::vector<glm::ivec3> replaced_bricks_;               // changed, too, in the first update
+  std::vector<brume_voxel> changed_bricks_;
+  std::optional<smoke::Sight> sight_;
+};
+
+}  // namespace brume::api

@@ -1,0 +1,172 @@
+// Errors, versions, logs and settings of the C interface.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "tests/api/match.hpp"
+
+namespace brume::api {
+namespace {
+
+struct Log {
+  std::vector<std::string> lines;
+  static void write(void* user, brume_result, const char* line) {
+    static_cast<Log*>(user)->lines.emplace_back(line);
+    brume_world_tick(nullptr, nullptr);  // Fails, and must not change the error that is reported.
+  }
+};
+
+brume_voxels_params small_level(const Bytes& bits) {
+  brume_voxels_params params = brume_voxels_defaults();
+  params.layout.size = {4, 4, 4};
+  params.bits = bits.data();
+  params.byte_count = bits.size();
+  return params;
+}
+
+class CallTest : public testing::Test {
+ protected:
+  Bytes bits_ = Bytes(8);
+  Context context_;
+  Level level_{context_, small_level(bits_)};
+};
+
+TEST_F(CallTest, NamesResults) {
+  EXPECT_STREQ(brume_result_name(BRUME_OK), "BRUME_OK");
+  for (int i = BRUME_OK; i <= BRUME_ERROR_INTERNAL; ++i)
+    EXPECT_EQ(std::strncmp(brume_result_name(static_cast<brume_result>(i)), "BRUME_", 6), 0) << i;
+  std::uint32_t major = 9, minor = 9, patch = 9;
+  EXPECT_EQ(brume_version(&major, &minor, &patch), BRUME_OK);
+  EXPECT_EQ(std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch),
+            BRUME_PROJECT_VERSION);
+  EXPECT_EQ(brume_version(nullptr, nullptr, nullptr), BRUME_OK);
+}
+
+TEST_F(CallTest, AnErrorIsOneLineOfItsThread) {
+  World world(level_);
+  EXPECT_EQ(brume_world_advance_to(world.get(), BRUME_MAX_TICK + 1), BRUME_ERROR_ARGUMENT);
+  const std::string line = brume_last_error();
+  EXPECT_EQ(line, "brume_world_advance_to: `tick` must be at most 536870912");
+  std::jthread([] { EXPECT_STREQ(brume_last_error(), ""); }).join();
+  EXPECT_EQ(brume_world_advance_to(world.get(), 5), BRUME_OK);
+  EXPECT_EQ(brume_last_error(), line) << "success does not change it";
+  try {
+    world.advance_to(BRUME_MAX_TICK + 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), line);
+    EXPECT_EQ(error.result(), BRUME_ERROR_ARGUMENT);
+  }
+}
+
+TEST_F(CallTest, AContextLogsItsFailures) {
+  Log log, other_log;
+  brume_context_params params = brume_context_defaults();
+  params.log = Log::write;
+  params.log_user = &log;
+  std::optional<Context> context(params);
+  params.log_user = &other_log;
+  const Context other(params);
+  const Level level(*context, small_level(bits_));
+  World world(level);
+  EXPECT_EQ(brume_world_advance_to(world.get(), ~0u), BRUME_ERROR_ARGUMENT);
+  ASSERT_EQ(log.lines.size(), 1u);
+  EXPECT_EQ(log.lines[0], brume_last_error());
+  EXPECT_TRUE(other_log.lines.empty());
+  context.reset();
+  EXPECT_EQ(brume_world_advance_to(world.get(), ~0u), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(log.lines.size(), 1u);
+}
+
+TEST_F(CallTest, WrongHandlesAreRejected) {
+  World world(level_);
+  std::uint64_t hash = 7;
+  auto* as_world = reinterpret_cast<brume_world*>(level_.get());
+  EXPECT_EQ(brume_world_hash(as_world, &hash), BRUME_ERROR_HANDLE);
+  EXPECT_STREQ(brume_last_error(), "brume_world_hash: expected a world, not a level");
+  EXPECT_EQ(brume_world_destroy(as_world), BRUME_ERROR_HANDLE);
+  EXPECT_EQ(brume_world_hash(nullptr, &hash), BRUME_ERROR_HANDLE);
+  alignas(16) std::array<std::uint64_t, 64> garbage{};
+  EXPECT_EQ(brume_world_hash(reinterpret_cast<brume_world*>(&garbage), &hash), BRUME_ERROR_HANDLE);
+  auto* odd = reinterpret_cast<brume_world*>(reinterpret_cast<char*>(&garbage) + 1);
+  EXPECT_EQ(brume_world_hash(odd, &hash), BRUME_ERROR_HANDLE);
+  EXPECT_EQ(brume_world_hash(world.get(), nullptr), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(hash, 7u);
+  EXPECT_EQ(brume_world_destroy(nullptr), BRUME_OK);
+  EXPECT_EQ(brume_context_destroy(nullptr), BRUME_OK);
+}
+
+TEST_F(CallTest, StructsOfOtherSizesAreRejected) {
+  brume_world_params params = brume_world_defaults();
+  params.struct_size += 8;
+  brume_world* world = nullptr;
+  EXPECT_EQ(brume_world_create(level_.get(), &params, &world), BRUME_ERROR_ARGUMENT);
+  EXPECT_NE(std::string(brume_last_error()).find("struct_size"), std::string::npos);
+  params = brume_world_defaults();
+  params.next = &params;
+  EXPECT_EQ(brume_world_create(level_.get(), &params, &world), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(world, nullptr);
+  brume_event event = brume_event_defaults(BRUME_EVENT_MOVE, 0);
+  event.struct_size = 0;
+  EXPECT_THROW(World(level_).append(event), Error);
+}
+
+TEST_F(CallTest, NumbersOutOfRangeAreRejectedWithTheEvent) {
+  World world(level_);
+  std::vector<brume_event> events(3, brume_event_defaults(BRUME_EVENT_MOVE, 4));
+  events[2].u.move.to.x = BRUME_MAX_COORDINATE + 1;
+  EXPECT_EQ(brume_world_append(world.get(), events.data(), events.size()), BRUME_ERROR_ARGUMENT);
+  EXPECT_STREQ(
+      brume_last_error(),
+      "brume_world_append: event 2: move at tick 4: expected `to` within 16384 m of the world's origin");
+  EXPECT_EQ(brume_world_append(world.get(), nullptr, 0), BRUME_OK);
+  EXPECT_EQ(brume_world_append(world.get(), nullptr, 1), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(brume_world_append(world.get(), events.data(), std::numeric_limits<std::size_t>::max()),
+            BRUME_ERROR_ARGUMENT);
+  brume_position at{1, 2, 3};
+  EXPECT_EQ(brume_position_from_metres(std::nan(""), 0, 0, &at), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(brume_position_from_metres(0, 16384.01, 0, &at), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(at.x, 1);
+  EXPECT_EQ(position(0.5, -1, 16384).x, 512);
+}
+
+TEST_F(CallTest, LinesThatAreNotFiniteWriteNoResult) {
+  const Field field(level_);
+  std::vector<brume_segment> segments(3);
+  segments[2].b.y = std::numeric_limits<float>::quiet_NaN();
+  std::array<float, 3> depths{7, 7, 7};
+  EXPECT_EQ(brume_field_optical_depths(field.get(), segments.data(), 3, depths.data()), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(depths, (std::array<float, 3>{7, 7, 7}));
+  std::array<std::uint8_t, 3> visible{};
+  EXPECT_EQ(brume_field_visible(field.get(), segments.data(), 2, -1, visible.data()), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(brume_field_visible(field.get(), segments.data(), 2, std::nanf(""), visible.data()),
+            BRUME_ERROR_ARGUMENT);
+}
+
+TEST_F(CallTest, LevelsThatAreTooLargeAreRejected) {
+  brume_level* level = nullptr;
+  brume_voxels_params params = small_level(bits_);
+  params.layout.size = {4097, 1, 1};
+  EXPECT_EQ(brume_level_create_from_voxels(context_.get(), &params, &level), BRUME_ERROR_LIMIT);
+  params.layout.size = {4096, 4096, 4096};
+  EXPECT_EQ(brume_level_create_from_voxels(context_.get(), &params, &level), BRUME_ERROR_ARGUMENT)
+      << "too few bytes";
+  const std::array<brume_point, 3> points{{{-9000, 0, 0}, {9000, 0, 0}, {0, 9, 9}}};
+  std::array<std::uint32_t, 3> indices{0, 1, 2};
+  brume_triangles_params triangles = brume_triangles_defaults();
+  triangles.points = points.data();
+  triangles.point_count = points.size();
+  triangles.indices = indices.data();
+  triangles.index_count = indices.size();
+  EXPECT_EQ(brume_level_create_from_triangles(context_.get(), &triangles, &level), BRUME_ERROR_LIMIT);
+  triangles.layout.voxel_size = 8;
+  indices[1] = 3;
+  EXPECT_EQ(brume_level_create_from_triangles(context_.get(), &triangles, &level), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(level, nullptr);
+}
+
+}  // namespace
+}  // namespace brume::api

@@ -1,0 +1,133 @@
+// The headers, the exported symbols and the installed package, used as other projects use them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "tests/api/run_shell.hpp"
+#include "tests/work_folder.hpp"
+
+namespace brume::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kInclude = BRUME_SOURCE_DIR "/include";
+
+bool has(const std::string& program) {
+  return run_shell("command -v " + program).status == 0;
+}
+
+void expect_runs(const std::string& command) {
+  const ShellRun run = run_shell("{ " + command + "; } 2>&1");
+  EXPECT_EQ(run.status, 0) << command << "\n" << run.output;
+}
+
+TEST(Headers, CompileWithoutAWarning) {
+  const std::string warnings =
+      " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -fsyntax-only -I'" + kInclude + "' ";
+  for (const char* compiler : {"gcc", "clang"}) {
+    if (!has(compiler)) continue;
+    for (const char* standard : {"c11", "c17"})
+      expect_runs(compiler + warnings + "-Wstrict-prototypes -std=" + standard +
+                  " " BRUME_SOURCE_DIR "/tests/api/header.c");
+  }
+  for (const char* compiler : {"g++", "clang++"}) {
+    if (!has(compiler)) continue;
+    for (const char* standard : {"c++11", "c++17", "c++20"})
+      expect_runs(compiler + warnings + "-Wold-style-cast -Wzero-as-null-pointer-constant -x c++ -std=" +
+                  standard + " " BRUME_SOURCE_DIR "/tests/api/header.c");
+    expect_runs("echo '#include <brume/brume.hpp>' | " + std::string(compiler) + warnings +
+                "-Wold-style-cast -std=c++17 -x c++ -");
+  }
+}
+
+/// The names of the functions that brume.h declares.
+std::set<std::string> declared() {
+  std::set<std::string> names;
+  const std::string text = *read_text_file(kInclude + "/brume/brume.h");
+  for (std::size_t at = 0; (at = text.find("BRUME_API ", at)) != text.npos; ++at) {
+    const std::size_t bracket = text.find('(', at), name = text.rfind("brume_", bracket);
+    if (text.compare(at - 8, 8, "#define ") != 0) names.insert(text.substr(name, bracket - name));
+  }
+  return names;
+}
+
+TEST(Library, ExportsTheFunctionsOfTheHeaderAndNothingElse) {
+  const ShellRun run = run_shell("nm --dynamic --defined-only '" BRUME_LIBRARY "'");
+  ASSERT_EQ(run.status, 0);
+  std::set<std::string> exported, listed;
+  std::istringstream lines(run.output);
+  for (std::string address, type, name; lines >> address >> type >> name;)
+    if (type != "A") exported.insert(name.substr(0, name.find('@')));
+  std::istringstream list(*read_text_file(BRUME_SOURCE_DIR "/tests/api/symbols.txt"));
+  for (std::string name; list >> name;) listed.insert(name);
+  EXPECT_EQ(exported, listed) << "a function that is removed or changes is a new SOVERSION";
+  EXPECT_EQ(exported, declared());
+}
+
+class Package : public testing::Test {
+ protected:
+  void SetUp() override {
+    expect_runs("cmake --install '" BRUME_BUILD_DIR "' --component sim --prefix '" + prefix_.string() + "'");
+  }
+  /// Configures, builds and runs the example outside of the tree.
+  void expect_example_works(const fs::path& prefix, const std::string& build) {
+    const std::string folder = (folder_.path() / build).string();
+    expect_runs("cmake -S '" + example_.string() + "' -B '" + folder + "' -D CMAKE_PREFIX_PATH='" +
+                prefix.string() + "' -D CMAKE_C_COMPILER='" BRUME_C_COMPILER "' && cmake --build '" + folder +
+                "'");
+    const ShellRun here = run_shell("'" + folder + "/brume_server' --seconds 10");
+    const ShellRun tree = run_shell("'" BRUME_SERVER_PROGRAM "' --seconds 10");
+    EXPECT_EQ(here.status, 0);
+    EXPECT_EQ(here.output, tree.output);
+    EXPECT_FALSE(here.output.empty());
+  }
+
+  cli::WorkFolder folder_;
+  fs::path prefix_ = folder_.path() / "installed";
+  fs::path example_ = folder_.path() / "example";
+};
+
+TEST_F(Package, BuildsTheExampleAlsoAfterItWasMoved) {
+  fs::copy(BRUME_SOURCE_DIR "/examples/server", example_);
+  expect_example_works(prefix_, "first");
+  const fs::path moved = folder_.path() / "elsewhere" / "deeper";
+  fs::create_directories(moved.parent_path());
+  fs::rename(prefix_, moved);
+  expect_example_works(moved, "second");
+  EXPECT_NE(run_shell("cmake -S '" + example_.string() + "' -B '" + (folder_.path() / "third").string() +
+                      "' -D CMAKE_PREFIX_PATH='" + prefix_.string() + "' > /dev/null 2>&1")
+                .status,
+            0)
+      << "nothing is left at the first prefix";
+  // No file of the package names the folders of its build.
+  EXPECT_NE(run_shell("grep -r --binary-files=text -l -e '" BRUME_BUILD_DIR "' -e '" + prefix_.string() +
+                      "' '" + moved.string() + "'/*/cmake '" + moved.string() + "'/*/pkgconfig")
+                .status,
+            0);
+}
+
+TEST_F(Package, IsFoundByPkgConfig) {
+  if (!has("pkg-config")) GTEST_SKIP() << "no pkg-config";
+  const fs::path moved = folder_.path() / "moved";
+  fs::rename(prefix_, moved);
+  folder_.write(
+      "wrapper.cpp",
+      "#include <brume/brume.hpp>\n#include <cstdio>\nint main() {\n  const brume::api::Context context;\n"
+      "  std::puts(brume_result_name(BRUME_OK));\n}\n");
+  const std::string path = run_shell("find '" + moved.string() + "' -name pkgconfig").output;
+  const std::string found = path.substr(0, path.find('\n'));
+  const std::string program = (folder_.path() / "wrapper").string();
+  expect_runs("export PKG_CONFIG_PATH='" + found + "'; c++ -std=c++17 '" + program + ".cpp' -o '" + program +
+              "' $(pkg-config --cflags --libs brume-sim)");
+  const std::string libraries = fs::path(found).parent_path().string();
+  const ShellRun run = run_shell("LD_LIBRARY_PATH='" + libraries + "' '" + program + "'");
+  EXPECT_EQ(run.output, "BRUME_OK\n");
+  EXPECT_TRUE(fs::is_symlink(fs::path(libraries) / "libbrume-sim.so.0"));
+}
+
+}  // namespace
+}  // namespace brume::api
