@@ -71,7 +71,8 @@ typedef enum brume_result {
   /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (world) or
   /// brume_field_update (field) succeeds, only *_destroy works.
   BRUME_ERROR_BROKEN = 10,
-  BRUME_ERROR_INTERNAL = 11  ///< A defect of the library.
+  BRUME_ERROR_INTERNAL = 11,  ///< A defect of the library.
+  BRUME_ERROR_DEVICE = 12  ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
 } brume_result;
 
 /// Writes the version of the library in use. Any pointer may be null. Never fails.

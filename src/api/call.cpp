@@ -31,6 +31,10 @@ const char* kind_name(Kind kind) {
       return "receiver";
     case Kind::field:
       return "field";
+    case Kind::device:
+      return "device";
+    case Kind::renderer:
+      return "renderer";
   }
   return "unknown object";
 }
@@ -56,6 +60,8 @@ brume_result result_of(ErrorCode code, brume_result bad_input) {
       return BRUME_ERROR_ARGUMENT;
     case ErrorCode::resource_limit:
       return BRUME_ERROR_LIMIT;
+    case ErrorCode::no_device:
+      return BRUME_ERROR_DEVICE;
     default:
       return BRUME_ERROR_INTERNAL;
   }
@@ -176,6 +182,8 @@ const char* brume_result_name(brume_result result) BRUME_NOEXCEPT {
       return "BRUME_ERROR_BROKEN";
     case BRUME_ERROR_INTERNAL:
       return "BRUME_ERROR_INTERNAL";
+    case BRUME_ERROR_DEVICE:
+      return "BRUME_ERROR_DEVICE";
     default:
       return "unknown";
   }

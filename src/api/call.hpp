@@ -27,7 +27,18 @@ struct Settings {
   void* log_user = nullptr;
 };
 
-enum class Kind : std::uint32_t { context = 1, level, masks, world, state, sender, receiver, field };
+enum class Kind : std::uint32_t {
+  context = 1,
+  level,
+  masks,
+  world,
+  state,
+  sender,
+  receiver,
+  field,
+  device,
+  renderer
+};
 
 /// The start of what every handle points to.
 struct Handle {

@@ -6,29 +6,6 @@
 #include "core/tasks.hpp"
 #include "shared/volume.h"
 
-struct brume_field : brume::api::Handle {
-  static constexpr auto kKind = brume::api::Kind::field;
-  brume_field(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
-              std::shared_ptr<const brume::smoke::MaskAtlas> of_masks, float of_extinction)
-      : Handle(kKind, std::move(of)),
-        level(std::move(of_level)),
-        masks(std::move(of_masks)),
-        extinction(of_extinction) {
-    renew();
-  }
-  /// The same without smoke.
-  void renew() {
-    std::vector<glm::ivec3> bricks;
-    if (field) bricks = field->bricks();
-    field = std::make_unique<brume::api::SmokeField>(level, masks, extinction, std::move(bricks));
-  }
-
-  std::shared_ptr<const brume::api::LevelData> level;
-  std::shared_ptr<const brume::smoke::MaskAtlas> masks;
-  float extinction;
-  std::unique_ptr<brume::api::SmokeField> field;
-};
-
 namespace brume::api {
 namespace {
 

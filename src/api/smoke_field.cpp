@@ -63,6 +63,7 @@ void SmokeField::update(const sim::State& state) {
   volume_.update(state, grid());
   find_changed_bricks();
   look(state);
+  state_ = state;
 }
 
 void SmokeField::look(const sim::State& state) {

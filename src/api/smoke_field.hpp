@@ -27,6 +27,12 @@ class SmokeField {
   const voxel::GridLayout& layout() const { return level_->grid.layout(); }
   sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
   const smoke::Sight& sight() const { return *sight_; }
+  float extinction() const { return extinction_; }
+  /// Those of the last state, of the field's masks.
+  std::span<const shared::Hole> holes() const { return holes_; }
+  const sim::State& state() const { return state_; }
+  /// The level with the state's edits.
+  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_->grid; }
   const smoke::SmokeVolume& volume() const { return volume_; }
   /// The bricks in which the last update may have changed densities, by z, y, x.
   std::span<const brume_voxel> changed_bricks() const { return changed_bricks_; }
@@ -34,7 +40,6 @@ class SmokeField {
   std::vector<glm::ivec3> bricks() const;
 
  private:
-  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_->grid; }
   std::span<const voxel::Plane> planes_at(glm::ivec3 cell) const;
   void follow_edits(const std::shared_ptr<const sim::EditBlocks>& edits);
   void set_block(const sim::EditBlock& block);
@@ -44,7 +49,8 @@ class SmokeField {
   std::shared_ptr<const LevelData> level_;
   std::shared_ptr<const smoke::MaskAtlas> masks_;
   float extinction_;
-  std::shared_ptr<const sim::EditBlocks> edits_;  // of the last state
+  sim::State state_;                              // the last one
+  std::shared_ptr<const sim::EditBlocks> edits_;  // of it
   std::optional<voxel::BitGrid> edited_,
       changed_voxels_;  // the level with them; where it differs; none: no edits yet
   smoke::SmokeVolume volume_;
@@ -56,3 +62,26 @@ class SmokeField {
 };
 
 }  // namespace brume::api
+
+struct brume_field : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::field;
+  brume_field(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
+              std::shared_ptr<const brume::smoke::MaskAtlas> of_masks, float of_extinction)
+      : Handle(kKind, std::move(of)),
+        level(std::move(of_level)),
+        masks(std::move(of_masks)),
+        extinction(of_extinction) {
+    renew();
+  }
+  /// The same without smoke.
+  void renew() {
+    std::vector<glm::ivec3> bricks;
+    if (field) bricks = field->bricks();
+    field = std::make_unique<brume::api::SmokeField>(level, masks, extinction, std::move(bricks));
+  }
+
+  std::shared_ptr<const brume::api::LevelData> level;
+  std::shared_ptr<const brume::smoke::MaskAtlas> masks;
+  float extinction;
+  std::unique_ptr<brume::api::SmokeField> field;
+};

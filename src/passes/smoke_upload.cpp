@@ -114,6 +114,9 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volu
   const bool had_smoke = resources_.slot_count > 0;
   resources_.slot_count = volume.slot_count();
   if (volume.slot_count() == 0) return had_smoke;
+  const std::uint64_t id = volume.volume().id();
+  everything_ = everything_ || id != uploaded_volume_;
+  uploaded_volume_ = id;
   if (!everything_ && volume.revision() == uploaded_revision_) return false;
   // What is dirty is only that since the revision before: a reader that missed one takes everything.
   const bool all = everything_ || volume.revision() != uploaded_revision_ + 1;

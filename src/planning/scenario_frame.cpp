@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "planning/smoke_look.hpp"
 #include "planning/volume_inputs.hpp"
 #include "scenario/flashes.hpp"
 #include "smoke/holes.hpp"
-#include "smoke/noise_tile.hpp"
 
 namespace brume::planning {
 namespace {
@@ -72,22 +72,9 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
                            timeline.sky.stars, timeline.sky.bounce};
   input.environment.bounces = timeline.bounces;
   const scene::SmokeOptions& smoke = timeline.smoke;
-  input.smoke.look.albedo = smoke.albedo;
-  input.smoke.look.extinction = smoke.extinction;
-  input.smoke.look.phase =
-      smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
-  input.smoke.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
-  input.smoke.look.opaque_transmittance = 0.004f;
-  input.smoke.look.erosion = smoke.erosion;
-  input.smoke.look.noise_frequency =
-      1 / (static_cast<float>(smoke::kSmokeNoise.coarse_cells) * smoke.noise_size);
-  input.smoke.look.rise = smoke.rise;
-  input.smoke.look.swirl = smoke.swirl;
-  input.smoke.look.swirl_width = 2.0f * smoke.noise_size;
+  input.smoke.look = smoke_look(smoke, scenario.voxels.grid.layout().voxel_size);
   input.smoke.swirl_period = double{smoke.swirl_period};
   input.smoke.state = &simulation.world().state();
-  input.smoke.look.multiple_scattering = smoke.multiple_scattering;
-  input.smoke.look.hole_rim = smoke.hole_rim;
   input.view.exposure = std::exp2(timeline.exposure);
   input.view.tone = timeline.tone;
   input.smoke.time = static_cast<float>(seconds);

@@ -119,6 +119,13 @@ planning::PlanTarget Renderer::plan_target() const {
           slices_ ? slices_->textures() : std::span<const shared::SliceTexture>()};
 }
 
+void Renderer::invalidate() {
+  // The shadow maps are as the last frame left them.
+  std::vector<std::uint32_t> hidden_objects = std::move(history_.hidden_objects);
+  history_ = planning::PlanHistory();
+  history_.hidden_objects = std::move(hidden_objects);
+}
+
 FramePlan Renderer::plan(const FrameInput& input) {
   const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
   try {
@@ -128,9 +135,9 @@ FramePlan Renderer::plan(const FrameInput& input) {
     reserve(plan);
     return plan;
   } catch (...) {
-    // What the plan counts as updated is not: only the shadow maps are as the frame before left them.
-    history_ = planning::PlanHistory();
+    // What the plan counts as updated is not.
     history_.hidden_objects = hidden_objects;
+    invalidate();
     throw;
   }
 }

@@ -56,6 +56,10 @@ class Renderer {
   /// Other masks of the holes; uploads them. When the device is done with what was recorded before.
   void set_masks(const smoke::MaskAtlas& masks);
 
+  /// The next frame finds all light again, whatever is cached. For a frame that was planned and not recorded,
+  /// and for smoke that is another SmokeVolume than before.
+  void invalidate();
+
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
   /// Call outside of a recording, when the device is done with the frame before; the frame must then be
   /// recorded. The plan is valid until the next one. Throws resource_limit, and bad_input for volumes and

@@ -1,0 +1,233 @@
+// The C interface of Brume's renderer: smoke in the Vulkan frames of a host. Library: libbrume, which has all
+// of brume.h, too. Walk through: docs/embedding.md.
+//
+//   context --> device --> renderer --,
+//   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
+//
+// Everything that brume.h says of results, handles, threads and structs holds here. Besides:
+//
+// Submitting  Nothing submits or waits. Functions that take a command buffer, in the recording state and
+// outside of a
+//             rendering, only record. The commands are submitted to one queue, in the order of their frames.
+// Frames      Each has a number of the host, which rises. The host says up to which frame the device has
+// completed all
+//             commands; any number of frames may be in flight. What a frame uses is destroyed after that.
+// Failures    After an error of brume_renderer_record the command buffer is valid, and may be submitted or
+// dropped; the
+//             next frame finds all light again.
+// Images      Of the host: in the layout that the struct names, before and after. Writes to them must be
+// visible to the
+//             stages that the struct names, and later accesses of the host wait for these stages.
+#ifndef BRUME_BRUME_VULKAN_H
+#define BRUME_BRUME_VULKAN_H
+
+#include <brume/brume.h>
+#include <vulkan/vulkan_core.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct brume_device brume_device;
+typedef struct brume_renderer brume_renderer;
+
+// ---- Device ----
+
+/// Returns a constant chain for VkDeviceCreateInfo::pNext: a VkPhysicalDeviceFeatures2 and what follows it,
+/// the features that the host's device must have enabled. It must also be of Vulkan 1.3 and have subgroup
+/// vote, arithmetic and ballot in compute shaders.
+BRUME_API const void* brume_vulkan_features(void) BRUME_NOEXCEPT;
+
+typedef struct brume_device_params {
+  uint32_t struct_size;
+  const void* next;
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+  VkInstance instance;
+  VkPhysicalDevice physical_device;
+  VkDevice device;
+  uint32_t queue_family;  ///< Of the command buffers, with graphics and compute.
+} brume_device_params;
+
+static inline brume_device_params brume_device_defaults(void) {
+  brume_device_params params = {
+      sizeof(brume_device_params), BRUME_NULL, BRUME_NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0};
+  return params;
+}
+
+/// Borrows the host's device, which must outlive it. Errors: BRUME_ERROR_DEVICE.
+BRUME_API brume_result brume_device_create(brume_context* context, const brume_device_params* params,
+                                           brume_device** device) BRUME_NOEXCEPT;
+/// All frames must have been completed, and all renderers destroyed (else BRUME_ERROR_ORDER).
+BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT;
+/// Writes the bytes of device memory that its renderers use at present.
+BRUME_API brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT;
+
+// ---- Renderer ----
+
+typedef enum brume_light_kind {
+  BRUME_LIGHT_POINT = 0,
+  BRUME_LIGHT_SPOT = 1,
+  BRUME_LIGHT_SUN = 2  ///< The same light from one direction everywhere.
+} brume_light_kind;
+
+typedef struct brume_light {
+  uint32_t kind;          ///< brume_light_kind.
+  brume_point position;   ///< [m]; of a sun ignored.
+  brume_point direction;  ///< In which the light travels, any length but 0; of a point light ignored.
+  float intensity[3];     ///< Per channel, >= 0: [W/sr]; of a sun the irradiance [W/m^2].
+  float inner_angle;      ///< Of a spot, from its axis [rad]: full inside, [0, outer_angle).
+  float outer_angle;      ///< None outside, (0, pi].
+} brume_light;
+
+typedef struct brume_renderer_params {
+  uint32_t struct_size;
+  const void* next;
+  uint32_t width, height;  ///< Of the host's depth and picture [px], [1, 16384].
+  /// Pixels per ray of the march along each axis: 1, 2 or 4. 2 and 4 are faster and show nothing that 1
+  /// hides.
+  uint32_t march_scale;
+  uint32_t temporal;  ///< 1: smoke is accumulated over the frames that continue each other.
+  /// Lights that stay, with shadow maps. At most 1024.
+  const brume_light* lights;
+  size_t light_count;
+  /// What casts shadows into the smoke: triangles, as in brume_triangles_params. None: nothing does.
+  const brume_point* points;
+  size_t point_count;
+  const uint32_t* indices;
+  size_t index_count;
+  const brume_masks* masks;  ///< Those of the fields that it shows; null: none.
+} brume_renderer_params;
+
+static inline brume_renderer_params brume_renderer_defaults(void) {
+  brume_renderer_params params = {sizeof(brume_renderer_params),
+                                  BRUME_NULL,
+                                  1280,
+                                  720,
+                                  1,
+                                  0,
+                                  BRUME_NULL,
+                                  0,
+                                  BRUME_NULL,
+                                  0,
+                                  BRUME_NULL,
+                                  0,
+                                  BRUME_NULL};
+  return params;
+}
+
+/// Creates a renderer; its first frame uploads what it needs. The arrays are copied.
+BRUME_API brume_result brume_renderer_create(brume_device* device, const brume_renderer_params* params,
+                                             brume_renderer** renderer) BRUME_NOEXCEPT;
+/// What frames in flight use is destroyed later: see brume_device_destroy.
+BRUME_API brume_result brume_renderer_destroy(brume_renderer* renderer) BRUME_NOEXCEPT;
+/// Frames of another size from the next one on. A film starts over.
+BRUME_API brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width,
+                                             uint32_t height) BRUME_NOEXCEPT;
+
+// ---- Frames ----
+
+typedef struct brume_camera {
+  brume_point position;  ///< [m]
+  brume_point forward;   ///< Any length but 0.
+  brume_point up;        ///< Of the picture; any length but 0.
+  float vertical_fov;    ///< [rad], (0, pi). Pixels are square.
+  /// From the middle of each pixel to the point that it shows, right and down [px]: the host's jitter.
+  float jitter_x, jitter_y;
+} brume_camera;
+
+/// The depth of the surfaces that the host drew with the same camera.
+typedef struct brume_depth {
+  VkImageView view;      ///< Its depth aspect, of the renderer's size, with VK_IMAGE_USAGE_SAMPLED_BIT.
+  VkImageLayout layout;  ///< One in which it can be sampled. Stage: compute shaders, sampled reads.
+  float near_plane;      ///< [m], > 0. Depth is that of a perspective projection onto [0, 1].
+  float far_plane;       ///< [m], above near_plane; may be infinite. Depth of far_plane: no surface.
+  uint32_t reversed;     ///< 1: the depth is 1 at near_plane and 0 at far_plane.
+} brume_depth;
+
+/// The host's picture, which smoke is blended over.
+typedef struct brume_picture {
+  VkImageView view;  ///< Of the renderer's size, with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT; null: none.
+  VkFormat format;   ///< One that can be blended. Radiance should be linear in it: half floats, for example.
+  /// In VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. Stage: colour attachment output, reads and writes.
+  float exposure;  ///< Multiplies the smoke's radiance, > 0.
+} brume_picture;
+
+typedef struct brume_smoke_look {
+  float albedo[3];            ///< [0, 1].
+  float anisotropy;           ///< Mean cosine of the phase function, (-1, 1).
+  float multiple_scattering;  ///< Weight of light that is scattered more than once, [0, 1].
+  float erosion;              ///< How much noise erodes, [0, 1].
+  float noise_size;           ///< Of its largest billows [m], [0.05, 100].
+  float hole_rim;             ///< How far noise frays the rims of holes [m], [0, 1].
+  float swirl;                ///< How far noise swirls [m], [0, 10].
+  float rise;                 ///< How fast noise rises [m/s], [-10, 10].
+} brume_smoke_look;
+
+typedef struct brume_frame_params {
+  uint32_t struct_size;
+  const void* next;
+  VkCommandBuffer commands;
+  uint64_t frame;      ///< Above that of the frame before, of all renderers of the device; from 1.
+  uint64_t completed;  ///< The last frame whose commands the device has completed; 0: none.
+  brume_camera camera;
+  brume_depth depth;
+  brume_picture picture;
+  brume_smoke_look look;  ///< Extinction is the field's: what players see is what queries find.
+  double seconds;         ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
+  uint32_t continues;     ///< 1: the next frame of a film (brume_renderer_params::temporal).
+  float ambient[3];       ///< Radiance of the sky that lights the smoke, >= 0.
+  float bounce;           ///< The fraction of it where no sky is visible, [0, 1].
+  /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lamps. At most 64; no suns.
+  const brume_light* lights;
+  size_t light_count;
+} brume_frame_params;
+
+static inline brume_frame_params brume_frame_defaults(void) {
+  brume_frame_params params = {
+      sizeof(brume_frame_params),
+      BRUME_NULL,
+      VK_NULL_HANDLE,
+      0,
+      0,
+      {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f}, 1.0f, 0.0f, 0.0f},
+      {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0.1f, 1000.0f, 0},
+      {VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, 1.0f},
+      {{0.92f, 0.92f, 0.92f}, 0.2f, 1.0f, 0.5f, 1.5f, 0.06f, 0.2f, 0.12f},
+      0.0,
+      0,
+      {0.25f, 0.29f, 0.35f},
+      0.2f,
+      BRUME_NULL,
+      0};
+  return params;
+}
+
+/// Records the smoke of a field, as of its last update, in front of the host's surfaces, and blends it over
+/// the host's picture p: exposure * radiance + transmittance * p. The field may be updated as soon as the
+/// function returns. Errors: BRUME_ERROR_MISMATCH for a field with other masks; BRUME_ERROR_LIMIT when the
+/// device has too little memory; BRUME_ERROR_DEVICE.
+BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
+                                             const brume_frame_params* params) BRUME_NOEXCEPT;
+
+/// The smoke of the last recorded frame, for hosts that blend it themselves: half floats, premultiplied
+/// radiance and, in alpha, transmittance, in VK_IMAGE_LAYOUT_GENERAL, written by compute shaders.
+/// BRUME_ERROR_ORDER before the first frame; another image after brume_renderer_resize. Either pointer may be
+/// null.
+BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
+                                            VkImageView* view) BRUME_NOEXCEPT;
+
+typedef struct brume_timing {
+  char name[32];        ///< Of a pass.
+  double milliseconds;  ///< On the device.
+} brume_timing;
+
+/// Writes the times of the newest frame that the device had completed when the last one was recorded; none
+/// before that.
+BRUME_API brume_result brume_renderer_timings(const brume_renderer* renderer, brume_timing* timings,
+                                              size_t capacity, size_t* count) BRUME_NOEXCEPT;
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif
+
+#endif  // BRUME_BRUME_VULKAN_H

@@ -1,0 +1,55 @@
+#include "gpu/device_features.hpp"
+#include "host/objects.hpp"
+
+using namespace brume::api;
+using brume::gpu::DeviceFeatures;
+using brume::gpu::HostDevice;
+
+namespace brume::host {
+namespace {
+
+HostDevice host_device(const brume_device_params& params) {
+  require(params.get_instance_proc_addr != nullptr, "`get_instance_proc_addr` is null");
+  require(params.instance != VK_NULL_HANDLE, "`instance` is null");
+  require(params.physical_device != VK_NULL_HANDLE, "`physical_device` is null");
+  require(params.device != VK_NULL_HANDLE, "`device` is null");
+  return {params.get_instance_proc_addr, params.instance, params.physical_device, params.device,
+          params.queue_family};
+}
+
+}  // namespace
+}  // namespace brume::host
+
+extern "C" {
+
+const void* brume_vulkan_features(void) BRUME_NOEXCEPT {
+  static const DeviceFeatures features;
+  return features.chain();
+}
+
+brume_result brume_device_create(brume_context* context, const brume_device_params* params,
+                                 brume_device** device) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_context& owner = call.handle(context);
+    required(device, "device");
+    create(device, owner.settings, brume::host::host_device(required_params(params)));
+  });
+}
+
+brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT {
+  if (!device) return BRUME_OK;
+  return Call(__func__).run([&](Call& call) {
+    brume_device& held = call.handle(device);
+    if (held.data->renderers > 0) fail(BRUME_ERROR_ORDER, "a renderer of the device must be destroyed first");
+    delete &held;
+  });
+}
+
+brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_device& held = call.handle(device);
+    required(bytes, "bytes") = held.data->context.memory().bytes_in_use();
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,175 @@
+#include "host/frame.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "planning/smoke_look.hpp"
+
+namespace brume::host {
+namespace {
+
+using api::refuse;
+using api::require;
+
+constexpr std::size_t kMostLights = 1024;
+constexpr float kMostMetres = 16384;
+
+glm::vec3 vec3_of(const brume_point& p) {
+  return {p.x, p.y, p.z};
+}
+glm::vec3 vec3_of(const float (&c)[3]) {
+  return {c[0], c[1], c[2]};
+}
+
+/// False for what is not a number, here and below.
+bool is_within(float value, float low, float high) {
+  return value >= low && value <= high;
+}
+bool is_within(glm::vec3 v, float low, float high) {
+  return is_within(v.x, low, high) && is_within(v.y, low, high) && is_within(v.z, low, high);
+}
+
+glm::vec3 unit(const brume_point& direction, const char* name) {
+  const glm::dvec3 v(vec3_of(direction));
+  const double length = glm::length(v);
+  if (!(length > 1e-12 && length < 1e30)) refuse(std::string("`") + name + "` must be finite and not 0");
+  return glm::vec3(v / length);
+}
+
+glm::vec3 position(const brume_point& p, const char* name) {
+  const glm::vec3 v = vec3_of(p);
+  if (!is_within(v, -kMostMetres, kMostMetres))
+    refuse(std::string("`") + name + "` must be finite and within 16384 m of the world's origin");
+  return v;
+}
+
+scene::Camera camera_of(const brume_camera& camera) {
+  scene::Camera made;
+  made.position_world = position(camera.position, "camera.position");
+  made.target_world = made.position_world + unit(camera.forward, "camera.forward");
+  made.up_world = unit(camera.up, "camera.up");
+  require(camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f,
+          "`camera.vertical_fov` must be above 0 and below pi");
+  made.vertical_fov = camera.vertical_fov;
+  require(is_within(camera.jitter_x, -1, 1) && is_within(camera.jitter_y, -1, 1),
+          "`camera.jitter_x` and `jitter_y` must be from -1 to 1");
+  return made;
+}
+
+scene::SmokeOptions options_of(const brume_smoke_look& look, float extinction) {
+  scene::SmokeOptions options;
+  options.extinction = extinction;
+  options.albedo = vec3_of(look.albedo);
+  require(is_within(options.albedo, 0, 1), "`look.albedo` must be from 0 to 1");
+  require(look.anisotropy > -1 && look.anisotropy < 1, "`look.anisotropy` must be above -1 and below 1");
+  options.anisotropy = look.anisotropy;
+  require(is_within(look.multiple_scattering, 0, 1), "`look.multiple_scattering` must be from 0 to 1");
+  options.multiple_scattering = look.multiple_scattering;
+  require(is_within(look.erosion, 0, 1), "`look.erosion` must be from 0 to 1");
+  options.erosion = look.erosion;
+  require(is_within(look.noise_size, 0.05f, 100), "`look.noise_size` must be from 0.05 to 100");
+  options.noise_size = look.noise_size;
+  require(is_within(look.hole_rim, 0, 1), "`look.hole_rim` must be from 0 to 1");
+  options.hole_rim = look.hole_rim;
+  require(is_within(look.swirl, 0, 10), "`look.swirl` must be from 0 to 10");
+  options.swirl = look.swirl;
+  require(is_within(look.rise, -10, 10), "`look.rise` must be from -10 to 10");
+  options.rise = look.rise;
+  return options;
+}
+
+std::vector<shared::Light> frame_lights(const brume_frame_params& params) {
+  require(params.light_count <= planning::kMaxFlashes, "at most 64 lights of a frame");
+  if (params.light_count > 0) api::required(params.lights, "lights");
+  std::vector<shared::Light> lights;
+  for (std::size_t i = 0; i < params.light_count; ++i) {
+    const scene::Light light = scene_light(params.lights[i], i);
+    if (light.kind == scene::LightKind::directional)
+      refuse("light " + std::to_string(i) + " of a frame must not be a sun");
+    const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    lights.push_back({light.position_world, shared::light_range(brightest), light.intensity,
+                      static_cast<std::uint32_t>(light.kind), light.direction_world, light.cos_inner,
+                      light.cos_outer, shared::kShadowByVoxels, 0, 0});
+  }
+  return lights;
+}
+
+void add_triangles(const brume_renderer_params& params, scene::Mesh& mesh) {
+  require(params.index_count % 3 == 0, "`index_count` must be a multiple of 3");
+  require(params.point_count < 1u << 28 && params.index_count < 1u << 30,
+          "at most 2^28 points and 2^30 indices");
+  if (params.index_count == 0) return;
+  api::required(params.points, "points");
+  api::required(params.indices, "indices");
+  mesh.vertices.resize(params.point_count);
+  for (std::size_t i = 0; i < params.point_count; ++i)
+    mesh.vertices[i].position = position(params.points[i], "points");
+  mesh.indices.assign(params.indices, params.indices + params.index_count);
+  for (const std::uint32_t index : mesh.indices)
+    if (index >= params.point_count)
+      refuse("an index is " + std::to_string(index) + ", beyond the last point");
+}
+
+}  // namespace
+
+scene::Light scene_light(const brume_light& light, std::size_t number) {
+  const std::string name = "light " + std::to_string(number);
+  scene::Light made;
+  if (light.kind > BRUME_LIGHT_SUN) refuse(name + " must be of a brume_light_kind");
+  made.kind = static_cast<scene::LightKind>(light.kind);
+  if (light.kind != BRUME_LIGHT_SUN) made.position_world = position(light.position, "light.position");
+  if (light.kind != BRUME_LIGHT_POINT) made.direction_world = unit(light.direction, "light.direction");
+  made.intensity = vec3_of(light.intensity);
+  if (!is_within(made.intensity, 0, 1e12f)) refuse(name + " must have an intensity from 0 to 10^12");
+  if (light.kind != BRUME_LIGHT_SPOT) return made;
+  if (!(light.inner_angle >= 0 && light.inner_angle < light.outer_angle && light.outer_angle <= 3.1416f))
+    refuse(name + " must have angles 0 <= inner < outer <= pi");
+  made.cos_inner = std::cos(light.inner_angle);
+  made.cos_outer = std::cos(light.outer_angle);
+  return made;
+}
+
+scene::Scene scene_of(const brume_renderer_params& params) {
+  scene::Scene scene;
+  require(params.light_count <= kMostLights, "at most 1024 lights");
+  if (params.light_count > 0) api::required(params.lights, "lights");
+  for (std::size_t i = 0; i < params.light_count; ++i)
+    scene.lights.push_back(scene_light(params.lights[i], i));
+  scene.meshes.resize(1);
+  add_triangles(params, scene.meshes[0]);
+  scene.materials.resize(1);
+  if (!scene.meshes[0].indices.empty()) scene.objects.push_back({"level", 0, 0, glm::mat4(1), true});
+  return scene;
+}
+
+passes::HostDepthRange depth_range(const brume_depth& depth) {
+  require(depth.view != VK_NULL_HANDLE, "`depth.view` is null");
+  require(depth.near_plane > 0 && depth.near_plane < kMostMetres,
+          "`depth.near_plane` must be above 0 and below 16384");
+  require(depth.far_plane > depth.near_plane, "`depth.far_plane` must be above near_plane");
+  return {depth.near_plane, depth.far_plane, depth.reversed != 0};
+}
+
+planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field, glm::uvec2) {
+  planning::FrameInput input;
+  input.view.camera = camera_of(params.camera);
+  input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
+  input.view.frame_index = static_cast<std::uint32_t>(params.frame);
+  input.view.continues = params.continues != 0;
+  require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
+  input.environment.sky.ambient = vec3_of(params.ambient);
+  require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
+  require(is_within(params.bounce, 0, 1), "`bounce` must be from 0 to 1");
+  input.environment.sky.bounce = params.bounce;
+  input.environment.flashes = frame_lights(params);
+  input.level.voxels = {&field.grid(), field.state().edits};
+  input.smoke.volume = &field.volume();
+  input.smoke.state = &field.state();
+  input.smoke.holes = field.holes();
+  input.smoke.look =
+      planning::smoke_look(options_of(params.look, field.extinction()), field.layout().voxel_size);
+  input.smoke.time = static_cast<float>(params.seconds);
+  return input;
+}
+
+}  // namespace brume::host

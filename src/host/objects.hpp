@@ -1,0 +1,51 @@
+// The objects behind the handles of brume_vulkan.h.
+#pragma once
+
+#include <brume/brume_vulkan.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "api/objects.hpp"
+#include "gpu/host_recording.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+
+namespace brume::host {
+
+/// A host's device, and the frame that its renderers recorded last.
+struct DeviceData {
+  explicit DeviceData(const gpu::HostDevice& host) : context(host) {}
+  gpu::Context context;
+  std::uint64_t frame = 0, completed = 0;
+  std::atomic<int> renderers = 0;
+};
+
+}  // namespace brume::host
+
+struct brume_device : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::device;
+  brume_device(std::shared_ptr<brume::api::Settings> of, const brume::gpu::HostDevice& host)
+      : Handle(kKind, std::move(of)), data(std::make_shared<brume::host::DeviceData>(host)) {}
+
+  std::shared_ptr<brume::host::DeviceData> data;
+};
+
+struct brume_renderer : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::renderer;
+  brume_renderer(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<brume::host::DeviceData> on,
+                 brume::scene::Scene of_scene, std::shared_ptr<const brume::smoke::MaskAtlas> of_masks,
+                 const brume::render::RendererOptions& with);
+  ~brume_renderer();
+
+  std::shared_ptr<brume::host::DeviceData> device;
+  const brume::scene::Scene scene;
+  std::shared_ptr<const brume::smoke::MaskAtlas> masks;
+  brume::render::RendererOptions options;
+  brume::gpu::HostRecording recording;
+  brume::passes::MediaLayerPass layer;
+  /// From the first frame on, which uploads.
+  std::optional<brume::render::Renderer> renderer;
+  std::uint64_t shown_volume = 0;  ///< SparseVolume::id of the last frame's smoke.
+};
