@@ -2,48 +2,42 @@
 // may have others in their threads.
 #pragma once
 
+#include <cfenv>
+
 #if defined(__x86_64__)
 #include <xmmintrin.h>
-#else
-#include <cfenv>
 #endif
 
 namespace brume::api {
 
-#if defined(__x86_64__)
-
 /// While it lives, the thread and those that it starts have the default environment.
 class DefaultFloatingPoint {
  public:
-  DefaultFloatingPoint() : before_(_mm_getcsr()) {
-    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(kDefault);
-  }
-  DefaultFloatingPoint(const DefaultFloatingPoint&) = delete;
-  ~DefaultFloatingPoint() {
-    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(before_);
-  }
-
- private:
-  // Of MXCSR: exceptions that occurred; all exceptions masked, the rest 0.
-  static constexpr unsigned kFlags = 0x3f, kDefault = 0x1f80;
-  unsigned before_;
-};
-
-#else
-
-class DefaultFloatingPoint {
- public:
-  DefaultFloatingPoint() {
+  DefaultFloatingPoint() : changed_(!is_default()) {
+    if (!changed_) return;
     std::fegetenv(&before_);
     std::fesetenv(FE_DFL_ENV);
   }
   DefaultFloatingPoint(const DefaultFloatingPoint&) = delete;
-  ~DefaultFloatingPoint() { std::fesetenv(&before_); }
+  ~DefaultFloatingPoint() {
+    if (changed_) std::fesetenv(&before_);
+  }
 
  private:
+  /// Quick to find on x86-64, where to set it takes as long as a short call.
+  static bool is_default() {
+#if defined(__x86_64__)
+    // MXCSR but for the exceptions that occurred, and the control word of the x87 unit (long double).
+    unsigned short control = 0;
+    asm volatile("fnstcw %0" : "=m"(control));
+    return (_mm_getcsr() & ~0x3fu) == 0x1f80u && control == 0x37f;
+#else
+    return false;
+#endif
+  }
+
+  bool changed_;
   std::fenv_t before_;
 };
-
-#endif
 
 }  // namespace brume::api

@@ -235,6 +235,7 @@ TEST_F(FieldTest, FloatingPointSettingsOfTheCallerDoNotMatter) {
     std::fenv_t before;
     std::fegetenv(&before);
     std::fesetround(mode);
+    std::feclearexcept(FE_ALL_EXCEPT);
     ::feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // Nearly every operation would trap.
     brume_level* level = nullptr;
     brume_triangles_params params = brume_triangles_defaults();
