@@ -177,6 +177,9 @@ typedef struct brume_frame_params {
   uint32_t continues;     ///< 1: the next frame of a film (brume_renderer_params::temporal).
   float ambient[3];       ///< Radiance of the sky that lights the smoke, >= 0.
   float bounce;           ///< The fraction of it where no sky is visible, [0, 1].
+  /// How often surfaces of the level, which are white, and smoke pass light on to each other, [0, 16]. 0:
+  /// never, and a formula stands for light that is scattered more than once.
+  uint32_t bounces;
   /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lamps. At most 64; no suns.
   const brume_light* lights;
   size_t light_count;
@@ -197,6 +200,7 @@ static inline brume_frame_params brume_frame_defaults(void) {
       0,
       {0.25f, 0.29f, 0.35f},
       0.2f,
+      0,
       BRUME_NULL,
       0};
   return params;

@@ -150,7 +150,7 @@ passes::HostDepthRange depth_range(const brume_depth& depth) {
   return {depth.near_plane, depth.far_plane, depth.reversed != 0};
 }
 
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field, glm::uvec2) {
+planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field) {
   planning::FrameInput input;
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
@@ -161,6 +161,8 @@ planning::FrameInput frame_input(const brume_frame_params& params, const api::Sm
   require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
   require(is_within(params.bounce, 0, 1), "`bounce` must be from 0 to 1");
   input.environment.sky.bounce = params.bounce;
+  require(params.bounces <= 16, "`bounces` must be at most 16");
+  input.environment.bounces = params.bounces;
   input.environment.flashes = frame_lights(params);
   input.level.voxels = {&field.grid(), field.state().edits};
   input.smoke.volume = &field.volume();

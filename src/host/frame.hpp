@@ -13,7 +13,6 @@ scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
 /// What the result points to is the field's.
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field,
-                                 glm::uvec2 size_px);
+planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field);
 
 }  // namespace brume::host

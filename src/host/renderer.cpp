@@ -93,7 +93,7 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
 void record(brume_renderer& of, const brume_field& field, const brume_frame_params& params) {
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
-  const planning::FrameInput input = frame_input(params, *field.field, of.options.size_px);
+  const planning::FrameInput input = frame_input(params, *field.field);
   of.recording.begin(params.commands, params.frame, params.completed);
   of.device->frame = params.frame;
   of.device->completed = params.completed;

@@ -65,6 +65,23 @@ class HostApplication {
   /// Until the device is done with all frames.
   void wait() { wait_for(submitted_); }
 
+  /// Copies an image in the layout GENERAL that compute shaders wrote.
+  void copy(VkCommandBuffer commands, VkImage image, VkExtent2D size, VkBuffer to) const {
+    const VkMemoryBarrier2 written{
+        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr,
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+        VK_PIPELINE_STAGE_2_COPY_BIT,           VK_ACCESS_2_TRANSFER_READ_BIT};
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &written;
+    vk_.CmdPipelineBarrier2(commands, &dependency);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {size.width, size.height, 1};
+    vk_.CmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, to, 1, &region);
+  }
+
   std::vector<std::string> take_messages() { return instance_.take_messages(); }
 
  private:
