@@ -180,7 +180,7 @@ typedef struct brume_frame_params {
   /// How often surfaces of the level, which are white, and smoke pass light on to each other, [0, 16]. 0:
   /// never, and a formula stands for light that is scattered more than once.
   uint32_t bounces;
-  /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lamps. At most 64; no suns.
+  /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lights. At most 64; no suns.
   const brume_light* lights;
   size_t light_count;
 } brume_frame_params;

@@ -1,0 +1,99 @@
+// The header, the exported symbols, the installed package and its example, used as other projects use them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "tests/api/run_shell.hpp"
+#include "tests/work_folder.hpp"
+
+namespace brume::host {
+namespace {
+
+namespace fs = std::filesystem;
+using api::run_shell;
+using api::ShellRun;
+
+const std::string kInclude = BRUME_SOURCE_DIR "/include";
+
+void expect_runs(const std::string& command) {
+  const ShellRun run = run_shell("{ " + command + "; } 2>&1");
+  EXPECT_EQ(run.status, 0) << command << "\n" << run.output;
+}
+
+TEST(VulkanHeader, CompilesWithoutAWarning) {
+  const std::string flags =
+      " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -fsyntax-only -I'" + kInclude + "' ";
+  for (const char* compiler : {"gcc", "clang"})
+    if (run_shell(std::string("command -v ") + compiler).status == 0)
+      expect_runs("echo '#include <brume/brume_vulkan.h>' | " + std::string(compiler) + flags +
+                  "-std=c11 -x c -");
+  expect_runs("echo '#include <brume/brume_vulkan.h>' | g++" + flags + "-std=c++17 -x c++ -");
+}
+
+TEST(VulkanLibrary, ExportsTheFunctionsOfBothHeadersAndNothingElse) {
+  std::set<std::string> declared, exported;
+  for (const char* header : {"/brume/brume.h", "/brume/brume_vulkan.h"}) {
+    const std::string text = *read_text_file(kInclude + header);
+    for (std::size_t at = 0; (at = text.find("BRUME_API ", at)) != text.npos; ++at) {
+      const std::size_t bracket = text.find('(', at), name = text.rfind("brume_", bracket);
+      if (at < 8 || text.compare(at - 8, 8, "#define ") != 0)
+        declared.insert(text.substr(name, bracket - name));
+    }
+  }
+  const ShellRun run = run_shell("nm --dynamic --defined-only '" BRUME_HOST_LIBRARY "'");
+  ASSERT_EQ(run.status, 0);
+  std::istringstream lines(run.output);
+  for (std::string address, type, name; lines >> address >> type >> name;)
+    if (type != "A") exported.insert(name.substr(0, name.find('@')));
+  EXPECT_EQ(exported, declared);
+}
+
+class HostExample : public testing::Test {
+ protected:
+  std::string picture(const std::string& program, const std::string& name, const std::string& options) {
+    const fs::path file = folder_.path() / (name + ".ppm");
+    expect_runs("'" + program + "' -o '" + file.string() + "' --size 64x36 " + options);
+    return *read_text_file(file);
+  }
+  cli::WorkFolder folder_;
+};
+
+TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
+  const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 60 --in-flight 1");
+  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 60 --in-flight 3"), one);
+  EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 60 --no-smoke"), one);
+}
+
+// Its own barriers and those of the library fit together.
+TEST_F(HostExample, IsValid) {
+  for (const char* in_flight : {"1", "3"}) {
+    const ShellRun run = run_shell(
+        "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
+        "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT '" BRUME_HOST_EXAMPLE
+        "' --frames 40 --size 32x18 -o '" +
+        (folder_.path() / "valid.ppm").string() + "' --in-flight " + in_flight + " 2>&1");
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.output, "");
+  }
+}
+
+TEST_F(HostExample, BuildsAgainstTheInstalledPackage) {
+  const std::string prefix = (folder_.path() / "installed").string(),
+                    source = (folder_.path() / "source").string(),
+                    build = (folder_.path() / "build").string();
+  for (const char* component : {"sim", "host"})
+    expect_runs("cmake --install '" BRUME_BUILD_DIR "' --component " + std::string(component) +
+                " --prefix '" + prefix + "'");
+  fs::copy(BRUME_SOURCE_DIR "/examples/host", source);
+  expect_runs("cmake -S '" + source + "' -B '" + build +
+              "' -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH='" + prefix + "' && cmake --build '" +
+              build + "'");
+  EXPECT_EQ(picture(build + "/brume_host_example", "installed", "--frames 4"),
+            picture(BRUME_HOST_EXAMPLE, "tree", "--frames 4"));
+}
+
+}  // namespace
+}  // namespace brume::host
