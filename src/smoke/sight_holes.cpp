@@ -248,15 +248,15 @@ float RayHole::radius_at(float t) const {
 }
 
 /// Into the segment, or on to the next one.
-void HolesOnRay::Cursor::advance(const HoleSegment* segments) {
+void HolesOnRay::Cursor::advance(const HoleSegment* of_rays) {
   if (!inside) {
     inside = true;
-    all = segments[segment].all;
-    change = segments[segment].end;
+    all = of_rays[segment].all;
+    change = of_rays[segment].end;
     return;
   }
   inside = all = false;
-  change = ++segment < last ? segments[segment].begin : kNoChange;
+  change = ++segment < last ? of_rays[segment].begin : kNoChange;
 }
 
 Float4 HolesOnRay::remaining(const HolePiece& piece, Float4 t) const {

@@ -63,7 +63,7 @@ struct HolesOnRay {
     float change;                 ///< Where its segment begins, or ends when inside.
     std::uint32_t segment, last;  ///< Of one hole; one past the last.
     bool inside, all;             ///< In the segment, which removes all.
-    void advance(const HoleSegment* segments);
+    void advance(const HoleSegment* of_rays);
   };
   std::vector<Cursor> cursors;                 // of the holes that have segments
   std::vector<std::uint32_t> waiting, active;  // cursors: all by their first begin; those that have begun
