@@ -115,6 +115,7 @@ struct Smoke {
     params.commands = commands;
     params.frame = frame;
     params.completed = completed;
+    params.jitter_index = static_cast<std::uint32_t>(frame);
     params.camera.position = {camera.position.x, camera.position.y, camera.position.z};
     params.camera.forward = {camera.forward.x, camera.forward.y, camera.forward.z};
     params.camera.vertical_fov = kFieldOfView;

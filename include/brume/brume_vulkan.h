@@ -1,5 +1,5 @@
 // The C interface of Brume's renderer: smoke in the Vulkan frames of a host. Library: libbrume, which has all
-// of brume.h, too. Walk through: docs/embedding.md.
+// of brume.h, too. Walk through: docs/rendering-in-a-host.md.
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
@@ -7,17 +7,17 @@
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
 // Submitting  Nothing submits or waits. Functions that take a command buffer, in the recording state and
-// outside of a
-//             rendering, only record. The commands are submitted to one queue, in the order of their frames.
+//             outside of a rendering, only record. The commands are submitted to one queue, in the order of
+//             their frames.
 // Frames      Each has a number of the host, which rises. The host says up to which frame the device has
-// completed all
-//             commands; any number of frames may be in flight. What a frame uses is destroyed after that.
+//             completed all commands; any number of frames may be in flight. What a frame uses is destroyed
+//             after that.
 // Failures    After an error of brume_renderer_record the command buffer is valid, and may be submitted or
-// dropped; the
-//             next frame finds all light again.
+//             dropped; the next frame uploads everything again.
 // Images      Of the host: in the layout that the struct names, before and after. Writes to them must be
-// visible to the
-//             stages that the struct names, and later accesses of the host wait for these stages.
+//             visible to the stages that the struct names, and later accesses of the host wait for these
+//             stages.
+// Threads     Renderers of one device record one after the other.
 #ifndef BRUME_BRUME_VULKAN_H
 #define BRUME_BRUME_VULKAN_H
 
@@ -174,9 +174,11 @@ typedef struct brume_frame_params {
   brume_picture picture;
   brume_smoke_look look;  ///< Extinction is the field's: what players see is what queries find.
   double seconds;         ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
-  uint32_t continues;     ///< 1: the next frame of a film (brume_renderer_params::temporal).
-  float ambient[3];       ///< Radiance of the sky that lights the smoke, >= 0.
-  float bounce;           ///< The fraction of it where no sky is visible, [0, 1].
+  /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
+  uint32_t jitter_index;
+  uint32_t continues;  ///< 1: the next frame of a film (brume_renderer_params::temporal).
+  float ambient[3];    ///< Radiance of the sky that lights the smoke, >= 0.
+  float bounce;        ///< The fraction of it where no sky is visible, [0, 1].
   /// How often surfaces of the level, which are white, and smoke pass light on to each other, [0, 16]. 0:
   /// never, and a formula stands for light that is scattered more than once.
   uint32_t bounces;
@@ -197,6 +199,7 @@ static inline brume_frame_params brume_frame_defaults(void) {
       {VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, 1.0f},
       {{0.92f, 0.92f, 0.92f}, 0.2f, 1.0f, 0.5f, 1.5f, 0.06f, 0.2f, 0.12f},
       0.0,
+      0,
       0,
       {0.25f, 0.29f, 0.35f},
       0.2f,

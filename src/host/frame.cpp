@@ -154,7 +154,7 @@ planning::FrameInput frame_input(const brume_frame_params& params, const api::Sm
   planning::FrameInput input;
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
-  input.view.frame_index = static_cast<std::uint32_t>(params.frame);
+  input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues != 0;
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
   input.environment.sky.ambient = vec3_of(params.ambient);

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "api/objects.hpp"
@@ -18,6 +19,8 @@ namespace brume::host {
 struct DeviceData {
   explicit DeviceData(const gpu::HostDevice& host) : context(host) {}
   gpu::Context context;
+  /// Held while a renderer is made, records or ends: the context is used by one thread at a time.
+  std::mutex mutex;
   std::uint64_t frame = 0, completed = 0;
   std::atomic<int> renderers = 0;
 };

@@ -49,6 +49,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.march_scale = params.march_scale;
   options.smoke.temporal = params.temporal != 0;
   options.media_alone = true;
+  const std::scoped_lock lock(on.data->mutex);
   create(renderer, on.settings, on.data, scene_of(params), atlas_of(call, params.masks), options);
 }
 
@@ -100,7 +101,8 @@ void record(brume_renderer& of, const brume_field& field, const brume_frame_para
   try {
     draw(of, params, input, range);
   } catch (...) {
-    if (of.renderer) of.renderer->invalidate();
+    // What it holds may be half of what it planned: the next frame starts anew.
+    of.renderer.reset();
     of.recording.end();
     throw;
   }
@@ -126,7 +128,12 @@ brume_result brume_renderer_create(brume_device* device, const brume_renderer_pa
 }
 
 brume_result brume_renderer_destroy(brume_renderer* renderer) BRUME_NOEXCEPT {
-  return destroy(__func__, renderer);
+  if (!renderer) return BRUME_OK;
+  return Call(__func__).run([&](Call& call) {
+    const std::shared_ptr<brume::host::DeviceData> device = call.handle(renderer).device;
+    const std::scoped_lock lock(device->mutex);
+    delete renderer;
+  });
 }
 
 brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uint32_t height) BRUME_NOEXCEPT {
@@ -134,6 +141,7 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     brume_renderer& of = call.handle(renderer);
     const glm::uvec2 size_px = brume::host::checked_size(width, height);
     call.change(of, [&] {
+      const std::scoped_lock lock(of.device->mutex);
       if (of.renderer) of.renderer->resize(size_px);
       of.options.size_px = size_px;
     });
@@ -148,6 +156,7 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
     const brume_frame_params frame = required_params(params);
     // A failure leaves the renderer whole: the next frame finds everything again.
     const std::unique_lock lock(of.mutex);
+    const std::scoped_lock device_lock(of.device->mutex);
     call.read(from, [&] { brume::host::record(of, from, frame); });
   });
 }

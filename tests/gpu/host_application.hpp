@@ -71,15 +71,20 @@ class HostApplication {
         VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr,
         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
         VK_PIPELINE_STAGE_2_COPY_BIT,           VK_ACCESS_2_TRANSFER_READ_BIT};
-    VkDependencyInfo dependency{};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &written;
-    vk_.CmdPipelineBarrier2(commands, &dependency);
+    barrier(commands, written);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {size.width, size.height, 1};
     vk_.CmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, to, 1, &region);
+  }
+
+  /// Compute shaders see what was written before.
+  void wait_for_compute(VkCommandBuffer commands) const {
+    const VkMemoryBarrier2 written{
+        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr,
+        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,   VK_ACCESS_2_MEMORY_WRITE_BIT,
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    barrier(commands, written);
   }
 
   std::vector<std::string> take_messages() { return instance_.take_messages(); }
@@ -90,6 +95,13 @@ class HostApplication {
     VkCommandBuffer commands = VK_NULL_HANDLE;
   };
 
+  void barrier(VkCommandBuffer commands, const VkMemoryBarrier2& memory) const {
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    vk_.CmdPipelineBarrier2(commands, &dependency);
+  }
   void make_device() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};

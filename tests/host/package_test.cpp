@@ -91,6 +91,9 @@ TEST_F(HostExample, BuildsAgainstTheInstalledPackage) {
   expect_runs("cmake -S '" + source + "' -B '" + build +
               "' -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH='" + prefix + "' && cmake --build '" +
               build + "'");
+  expect_runs("grep -r --include=brume.pc -q -e -lbrume '" + prefix + "'");
+  expect_runs("export PKG_CONFIG_PATH=$(dirname \"$(find '" + prefix +
+              "' -name brume.pc)\"); pkg-config --exists brume");
   EXPECT_EQ(picture(build + "/brume_host_example", "installed", "--frames 4"),
             picture(BRUME_HOST_EXAMPLE, "tree", "--frames 4"));
 }

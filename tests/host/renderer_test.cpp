@@ -1,166 +1,18 @@
 // The C interface of the renderer draws, in the frames of a host, what the renderer draws by itself.
-#include <brume/brume_vulkan.h>
-#include <gtest/gtest.h>
-#include <brume/brume.hpp>
-
-#include <cmath>
 #include <cstring>
 #include <deque>
 #include <glm/gtc/packing.hpp>
 #include <set>
 
-#include "planning/device_camera.hpp"
 #include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
-#include "scenario/events.hpp"
 #include "scenario/simulation.hpp"
-#include "scenario/world_triangles.hpp"
-#include "tests/gpu/host_application.hpp"
-#include "tests/render/two_smokes.hpp"
+#include "tests/host/hosted_smoke.hpp"
 
 namespace brume::host {
 namespace {
 
-constexpr glm::uvec2 kSize{64, 36};
-constexpr std::uint32_t kTicks = 64;        // a second
 using Texels = std::vector<std::uint64_t>;  // of half floats
-
-#define ASSERT_OK(call) ASSERT_EQ(call, BRUME_OK) << brume_last_error()
-#define EXPECT_OK(call) EXPECT_EQ(call, BRUME_OK) << brume_last_error()
-
-brume_point point_of(glm::vec3 p) {
-  return {p.x, p.y, p.z};
-}
-brume_position position_of(sim::Position p) {
-  return {p.x, p.y, p.z};
-}
-
-/// The level of the scenario, by its triangles.
-struct Mesh {
-  explicit Mesh(const scenario::Scenario& scenario) {
-    for (const voxel::Triangle& t : scenario::world_triangles(scenario.scene))
-      for (const glm::vec3 corner : {t.a, t.b, t.c}) {
-        indices.push_back(static_cast<std::uint32_t>(points.size()));
-        points.push_back(point_of(corner));
-      }
-  }
-  std::vector<brume_point> points;
-  std::vector<std::uint32_t> indices;
-};
-
-api::Level level_of(const api::Context& context, const scenario::Scenario& scenario, const Mesh& mesh) {
-  const voxel::GridLayout& layout = scenario.voxels.grid.layout();
-  brume_triangles_params params = brume_triangles_defaults();
-  params.layout = {
-      {layout.size.x, layout.size.y, layout.size.z}, layout.voxel_size, point_of(layout.origin_world)};
-  params.points = mesh.points.data();
-  params.point_count = mesh.points.size();
-  params.indices = mesh.indices.data();
-  params.index_count = mesh.indices.size();
-  return {context, params};
-}
-
-brume_event event_of(const sim::ThrowSmoke& smoke) {
-  brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, smoke.tick);
-  event.u.smoke = {position_of(smoke.from), position_of(smoke.at),  smoke.smoke.voxels,
-                   smoke.smoke.bloom_ticks, smoke.smoke.hold_ticks, smoke.smoke.dissolve_ticks};
-  return event;
-}
-brume_event event_of(const sim::Shot& shot) {
-  brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, shot.tick);
-  event.u.shot.origin = position_of(shot.origin);
-  event.u.shot.toward = position_of(shot.toward);
-  event.u.shot.radius = shot.radius;
-  event.u.shot.reach_far_ms = shot.timing.reach_far;
-  event.u.shot.expand_ms = shot.timing.expand;
-  event.u.shot.stay_open_ms = shot.timing.stay_open;
-  event.u.shot.fade_ms = shot.timing.fade;
-  return event;
-}
-
-std::vector<brume_light> lights_of(const scene::Scene& scene) {
-  std::vector<brume_light> lights;
-  for (const scene::Light& light : scene.lights)
-    lights.push_back({static_cast<std::uint32_t>(light.kind),
-                      point_of(light.position_world),
-                      point_of(light.direction_world),
-                      {light.intensity.r, light.intensity.g, light.intensity.b},
-                      std::acos(light.cos_inner),
-                      std::acos(light.cos_outer)});
-  return lights;
-}
-
-/// A renderer of the interface, on a host's device.
-struct HostedSmoke {
-  HostedSmoke(const gpu::HostDevice& host, const scenario::Scenario& scenario, std::uint32_t march_scale)
-      : mesh(scenario),
-        level(level_of(context, scenario, mesh)),
-        world(level),
-        field(level, field_params(scenario)) {
-    std::vector<brume_event> events;
-    for (const sim::Event& event : scenario::events_of(scenario, kTicks).value_or_throw()) {
-      if (const auto* smoke = std::get_if<sim::ThrowSmoke>(&event)) events.push_back(event_of(*smoke));
-      if (const auto* shot = std::get_if<sim::Shot>(&event)) events.push_back(event_of(*shot));
-    }
-    world.append(events);
-    brume_device_params on = brume_device_defaults();
-    on.get_instance_proc_addr = host.get_instance_proc_addr;
-    on.instance = host.instance;
-    on.physical_device = host.physical_device;
-    on.device = host.device;
-    EXPECT_OK(brume_device_create(context.get(), &on, &device));
-    brume_renderer_params params = brume_renderer_defaults();
-    params.width = kSize.x;
-    params.height = kSize.y;
-    params.march_scale = march_scale;
-    const std::vector<brume_light> lights = lights_of(scenario.scene);
-    params.lights = lights.data();
-    params.light_count = lights.size();
-    params.points = mesh.points.data();
-    params.point_count = mesh.points.size();
-    params.indices = mesh.indices.data();
-    params.index_count = mesh.indices.size();
-    EXPECT_OK(brume_renderer_create(device, &params, &renderer));
-  }
-  ~HostedSmoke() {
-    EXPECT_OK(brume_renderer_destroy(renderer));
-    EXPECT_OK(brume_device_destroy(device));
-  }
-  HostedSmoke(const HostedSmoke&) = delete;
-  HostedSmoke& operator=(const HostedSmoke&) = delete;
-
-  static brume_field_params field_params(const scenario::Scenario& scenario) {
-    brume_field_params params = brume_field_defaults();
-    params.extinction = scenario.timeline.smoke.extinction;
-    return params;
-  }
-
-  api::Context context;
-  Mesh mesh;
-  api::Level level;
-  api::World world;
-  api::Field field;
-  brume_device* device = nullptr;
-  brume_renderer* renderer = nullptr;
-};
-
-/// What a frame of the interface shows, as the timeline's frame does.
-brume_frame_params frame_of(const scenario::Scenario& scenario, double seconds) {
-  brume_frame_params params = brume_frame_defaults();
-  const scene::Camera& camera = scenario.camera;
-  params.camera.position = point_of(camera.position_world);
-  params.camera.forward = point_of(camera.target_world - camera.position_world);
-  params.camera.vertical_fov = camera.vertical_fov;
-  params.depth.near_plane = planning::kNearPlane;
-  params.depth.far_plane = INFINITY;
-  params.depth.reversed = 1;
-  params.look.erosion = scenario.timeline.smoke.erosion;
-  const scene::SkyOptions& sky = scenario.timeline.sky;
-  for (int c = 0; c < 3; ++c) params.ambient[c] = sky.ambient[c];
-  params.bounce = sky.bounce;
-  params.seconds = seconds;
-  return params;
-}
 
 gpu::Buffer readback_buffer(gpu::Context& context) {
   return {context, Texels::value_type{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -211,8 +63,7 @@ class RendererTest : public testing::Test {
   /// Draws a time by the renderer itself, then by the interface over the depth of the former.
   void draw_both(double seconds, std::uint32_t march_scale) {
     simulation_->advance_to(seconds);
-    smoke_->world.advance_to(static_cast<std::uint32_t>(seconds * kTicks));
-    smoke_->field.update(smoke_->world.state());
+    smoke_->advance_to(seconds);
     EXPECT_EQ(smoke_->world.hash(), simulation_->world().state_hash());
     host_->frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording_->begin(commands, frame, completed);
@@ -236,6 +87,7 @@ class RendererTest : public testing::Test {
     params.commands = commands;
     params.frame = frame;
     params.completed = completed;
+    params.jitter_index = static_cast<std::uint32_t>(frame);
     const gpu::Image& depth = whole_->targets().gbuffer.depth;
     params.depth.view = depth.view();
     params.depth.layout = depth.last_use.layout;

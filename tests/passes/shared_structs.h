@@ -33,6 +33,7 @@
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
 #include "shared/spheres.h"
+#include "shared/surface_import.h"
 #include "shared/tank.h"
 #include "shared/tank_light.h"
 #include "shared/ui.h"
@@ -128,7 +129,9 @@
   X(83, IndirectLayout) \
   X(84, SurfacePatch) \
   X(85, IndirectParams) \
-  X(86, AntialiasParams)
+  X(86, AntialiasParams) \
+  X(87, SurfaceImportParams) \
+  X(88, MediaLayerParams)
 // clang-format on
 
 #endif

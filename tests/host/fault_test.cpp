@@ -1,0 +1,175 @@
+// Every call that may fail for want of memory fails once: an error with a sentence, valid commands, and a
+// next frame that is right.
+#include <array>
+#include <cstring>
+#include <deque>
+#include <string_view>
+
+#include "gpu/device_list.hpp"
+#include "scenario/scenario.hpp"
+#include "tests/host/hosted_smoke.hpp"
+
+namespace brume::host {
+namespace {
+
+#ifdef BRUME_EVERY_FAULT
+constexpr bool kEvery = true;
+#else
+constexpr bool kEvery = false;
+#endif
+
+/// Calls of a device until one fails.
+struct Faults {
+  static inline std::uint32_t calls = 0, fails_at = 0;  // 0: none
+  static bool fails() { return ++calls == fails_at; }
+};
+
+/// A function of Vulkan that counts its calls, one of which fails. No two of those below have one type.
+template <typename Function>
+struct Faulty;
+template <typename... Arguments>
+struct Faulty<VkResult(VKAPI_PTR*)(Arguments...)> {
+  static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
+  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+    return Faults::fails() ? VK_ERROR_OUT_OF_DEVICE_MEMORY : real(arguments...);
+  }
+};
+
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                       \
+  X(AllocateMemory)                                                                                     \
+  X(MapMemory) X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) \
+      X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)       \
+          X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool)                  \
+              X(ResetDescriptorPool) X(AllocateDescriptorSets) X(CreateQueryPool)
+
+PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
+PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr;
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_proc_addr(VkDevice device, const char* name) {
+  const PFN_vkVoidFunction real = g_device_proc_addr(device, name);
+#define X(function)                                              \
+  if (std::string_view(name) == "vk" #function) {                \
+    using Wrapper = Faulty<PFN_vk##function>;                    \
+    Wrapper::real = reinterpret_cast<PFN_vk##function>(real);    \
+    return reinterpret_cast<PFN_vkVoidFunction>(&Wrapper::call); \
+  }
+  BRUME_FAULTY_FUNCTIONS(X)
+#undef X
+  return real;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_proc_addr(VkInstance instance, const char* name) {
+  const PFN_vkVoidFunction real = g_instance_proc_addr(instance, name);
+  if (std::string_view(name) != "vkGetDeviceProcAddr") return real;
+  g_device_proc_addr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+  return reinterpret_cast<PFN_vkVoidFunction>(&device_proc_addr);
+}
+
+class FaultTest : public testing::Test {
+ protected:
+  FaultTest()
+      : scenario_(render::two_smokes(0.6f)),
+        host_(2),
+        gpu_(host_.device()),
+        recording_(gpu_),
+        depth_(gpu_, depth_info()) {
+    scenario_.timeline.doors.clear();
+  }
+  ~FaultTest() override { host_.wait(); }
+  void TearDown() override {
+    host_.wait();
+    for (const std::string& message : host_.take_messages()) ADD_FAILURE() << message;
+  }
+
+  static gpu::ImageInfo depth_info() {
+    gpu::ImageInfo info;
+    info.format = VK_FORMAT_R32_SFLOAT;
+    info.size = {kSize, 1};
+    info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return info;
+  }
+  /// The host's device, some of whose functions may fail for the interface.
+  gpu::HostDevice faulty_device() const {
+    gpu::HostDevice device = host_.device();
+    g_instance_proc_addr = device.get_instance_proc_addr;
+    device.get_instance_proc_addr = instance_proc_addr;
+    return device;
+  }
+
+  /// A frame of nothing but smoke: no surface anywhere.
+  brume_result draw(HostedSmoke& smoke, double seconds) {
+    smoke.advance_to(seconds);
+    brume_result result = BRUME_OK;
+    picture_ = gpu::Buffer(gpu_, VkDeviceSize{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           gpu::MemoryUse::readback);
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+      recording_.begin(commands, frame, completed);
+      recording_.recorder().clear(depth_, {});
+      recording_.end();
+      host_.wait_for_compute(commands);
+      brume_frame_params params = frame_of(scenario_, seconds);
+      params.commands = commands;
+      params.frame = frame;
+      params.completed = completed;
+      params.depth.view = depth_.view();
+      params.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
+      result = brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
+      if (result != BRUME_OK) return;
+      VkImage image = VK_NULL_HANDLE;
+      EXPECT_OK(brume_renderer_smoke(smoke.renderer, &image, nullptr));
+      host_.copy(commands, image, {kSize.x, kSize.y}, picture_.handle());
+    });
+    host_.wait();
+    return result;
+  }
+  std::vector<std::byte> picture() const { return {picture_.mapped(), picture_.mapped() + picture_.size()}; }
+
+  scenario::Scenario scenario_;
+  gpu::HostApplication host_;
+  gpu::Context gpu_;
+  gpu::HostRecording recording_;
+  gpu::Image depth_;
+  gpu::Buffer picture_;
+};
+
+TEST_F(FaultTest, EveryCallMayFailOnce) {
+  constexpr double kFirst = 2, kSecond = 5.25;  // smoke; two smokes, and a shot
+  Faults::calls = Faults::fails_at = 0;
+  std::vector<std::byte> first, second;
+  {
+    HostedSmoke smoke(faulty_device(), scenario_, 1);
+    ASSERT_OK(draw(smoke, kFirst));
+    first = picture();
+    ASSERT_OK(draw(smoke, kSecond));
+    second = picture();
+  }
+  const std::uint32_t calls = Faults::calls;
+  ASSERT_GT(calls, 100u);
+  EXPECT_NE(first, second);
+
+  // Not every one of them in the fast suite: they take long, pipelines above all.
+  const std::uint32_t step = kEvery ? 1 : calls / 12;
+  std::uint32_t failures = 0;
+  for (std::uint32_t fails_at = 1; fails_at <= calls; fails_at += step) {
+    SCOPED_TRACE("call " + std::to_string(fails_at) + " of " + std::to_string(calls));
+    Faults::calls = 0;
+    Faults::fails_at = fails_at;
+    HostedSmoke smoke(faulty_device(), scenario_, 1, HostedSmoke::Failure::allowed);
+    // Until it works, as a host would: the device, the renderer, frames.
+    for (const double seconds : {kFirst, kSecond})
+      for (int tries = 0;; ++tries) {
+        ASSERT_LT(tries, 2);
+        const brume_result result = smoke.made(scenario_, 1) ? draw(smoke, seconds) : BRUME_ERROR_LIMIT;
+        if (result == BRUME_OK) break;
+        ++failures;
+        EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
+        EXPECT_STRNE(brume_last_error(), "");
+      }
+    EXPECT_EQ(picture(), second);
+  }
+  Faults::fails_at = 0;
+  EXPECT_GT(failures, 6u);
+}
+
+}  // namespace
+}  // namespace brume::host
