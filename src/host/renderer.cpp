@@ -101,7 +101,7 @@ void record(brume_renderer& of, const brume_field& field, const brume_frame_para
   try {
     draw(of, params, input, range);
   } catch (...) {
-    // What it holds may be half of what it planned: the next frame starts anew.
+    // What it holds may be half of what it planned: the next frame makes another.
     of.renderer.reset();
     of.recording.end();
     throw;

@@ -62,9 +62,9 @@ class HostExample : public testing::Test {
 };
 
 TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
-  const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 60 --in-flight 1");
-  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 60 --in-flight 3"), one);
-  EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 60 --no-smoke"), one);
+  const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 32 --in-flight 1");
+  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 32 --in-flight 3"), one);
+  EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 32 --no-smoke"), one);
 }
 
 // Its own barriers and those of the library fit together.
@@ -73,7 +73,7 @@ TEST_F(HostExample, IsValid) {
     const ShellRun run = run_shell(
         "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
         "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT '" BRUME_HOST_EXAMPLE
-        "' --frames 40 --size 32x18 -o '" +
+        "' --frames 26 --size 32x18 -o '" +
         (folder_.path() / "valid.ppm").string() + "' --in-flight " + in_flight + " 2>&1");
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.output, "");
