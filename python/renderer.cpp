@@ -1,0 +1,164 @@
+// Pictures: the class Renderer of the module.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "gpu/context.hpp"
+#include "python/scenario.hpp"
+#include "render/playback.hpp"
+#include "render/volume_room.hpp"
+#include "scene/options.hpp"
+#include "scene/text_reader.hpp"
+
+namespace brume::python {
+namespace {
+
+/// Frames of a scenario on a device, as brume render draws them.
+class Renderer {
+ public:
+  Renderer(std::shared_ptr<Loaded> loaded, const render::RendererOptions& options, const std::string& device)
+      : loaded_(std::move(loaded)), options_(options), context_({device, false}) {
+    const std::lock_guard lock(loaded_->drawing);
+    scenario::Scenario& scenario = loaded_->scenario;
+    if (scenario.volumes) scenario.volumes->limit(render::volume_room(context_)).value_or_throw();
+    playback_.emplace(context_, scenario, options_);
+    if (scenario.measure_exposure) playback_->measure_exposure();
+  }
+
+  bool is_linear() const { return options_.smoke.record_entries; }
+  glm::uvec2 size() const { return options_.size_px; }
+  double duration() const { return double{loaded_->scenario.timeline.duration}; }
+  const std::string& device() const { return context_.info().name; }
+
+  image::Image8 draw(double seconds, const std::optional<scene::Camera>& camera,
+                     std::optional<std::uint32_t> samples) {
+    const std::lock_guard lock(loaded_->drawing);
+    prepare(camera, samples);
+    return playback_->draw(seconds, 0);
+  }
+  image::LayeredImage draw_layers(double seconds, const std::optional<scene::Camera>& camera,
+                                  std::optional<std::uint32_t> samples) {
+    const std::lock_guard lock(loaded_->drawing);
+    prepare(camera, samples);
+    return playback_->draw_layers(seconds, 0);
+  }
+
+ private:
+  void prepare(const std::optional<scene::Camera>& camera, std::optional<std::uint32_t> samples) {
+    if (camera)
+      playback_->set_camera(*camera);
+    else
+      playback_->set_camera(planning::CameraAt());
+    playback_->set_samples(samples);
+  }
+
+  std::shared_ptr<Loaded> loaded_;
+  render::RendererOptions options_;
+  gpu::Context context_;
+  std::optional<render::Playback> playback_;
+};
+
+/// (position, target) or (position, target, degrees), as --camera of brume render.
+std::optional<scene::Camera> camera_of(const py::object& value) {
+  if (value.is_none()) return {};
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
+    throw py::type_error("camera: expected (position, target) or (position, target, degrees)");
+  const auto parts = value.cast<py::sequence>();
+  if (parts.size() != 2 && parts.size() != 3)
+    refuse("camera", "expected (position, target) or (position, target, degrees)");
+  const glm::vec3 position(vector_of("camera", parts[0])), target(vector_of("camera", parts[1]));
+  const double degrees = parts.size() == 3 ? parts[2].cast<double>() : 60;
+  if (!(degrees > 0 && degrees < 180)) refuse("camera", "expected an angle in (0, 180) degrees");
+  if (position == target) refuse("camera", "expected two distinct points");
+  for (const glm::vec3 p : {position, target})
+    for (int axis = 0; axis < 3; ++axis)
+      if (double{std::abs(p[axis])} > scene::kFarthestPoint) refuse("camera", "is farther than 1,000,000 m");
+  return scene::Camera{position, target, static_cast<float>(degrees * std::numbers::pi / 180)};
+}
+
+std::shared_ptr<Renderer> make_renderer(const Scenario& scenario, std::pair<std::int64_t, std::int64_t> size,
+                                        const std::string& march, bool linear, const std::string& device) {
+  const auto fits = [](std::int64_t pixels) { return pixels > 0 && pixels <= image::kMaxAxis; };
+  if (!fits(size.first) || !fits(size.second))
+    refuse("size", "expected (width, height), each 1 to " + std::to_string(image::kMaxAxis) + " pixels");
+  if (march != "full" && march != "half" && march != "quarter")
+    refuse("march", "expected 'full', 'half' or 'quarter', got '" + march + "'");
+  render::RendererOptions options;
+  options.size_px = glm::uvec2(size.first, size.second);
+  options.smoke.march_scale = march == "full" ? 1 : march == "half" ? 2 : 4;
+  options.smoke.record_entries = linear;
+  return released([&] { return std::make_shared<Renderer>(scenario.loaded(), options, device); });
+}
+
+py::array colours(const image::Image8& image) {
+  py::array_t<std::uint8_t> result({image.height, image.width, 3u});
+  std::uint8_t* out = result.mutable_data();
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) out = std::copy_n(&image.rgba[i], 3, out);
+  return result;
+}
+
+/// R, G, B of the layers.
+py::array radiance(const image::LayeredImage& image) {
+  py::array result(py::dtype("float16"), std::vector<std::size_t>{image.height, image.width, 3});
+  auto* const out = static_cast<std::uint16_t*>(result.mutable_data());
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const std::string name(1, "RGB"[channel]);
+    const auto layer = std::ranges::find(image.layers, name, &image::Layer::name);
+    const auto& halves = std::get<std::vector<std::uint16_t>>(layer->values);
+    for (std::size_t i = 0; i < halves.size(); ++i) out[3 * i + channel] = halves[i];
+  }
+  return result.attr("astype")("float32").cast<py::array>();
+}
+
+py::array draw_picture(Renderer& renderer, std::optional<double> time, const py::object& camera,
+                       std::optional<std::int64_t> samples) {
+  const double seconds = time.value_or(renderer.duration());
+  if (!(seconds >= 0 && seconds <= scene::kLatestTime))
+    refuse("time", "expected 0 to 3600 s, got " + scene::shown(seconds));
+  if (samples && !(*samples >= 1 && *samples <= std::int64_t{scene::kMostSamples}))
+    refuse("samples", "expected 1 to 2^24");
+  const std::optional<scene::Camera> from = camera_of(camera);
+  const auto count = samples ? std::optional(static_cast<std::uint32_t>(*samples)) : std::nullopt;
+  py::array result;
+  if (renderer.is_linear())
+    result = radiance(released([&] { return renderer.draw_layers(seconds, from, count); }));
+  else
+    result = colours(released([&] { return renderer.draw(seconds, from, count); }));
+  stop_if_interrupted();
+  return result;
+}
+
+}  // namespace
+
+void bind_renderer(py::module_& module) {
+  using namespace py::literals;
+  py::class_<Renderer, std::shared_ptr<Renderer>>(
+      module, "Renderer",
+      "Draws pictures of a Scenario on a Vulkan device, as brume render does. Loads the scene onto it once.")
+      .def(py::init(&make_renderer), "scenario"_a, py::kw_only(), "size"_a = std::pair(1280, 720),
+           "march"_a = "full", "linear"_a = false, "device"_a = "",
+           R"(size: (width, height) of the pictures [px], each 1 to 16384.
+march: rays through the smoke: "full" (one per pixel), "half" (per 2 x 2) or "quarter" (per 4 x 4).
+linear: radiance before exposure and tone curve, instead of colours.
+device: number or part of the name of a Vulkan device, as brume devices lists them; default: the fastest.
+
+Raises RuntimeError without a device, MemoryError where it has too little memory, ValueError.)")
+      .def("draw", &draw_picture, "time"_a = py::none(), py::kw_only(), "camera"_a = py::none(),
+           "samples"_a = py::none(),
+           R"(The picture at a time, whatever was drawn before.
+
+time: [s], 0 to 3600; default: the end of the timeline.
+camera: (position, target) or (position, target, degrees): where it is, a point in the middle of the picture
+    [m], and the vertical angle of view, 60 by default. Default: the timeline's.
+samples: frames that a picture is the mean of, for an aperture or a shutter; default: 64 with one, else 1.
+
+Returns an array of the shape (height, width, 3), rows from the top: uint8 as in the .png of brume render, or
+float32 where the renderer is linear. Ctrl-C takes effect after the picture.)")
+      .def_property_readonly("device", &Renderer::device, "Name of its Vulkan device.");
+}
+
+}  // namespace brume::python
