@@ -110,6 +110,8 @@ void throw_of_file(const Failure& failure, const std::filesystem::path& path, Fi
   if (const int number = fault_of(path, use)) throw FileError(number, failure.message);
   if (use == FileUse::write && failure.code == ErrorCode::resource_limit)
     throw FileError(ENOSPC, failure.message);
+  if (use == FileUse::write && failure.message.starts_with(path.string() + ": cannot "))
+    throw FileError(EIO, failure.message);
   throw Error(failure);
 }
 

@@ -1,5 +1,6 @@
 // Pictures: the class Renderer of the module.
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "gpu/context.hpp"
+#include "image/png.hpp"
 #include "python/scenario.hpp"
 #include "render/playback.hpp"
 #include "render/volume_room.hpp"
@@ -62,24 +64,6 @@ class Renderer {
   std::optional<render::Playback> playback_;
 };
 
-/// (position, target) or (position, target, degrees), as --camera of brume render.
-std::optional<scene::Camera> camera_of(const py::object& value) {
-  if (value.is_none()) return {};
-  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
-    throw py::type_error("camera: expected (position, target) or (position, target, degrees)");
-  const auto parts = value.cast<py::sequence>();
-  if (parts.size() != 2 && parts.size() != 3)
-    refuse("camera", "expected (position, target) or (position, target, degrees)");
-  const glm::vec3 position(vector_of("camera", parts[0])), target(vector_of("camera", parts[1]));
-  const double degrees = parts.size() == 3 ? parts[2].cast<double>() : 60;
-  if (!(degrees > 0 && degrees < 180)) refuse("camera", "expected an angle in (0, 180) degrees");
-  if (position == target) refuse("camera", "expected two distinct points");
-  for (const glm::vec3 p : {position, target})
-    for (int axis = 0; axis < 3; ++axis)
-      if (double{std::abs(p[axis])} > scene::kFarthestPoint) refuse("camera", "is farther than 1,000,000 m");
-  return scene::Camera{position, target, static_cast<float>(degrees * std::numbers::pi / 180)};
-}
-
 std::shared_ptr<Renderer> make_renderer(const Scenario& scenario, std::pair<std::int64_t, std::int64_t> size,
                                         const std::string& march, bool linear, const std::string& device) {
   const auto fits = [](std::int64_t pixels) { return pixels > 0 && pixels <= image::kMaxAxis; };
@@ -132,7 +116,43 @@ py::array draw_picture(Renderer& renderer, std::optional<double> time, const py:
   return result;
 }
 
+void save_picture(const std::filesystem::path& path, const py::array& picture) {
+  if (picture.dtype().kind() != 'u' || picture.dtype().itemsize() != 1)
+    throw py::type_error("picture: expected an array of uint8");
+  if (picture.ndim() != 3 || (picture.shape(2) != 3 && picture.shape(2) != 4))
+    refuse("picture",
+           "expected the shape (height, width, 3) or (height, width, 4), got " + shape_text(picture));
+  for (int axis = 0; axis < 2; ++axis)
+    if (picture.shape(axis) < 1 || picture.shape(axis) > py::ssize_t{image::kMaxAxis})
+      refuse("picture", "expected 1 to " + std::to_string(image::kMaxAxis) + " pixels along each axis");
+  const auto values = py::array_t<std::uint8_t, py::array::c_style>::ensure(picture);
+  const auto channels = static_cast<std::size_t>(picture.shape(2));
+  image::Image8 image{
+      static_cast<std::uint32_t>(picture.shape(1)), static_cast<std::uint32_t>(picture.shape(0)), {}};
+  image.rgba.assign(std::size_t{4} * image.width * image.height, 255);
+  for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
+    std::copy_n(values.data() + i * channels, channels, &image.rgba[4 * i]);
+  released([&] { of_file(image::save_png(path, image), path, FileUse::write); });
+}
+
 }  // namespace
+
+std::optional<scene::Camera> camera_of(const py::object& value) {
+  if (value.is_none()) return {};
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
+    throw py::type_error("camera: expected (position, target) or (position, target, degrees)");
+  const auto parts = value.cast<py::sequence>();
+  if (parts.size() != 2 && parts.size() != 3)
+    refuse("camera", "expected (position, target) or (position, target, degrees)");
+  const glm::vec3 position(vector_of("camera", parts[0])), target(vector_of("camera", parts[1]));
+  const double degrees = parts.size() == 3 ? parts[2].cast<double>() : 60;
+  if (!(degrees > 0 && degrees < 180)) refuse("camera", "expected an angle in (0, 180) degrees");
+  if (position == target) refuse("camera", "expected two distinct points");
+  for (const glm::vec3 p : {position, target})
+    for (int axis = 0; axis < 3; ++axis)
+      if (double{std::abs(p[axis])} > scene::kFarthestPoint) refuse("camera", "is farther than 1,000,000 m");
+  return scene::Camera{position, target, static_cast<float>(degrees * std::numbers::pi / 180)};
+}
 
 void bind_renderer(py::module_& module) {
   using namespace py::literals;
@@ -159,6 +179,12 @@ samples: frames that a picture is the mean of, for an aperture or a shutter; def
 Returns an array of the shape (height, width, 3), rows from the top: uint8 as in the .png of brume render, or
 float32 where the renderer is linear. Ctrl-C takes effect after the picture.)")
       .def_property_readonly("device", &Renderer::device, "Name of its Vulkan device.");
+  module.def("save_png", &save_picture, "path"_a, "picture"_a,
+             R"(Writes a picture as a PNG, completely or not at all.
+
+picture: uint8, shape (height, width, 3) or, with alpha, (height, width, 4); sRGB, rows from the top.
+
+Raises OSError where it cannot be written, TypeError and ValueError for another array.)");
 }
 
 }  // namespace brume::python

@@ -15,11 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::shared_ptr<Scenario> load_source(const fs::path& path, std::optional<float> voxel_size,
-                                      std::optional<float> scale, float aspect) {
+                                      std::optional<float> scale, float aspect, const py::object& camera) {
   if (!(aspect > 0 && std::isfinite(aspect))) refuse("aspect", "expected a number above 0");
   if (voxel_size && !(*voxel_size >= 0.015625f && *voxel_size <= 64))
     refuse("voxel_size", "expected 1/64 to 64 m");
   if (scale && !(*scale >= 1e-6f && *scale <= 1e6f)) refuse("scale", "expected 1e-6 to 1e6");
+  const std::optional<scene::Camera> from = camera_of(camera);
   return released([&] {
     if (fs::exists(path) && scenario::is_tank_input(path))
       throw Error(ErrorCode::bad_input, path.string() + ": is a tank of spheres; use the program brume");
@@ -27,6 +28,7 @@ std::shared_ptr<Scenario> load_source(const fs::path& path, std::optional<float>
     options.aspect = aspect;
     options.voxel = voxel_size;
     options.scale = scale;
+    options.camera = from;
     if (!scenario::is_timeline(path) || !(voxel_size || scale)) {
       auto scenario = of_file(scenario::load_scenario(path, {}, options), path);
       return std::make_shared<Scenario>(std::shared_ptr<Loaded>(new Loaded{std::move(scenario), {}}));
@@ -82,12 +84,13 @@ void bind_scenario(py::module_& module) {
       });
   module.def(
       "load", &load_source, "path"_a, py::kw_only(), "voxel_size"_a = py::none(), "scale"_a = py::none(),
-      "aspect"_a = 16.0f / 9.0f,
+      "aspect"_a = 16.0f / 9.0f, "camera"_a = py::none(),
       R"(Loads a timeline (.toml), a scene (.glb, .gltf, .obj, .txt) or a volume (.vdb, .nvdb, .brv) as a Scenario.
 
 voxel_size: edge length of a voxel [m], 1/64 to 64; default: the timeline's, or what fits the scene.
 scale: metres per unit of the scene; default: the timeline's, or what fits.
-aspect: width / height of pictures, for which a scene without a timeline gets a camera and a smoke.
+aspect, camera: width / height of pictures, and where they are looked from (as in Renderer.draw): a scene without
+    a timeline gets a smoke that fits them, and a camera where it has none.
 
 Warnings of the files are UserWarnings. Raises FileNotFoundError, ValueError for a damaged file, with its place.)");
   bind_renderer(module);

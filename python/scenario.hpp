@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "python/smoke.hpp"
 #include "scenario/simulation.hpp"
@@ -33,6 +34,9 @@ class Scenario : public Smoke {
   std::shared_ptr<Loaded> loaded_;
   std::unique_ptr<scenario::Simulation> simulation_;
 };
+
+/// (position, target) or (position, target, degrees), as --camera of brume render; None: none.
+std::optional<scene::Camera> camera_of(const py::object& value);
 
 /// After bind_smoke.
 void bind_scenario(py::module_& module);

@@ -16,9 +16,7 @@ namespace {
 /// One thread at a time.
 class Sender {
  public:
-  explicit Sender(std::uint32_t history) : sender_({history}) {
-    if (history < 1) refuse("history", "expected at least 1 tick");
-  }
+  explicit Sender(std::uint32_t history) : sender_({checked(history)}) {}
   py::bytes push(const Smoke& smoke) {
     return bytes_of(smoke.read([&](const sim::World& world) {
       const std::lock_guard lock(mutex_);
@@ -34,6 +32,11 @@ class Sender {
   }
 
  private:
+  static std::uint32_t checked(std::uint32_t history) {
+    if (history < 1) refuse("history", "expected at least 1 tick");
+    return history;
+  }
+
   std::mutex mutex_;
   wire::Sender sender_;
 };

@@ -24,11 +24,11 @@ def _find_converter() -> None:
 
 _find_converter()
 
-from ._brume import Level, Receiver, Renderer, Scenario, Sender, Smoke, World, convert, load  # noqa: E402
+from ._brume import Level, Receiver, Renderer, Scenario, Sender, Smoke, World, convert, load, save_png  # noqa: E402
 from ._grids import Grid, read_grids, write_grids  # noqa: E402
 
 __all__ = ["Grid", "Level", "Receiver", "Renderer", "Scenario", "Sender", "Smoke", "World", "convert", "load",
-           "read_grids", "render", "write_grids"]
+           "read_grids", "render", "save_png", "write_grids"]
 
 
 def _density(self, low=None, high=None, *, dtype="float32"):
@@ -73,7 +73,7 @@ def render(source, time=None, *, size=(1280, 720), camera=None, march="full", sa
         width, height = size
         if not (0 < width <= 16384 and 0 < height <= 16384):
             raise ValueError("size: expected (width, height), each 1 to 16384 pixels")
-        source = load(source, aspect=width / height)
+        source = load(source, aspect=width / height, camera=camera)
     renderer = Renderer(source, size=tuple(size), march=march, linear=linear, device=device)
     return renderer.draw(time, camera=camera, samples=samples)
 

@@ -118,6 +118,10 @@ def _data_of(grid: Grid) -> dict:
         raise TypeError(f"values: a file holds {', '.join(types)}, not {values.dtype}")
     if grid.is_mask and values.dtype != bool:
         raise TypeError("values: a mask is an array of bool")
+    if not isinstance(grid.name, str) or not isinstance(grid.grid_class, str):
+        raise TypeError("name, grid_class: expected str")
+    if np.asarray(grid.background).dtype.kind not in "fiub":
+        raise TypeError(f"background: expected a value of {values.dtype}")
     dtype = values.dtype.newbyteorder("=")
     components = 3 if values.ndim == 4 else 1
     try:
