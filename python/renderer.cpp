@@ -28,7 +28,6 @@ class Renderer {
     scenario::Scenario& scenario = loaded_->scenario;
     if (scenario.volumes) scenario.volumes->limit(render::volume_room(context_)).value_or_throw();
     playback_.emplace(context_, scenario, options_);
-    if (scenario.measure_exposure) playback_->measure_exposure();
   }
 
   bool is_linear() const { return options_.smoke.record_entries; }
@@ -56,12 +55,23 @@ class Renderer {
     else
       playback_->set_camera(planning::CameraAt());
     playback_->set_samples(samples);
+    if (loaded_->scenario.measure_exposure && !(measured_ && same(*measured_, camera))) {
+      playback_->measure_exposure();
+      measured_ = camera;
+    }
+  }
+  static bool same(const std::optional<scene::Camera>& a, const std::optional<scene::Camera>& b) {
+    if (!a || !b) return !a && !b;
+    return a->position_world == b->position_world && a->target_world == b->target_world &&
+           a->vertical_fov == b->vertical_fov;
   }
 
   std::shared_ptr<Loaded> loaded_;
   render::RendererOptions options_;
   gpu::Context context_;
   std::optional<render::Playback> playback_;
+  /// The camera that the exposure was measured for, as brume render does for its --camera; none: not yet.
+  std::optional<std::optional<scene::Camera>> measured_;
 };
 
 std::shared_ptr<Renderer> make_renderer(const Scenario& scenario, std::pair<std::int64_t, std::int64_t> size,

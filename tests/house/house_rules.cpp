@@ -9,10 +9,10 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 22> kFolders{
+constexpr std::array<std::string_view, 23> kFolders{
     "core",  "palettes", "spheres", "image", "scene", "voxel",    "volume",   "grids",
     "trace", "bake",     "sim",     "smoke", "wire",  "scenario", "planning", "reference",
-    "gpu",   "passes",   "render",  "bench", "apps",  "examples"};
+    "gpu",   "passes",   "render",  "bench", "apps",  "examples", "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {
