@@ -78,6 +78,16 @@ void check_size(const grids::Grid& grid, const Box<int>& box) {
                 "grid \"" + grid.name + "\": an array of it has more than 2^30 voxels; convert() needs none");
 }
 
+/// Sums of coordinates and edges of tiles must fit.
+void check_places(const grids::Grid& grid) {
+  const auto check = [&](glm::ivec3 origin) {
+    if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(origin)), glm::dvec3(1 << 30))))
+      throw Error(ErrorCode::resource_limit, "grid \"" + grid.name + "\": has voxels beyond index 2^30");
+  };
+  for (const grids::Brick& brick : grid.bricks) check(brick.origin);
+  for (const grids::Tile& tile : grid.tiles) check(tile.origin);
+}
+
 /// The arrays of a grid.
 struct Dense {
   Box<int> box;
@@ -208,6 +218,7 @@ py::list list_of(const std::vector<grids::Metadata>& metadata) {
 }
 
 py::dict dict_of(const grids::Grid& grid) {
+  check_places(grid);
   const Box<int> box = released([&] { return bounds_of(grid); });
   check_size(grid, box);
   const glm::ivec3 size = box.high - box.low;

@@ -8,13 +8,15 @@
 #include <ctime>
 #include <mutex>
 
+#include "core/tasks.hpp"
 #include "python/density.hpp"
 
 namespace brume::python {
 namespace {
 
-/// Lines between two looks for Ctrl-C: about 50 ms on one core.
-constexpr std::size_t kChunk = 1 << 16;
+/// Lines between two looks for Ctrl-C, per core: 50 ms, in which starting the threads does not count.
+constexpr std::size_t kChunkOfCore = 1 << 16;
+constexpr std::size_t kGatherGrain = 1 << 13;
 
 glm::vec3 point_at(const Points& points, std::size_t i) {
   glm::vec3 point;
@@ -59,12 +61,15 @@ template <typename Query>
 void Smoke::in_chunks(const Lines& lines, const Query& query) {
   released([&] {
     std::optional<std::uint64_t> revision;
-    std::vector<smoke::Segment> segments(std::min(lines.count, kChunk));
-    for (std::size_t first = 0; first < lines.count; first += kChunk) {
-      const std::size_t count = std::min(kChunk, lines.count - first);
+    const std::size_t chunk = kChunkOfCore * thread_count();
+    std::vector<smoke::Segment> segments(std::min(lines.count, chunk));
+    for (std::size_t first = 0; first < lines.count; first += chunk) {
+      const std::size_t count = std::min(chunk, lines.count - first);
       // Another thread may write to the arrays: the query reads a copy.
-      for (std::size_t i = 0; i < count; ++i)
-        segments[i] = {point_at(lines.a, first + i), point_at(lines.b, first + i)};
+      parallel_for(count, kGatherGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          segments[i] = {point_at(lines.a, first + i), point_at(lines.b, first + i)};
+      });
       with_sight(revision, [&](const smoke::Sight& sight) {
         query(sight, std::span<const smoke::Segment>(segments).first(count), first);
       });

@@ -1,8 +1,12 @@
 """Volume files: what is written comes back, in every format."""
 
+import os
+import signal
 import subprocess
+import threading
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import brume
 import numpy as np
@@ -140,6 +144,20 @@ class ProgramTest(unittest.TestCase):
             done = subprocess.run(["/usr/bin/env", "BRUME_VDB=/nowhere/brume-vdb", "/usr/bin/python3", "-B", "-c", code],
                                   capture_output=True, text=True, check=False)
             self.assertRegex(done.stderr, "RuntimeError: .*requires the program brume-vdb")
+
+
+    def test_ctrl_c_ends_a_program_that_hangs(self):
+        with work_folder() as folder:
+            slow = Path(folder) / "slow"
+            slow.write_text("#!/bin/sh\nexec sleep 600\n")
+            slow.chmod(0o755)
+            Path(folder, "a.vdb").write_bytes(b"anything")
+            raised = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
+            with mock.patch.dict(os.environ, BRUME_VDB=str(slow)):
+                raised.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    brume.read_grids(folder + "/a.vdb")
+            raised.join()
 
 
 if __name__ == "__main__":
