@@ -9,6 +9,8 @@
 
 PYBIND11_MODULE(_brume, module) {
   module.doc() = "What the package brume is made of; import brume instead.";
+  const pybind11::object name = module.attr("__name__");
+  module.attr("__name__") = "brume";  // Where classes and docstrings say they are.
   brume::python::init_calls();
   brume::python::bind_level(module);
   brume::python::bind_smoke(module);
@@ -16,4 +18,5 @@ PYBIND11_MODULE(_brume, module) {
   brume::python::bind_wire(module);
   brume::python::bind_scenario(module);
   brume::python::bind_grids(module);
+  module.attr("__name__") = name;
 }

@@ -80,6 +80,3 @@ def render(source, time=None, *, size=(1280, 720), camera=None, march="full", sa
 
 Smoke.density = _density
 Smoke.density.__name__, Smoke.density.__qualname__ = "density", "Smoke.density"
-for _class in (Level, Receiver, Renderer, Scenario, Sender, Smoke, World):
-    _class.__module__ = "brume"
-del _class

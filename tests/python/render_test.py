@@ -41,6 +41,16 @@ class RenderTest(unittest.TestCase):
         picture = brume.render(scene, 1, size=(64, 64), camera=((0, 1.7, 8), (0, 1.5, 0), 50), march="half", samples=2)
         np.testing.assert_array_equal(picture, expected)
 
+    def test_volume_is_that_of_the_program(self):
+        distance = np.sqrt(((np.indices((24, 24, 24)) - 11.5) ** 2).sum(axis=0))
+        ball = brume.Grid(np.clip(10 - distance, 0, 1).astype(np.float32), matrix=np.diag([0.1, 0.1, 0.1, 1]))
+        with work_folder() as folder:
+            brume.write_grids(folder + "/ball.brv", ball)
+            run_brume("render", folder + "/ball.brv", "-o", folder + "/ball.png", "--size", "48x32")
+            picture = brume.render(folder + "/ball.brv", size=(48, 32))
+            np.testing.assert_array_equal(picture, read_png(folder + "/ball.png"))
+        self.assertGreater(picture[16, 24].min(), 60)
+
     def test_renderer_draws_any_time(self):
         scenario = brume.load(DEMO)
         renderer = brume.Renderer(scenario, size=(64, 36), march="quarter")
