@@ -208,14 +208,14 @@ std::vector<grids::Metadata> metadata_of(const py::handle& list) {
   return metadata;
 }
 
-}  // namespace
-
 py::list list_of(const std::vector<grids::Metadata>& metadata) {
   py::list list;
   for (const grids::Metadata& entry : metadata)
     list.append(py::make_tuple(py::bytes(entry.name), py::bytes(entry.type), bytes_of(entry.bytes)));
   return list;
 }
+
+}  // namespace
 
 py::dict dict_of(const grids::Grid& grid) {
   check_places(grid);

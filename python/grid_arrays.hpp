@@ -12,6 +12,4 @@ py::dict dict_of(const grids::Grid& grid);
 /// The same grid of a dictionary. Raises TypeError and ValueError for one that dict_of does not make.
 grids::Grid grid_of(const py::dict& dict);
 
-py::list list_of(const std::vector<grids::Metadata>& metadata);
-
 }  // namespace brume::python

@@ -84,7 +84,7 @@ void bind_grids(py::module_& module) {
         const grids::GridFile file = load_file(path, names);
         py::list grids;
         for (const grids::Grid& grid : file.grids) grids.append(dict_of(grid));
-        return py::make_tuple(grids, list_of(file.metadata));
+        return grids;
       },
       "path"_a, "names"_a, "What read_grids makes its result of.");
   module.def(

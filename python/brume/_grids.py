@@ -148,11 +148,11 @@ def read_grids(path: str | os.PathLike, *, names: Optional[Iterable[str]] = None
     names: the grids to take; default: all.
 
     Each array is the smallest one around all voxels that are active or differ from the background, at most 2^30
-    voxels. .vdb and .nvdb files are read in a child process (see convert). Raises FileNotFoundError, ValueError for a
-    damaged file or an unknown name, MemoryError for what is too large, RuntimeError without brume-vdb.
+    voxels. Metadata of the file itself are not read. .vdb and .nvdb files are read in a child process (see convert).
+    Raises FileNotFoundError, ValueError for a damaged file or an unknown name, MemoryError for what is too large,
+    RuntimeError without brume-vdb.
     """
-    grids, _ = _brume._read_grids(path, None if names is None else list(names))
-    return [_grid_of(data) for data in grids]
+    return [_grid_of(data) for data in _brume._read_grids(path, None if names is None else list(names))]
 
 
 def write_grids(path: str | os.PathLike, grids: Grid | Iterable[Grid]) -> None:

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import sys
 import threading
 import unittest
 from pathlib import Path
@@ -141,8 +142,8 @@ class ProgramTest(unittest.TestCase):
         with work_folder() as folder:
             brume.write_grids(folder + "/a.brv", brume.Grid(np.ones((2, 2, 2), np.float32)))
             code = f"import brume; brume.convert({folder + '/a.brv'!r}, {folder + '/a.vdb'!r})"
-            done = subprocess.run(["/usr/bin/env", "BRUME_VDB=/nowhere/brume-vdb", "/usr/bin/python3", "-B", "-c", code],
-                                  capture_output=True, text=True, check=False)
+            done = subprocess.run([sys.executable, "-B", "-c", code],
+                                  env={**os.environ, "BRUME_VDB": "/nowhere/brume-vdb"}, capture_output=True, text=True, check=False)
             self.assertRegex(done.stderr, "RuntimeError: .*requires the program brume-vdb")
 
 

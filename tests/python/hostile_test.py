@@ -28,8 +28,8 @@ class QueryTest(Hostile):
     def test_ends_of_lines(self):
         fine = np.zeros((4, 3), np.float32)
         for call in (self.world.optical_depth, self.world.visible, self.world.sense):
-            for bad in (np.zeros((4, 2)), np.zeros(3).reshape(3, 1), np.zeros(()), np.zeros((5, 3)), np.zeros((1, 4, 3)),
-                        np.full((4, 3), NAN), np.full((4, 3), 1e30), np.zeros((4, 3), complex), np.zeros((4, 3), bool),
+            for bad in (np.zeros((4, 2)), np.zeros(3).reshape(3, 1), np.zeros(()), np.zeros((5, 3)),
+                        np.zeros((1, 4, 3)), np.full((4, 3), NAN), np.full((4, 3), 1e30), np.zeros((4, 3), complex), np.zeros((4, 3), bool),
                         np.zeros((4, 3), "M8[s]"), np.array([["a"] * 3] * 4), np.zeros((4, 3), object), *BAD_TYPES,
                         np.zeros((0, 3)), np.full((4, 3), 16385.0)):
                 self.refuse(call, bad, fine)
@@ -51,8 +51,9 @@ class QueryTest(Hostile):
         self.refuse(self.world.sense, points, points)
 
     def test_boxes(self):
-        for low, high in (((0, 0, 0), (0, 5, 5)), ((5, 5, 5), (4, 9, 9)), ((-1, 0, 0), (4, 4, 4)), ((0, 0, 0), (99, 4, 4)),
-                          ((0.5, 0, 0), (4, 4, 4)), ((NAN, 0, 0), None), (None, (2**40, 1, 1)), ("abc", None), ((1, 2), None)):
+        for low, high in (((0, 0, 0), (0, 5, 5)), ((5, 5, 5), (4, 9, 9)), ((-1, 0, 0), (4, 4, 4)),
+                          ((0, 0, 0), (99, 4, 4)), ((0.5, 0, 0), (4, 4, 4)), ((NAN, 0, 0), None),
+                          (None, (2**40, 1, 1)), ("abc", None), ((1, 2), None)):
             self.refuse(self.world.density, low, high)
         for dtype in ("int32", "float64", "nonsense", object, complex):
             self.refuse(self.world.density, dtype=dtype)
@@ -61,8 +62,8 @@ class QueryTest(Hostile):
 class LevelTest(Hostile):
     def test_arrays(self):
         fine = np.zeros((4, 4, 4), bool)
-        for bad in (np.zeros((4, 4, 4)), np.zeros((4, 4, 4), np.uint8), np.zeros((4, 4), bool), np.zeros((0, 4, 4), bool),
-                    np.zeros((1, 1, 1, 1), bool), *BAD_TYPES):
+        for bad in (np.zeros((4, 4, 4)), np.zeros((4, 4, 4), np.uint8), np.zeros((4, 4), bool),
+                    np.zeros((0, 4, 4), bool), np.zeros((1, 1, 1, 1), bool), *BAD_TYPES):
             self.refuse(brume.Level.from_array, bad)
         for size in (0, -1, NAN, INF, "small"):
             self.refuse(brume.Level.from_array, fine, size)
@@ -72,8 +73,8 @@ class LevelTest(Hostile):
 
     def test_triangles(self):
         fine = np.random.default_rng(0).random((5, 3, 3))
-        for bad in (np.zeros((5, 3)), np.zeros((5, 3, 2)), np.zeros((0, 3, 3)), fine * NAN, fine * INF, np.zeros((5, 3, 3), bool),
-                    *BAD_TYPES):
+        for bad in (np.zeros((5, 3)), np.zeros((5, 3, 2)), np.zeros((0, 3, 3)), fine * NAN, fine * INF,
+                    np.zeros((5, 3, 3), bool), *BAD_TYPES):
             self.refuse(brume.Level.from_triangles, bad)
         for size in (0, -1, NAN, INF):
             self.refuse(brume.Level.from_triangles, fine, size)
@@ -262,7 +263,8 @@ class GridTest(Hostile):
             self.refuse(self.write, values=values)
         for low in ((1, 2), (0.5, 0, 0), (2**40, 0, 0), (NAN, 0, 0), "abc", None, (2**30, 0, 0)):
             self.refuse(self.write, low=low)
-        for matrix in (np.eye(3), np.zeros((4, 4)), np.full((4, 4), NAN), "abc", None, np.eye(4)[::-1], np.ones((4, 4))):
+        for matrix in (np.eye(3), np.zeros((4, 4)), np.full((4, 4), NAN), "abc", None, np.eye(4)[::-1],
+                       np.ones((4, 4))):
             self.refuse(self.write, matrix=matrix)
         for active in (np.ones((2, 2, 2)), np.ones((2, 2), bool), "abc"):
             self.refuse(self.write, active=active)

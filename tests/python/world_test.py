@@ -78,6 +78,32 @@ class EventTest(unittest.TestCase):
         empty.advance_to(tick=200)
         self.assertNotEqual(empty.state_hash, straight.state_hash)
 
+    def test_late_doors_change_the_surfaces(self):
+        """Among the surfaces of triangles, whose planes end the smoke."""
+        level = brume.Level.load(SOURCE / "scenes" / "demo.glb", 0.25)
+        straight, late, restored = brume.World(level), brume.World(level), brume.World(level)
+        inside, box = (-2.6, 0.5, -3), ((-4, 0, -6), (-3, 2, -1))
+        for world in (straight, late):
+            world.throw_smoke(inside, inside, voxels=4000)
+        straight.set_solid(*box, time=0.5)
+        straight.set_solid((-3.5, 0.5, -5), (-3, 3, 0), False, time=1.2)
+        straight.advance_to(2)
+        late.advance_to(2)
+        late.optical_depth(*lines_through(straight, 10))
+        late.set_solid((-3.5, 0.5, -5), (-3, 3, 0), False, time=1.2)
+        late.optical_depth(*lines_through(straight, 10))
+        late.set_solid(*box, time=0.5)
+        restored.restore(straight.save())
+        lines = lines_through(straight, 3000)
+        depths = straight.optical_depth(*lines)
+        np.testing.assert_array_equal(late.optical_depth(*lines), depths)
+        np.testing.assert_array_equal(restored.optical_depth(*lines), depths)
+        self.assertEqual((late.state_hash, restored.state_hash), (straight.state_hash,) * 2)
+        late.advance_to(0.25)
+        late.optical_depth(*lines)
+        late.advance_to(2)
+        np.testing.assert_array_equal(late.optical_depth(*lines), depths)
+
     def test_time_is_the_tick_at_or_before(self):
         for time, tick in ((0, 0), (0.999, 63), (1, 64), (1.01, 64)):
             world = brume.World(two_rooms())
