@@ -75,7 +75,7 @@ void check_size(const grids::Grid& grid, const Box<int>& box) {
   const glm::dvec3 size = glm::dvec3(box.high) - glm::dvec3(box.low);
   if (size.x * size.y * size.z > static_cast<double>(kMaxArrayVoxels))
     throw Error(ErrorCode::resource_limit,
-                "grid \"" + grid.name + "\": an array of it has more than 2^30 voxels; convert() needs none");
+                "grid \"" + grid.name + "\": an array of it has more than 2^30 voxels; use convert()");
 }
 
 /// Sums of coordinates and edges of tiles must fit.

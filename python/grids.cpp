@@ -107,8 +107,8 @@ input: .vdb, .nvdb, .brv, or .json that describes a raw array.
 output: .vdb, .nvdb, .brv, or .json beside which a .raw file is written; completely or not at all.
 names: the grids to take; default: all.
 
-.vdb and .nvdb need the program brume-vdb, which is found beside brume, on the PATH, or as the environment
-variable BRUME_VDB says. Raises FileNotFoundError and OSError, ValueError for a damaged file or an unknown
+.vdb and .nvdb require the program brume-vdb: that of the environment variable BRUME_VDB, which the import of the
+module sets to the one it was built or installed with, or one on the PATH. Raises FileNotFoundError and OSError, ValueError for a damaged file or an unknown
 name, MemoryError beyond 8 GiB, RuntimeError without brume-vdb.)");
 }
 

@@ -10,7 +10,7 @@
 PYBIND11_MODULE(_brume, module) {
   module.doc() = "What the package brume is made of; import brume instead.";
   const pybind11::object name = module.attr("__name__");
-  module.attr("__name__") = "brume";  // Where classes and docstrings say they are.
+  module.attr("__name__") = "brume";  // The module that classes and docstrings name.
   brume::python::init_calls();
   brume::python::bind_level(module);
   brume::python::bind_smoke(module);

@@ -103,7 +103,7 @@ void bind_wire(py::module_& module) {
   using namespace py::literals;
   py::class_<Sender>(module, "Sender", R"(Turns the states of a world into small packets of bytes, one a tick.
 
-Every receiver gets the same packet; one that missed some asks with a request.)")
+Every receiver gets the same packet; one that missed some sends a request.)")
       .def(py::init<std::uint32_t>(), py::kw_only(), "history"_a = 128,
            "history: ticks whose states are stored for answers, at least 1.")
       .def("push", &Sender::push, "smoke"_a,

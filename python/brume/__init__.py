@@ -14,10 +14,9 @@ import numpy as np
 
 def _find_converter() -> None:
     """Sets BRUME_VDB to the program that the module was built or installed with, unless it is set."""
-    here = Path(__file__).resolve()
-    for folder in (here.parents[2], here.parents[4] / "bin"):  # The build folder; PREFIX/bin.
-        program = folder / "brume-vdb"
-        if program.is_file():
+    parents = Path(__file__).resolve().parents
+    for level, path in ((2, "brume-vdb"), (4, "bin/brume-vdb")):  # The build folder; PREFIX.
+        if level < len(parents) and (program := parents[level] / path).is_file():
             os.environ.setdefault("BRUME_VDB", str(program))
             return
 
@@ -37,7 +36,7 @@ def _density(self, low=None, high=None, *, dtype="float32"):
     low, high: the voxels [low, high), three whole numbers each; default: the whole level.
     dtype: "float32", 0 to 1, or "uint8", the steps of 1/255 that the simulation counts in.
 
-    Grid.values has the shape (x, y, z); Grid.low, Grid.matrix, Grid.origin and Grid.voxel_size say where it is. Blasts
+    Grid.values has the shape (x, y, z); Grid.low, Grid.matrix, Grid.origin and Grid.voxel_size are its place. Blasts
     are part of the densities, holes and the noise of pictures are not. Raises ValueError for a box that is empty or
     leaves the level, MemoryError beyond 2^30 voxels.
     """

@@ -1,4 +1,4 @@
-# Types of the module; its docstrings say what everything means, in which unit and range.
+# Types of the module; its docstrings describe units, shapes and ranges.
 import os
 from typing import Any, Iterable, Literal, Optional, Sequence
 

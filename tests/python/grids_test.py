@@ -143,7 +143,8 @@ class ProgramTest(unittest.TestCase):
             brume.write_grids(folder + "/a.brv", brume.Grid(np.ones((2, 2, 2), np.float32)))
             code = f"import brume; brume.convert({folder + '/a.brv'!r}, {folder + '/a.vdb'!r})"
             done = subprocess.run([sys.executable, "-B", "-c", code],
-                                  env={**os.environ, "BRUME_VDB": "/nowhere/brume-vdb"}, capture_output=True, text=True, check=False)
+                                  env={**os.environ, "BRUME_VDB": "/nowhere/brume-vdb"}, capture_output=True,
+                                  text=True, check=False)
             self.assertRegex(done.stderr, "RuntimeError: .*requires the program brume-vdb")
 
 

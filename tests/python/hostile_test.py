@@ -29,7 +29,8 @@ class QueryTest(Hostile):
         fine = np.zeros((4, 3), np.float32)
         for call in (self.world.optical_depth, self.world.visible, self.world.sense):
             for bad in (np.zeros((4, 2)), np.zeros(3).reshape(3, 1), np.zeros(()), np.zeros((5, 3)),
-                        np.zeros((1, 4, 3)), np.full((4, 3), NAN), np.full((4, 3), 1e30), np.zeros((4, 3), complex), np.zeros((4, 3), bool),
+                        np.zeros((1, 4, 3)), np.full((4, 3), NAN), np.full((4, 3), 1e30),
+                        np.zeros((4, 3), complex), np.zeros((4, 3), bool),
                         np.zeros((4, 3), "M8[s]"), np.array([["a"] * 3] * 4), np.zeros((4, 3), object), *BAD_TYPES,
                         np.zeros((0, 3)), np.full((4, 3), 16385.0)):
                 self.refuse(call, bad, fine)
