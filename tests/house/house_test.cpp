@@ -105,7 +105,7 @@ TEST(House, IncludesPointDownwards) {
       ADD_FAILURE() << path << " includes " << include << ", which lies above it";
     }
   };
-  for (const char* folder : {"src", "bench", "apps", "examples"})
+  for (const char* folder : {"src", "bench", "apps", "examples", "python"})
     count += for_each_source(kRoot / folder, check);
   EXPECT_GT(count, 20);
 }
@@ -115,7 +115,7 @@ TEST(House, OnlyTheGpuFolderCallsVulkan) {
     if (folder_of(path) == "gpu") return;
     for (const auto& call : vulkan_calls(text)) ADD_FAILURE() << path << " has " << call;
   };
-  for (const char* folder : {"src", "bench", "apps"}) for_each_source(kRoot / folder, check);
+  for (const char* folder : {"src", "bench", "apps", "python"}) for_each_source(kRoot / folder, check);
 }
 
 TEST(House, SharedStructsHaveASize) {
@@ -131,7 +131,8 @@ constexpr std::size_t kMaxFileLines = 500, kMaxInterfaceLines = 1000, kMaxShader
 
 TEST(House, FilesAndFunctionsStayShort) {
   int count = 0;
-  for (const char* folder : {"include", "src", "apps", "bench", "tests", "examples", "fuzz", "shaders"}) {
+  for (const char* folder :
+       {"include", "src", "apps", "bench", "tests", "examples", "fuzz", "python", "shaders"}) {
     const std::size_t of_folder = folder == std::string("shaders") ? kMaxShaderLines : kMaxFileLines;
     count += for_each_source(kRoot / folder, [&](const auto& path, const std::string& text) {
       const std::size_t most = path.filename() == "brume.h" ? kMaxInterfaceLines : of_folder;
@@ -162,7 +163,8 @@ TEST(House, ScenesAreWhatTheirScriptsMake) {
 TEST(House, NothingUsesAWordThatTheGlossaryReplaces) {
   const Strings words = replaced_words(*read_text_file(kRoot / "docs/glossary.md"));
   ASSERT_GT(words.size(), 10u);
-  for (const char* folder : {"include", "src", "apps", "bench", "tests", "examples", "fuzz", "shaders"})
+  for (const char* folder :
+       {"include", "src", "apps", "bench", "tests", "examples", "fuzz", "python", "shaders"})
     for_each_source(kRoot / folder, [&](const auto& path, const std::string& text) {
       if (folder_of(path) == "tests" && path.string().find("/house/") != std::string::npos) return;
       for (const std::string& word : occurring(words, text))

@@ -1,0 +1,223 @@
+// Events and ticks of a World.
+#include "python/world.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "python/wire.hpp"
+#include "scenario/level_events.hpp"
+#include "wire/packet.hpp"
+
+namespace brume::python {
+namespace {
+
+/// Most voxels of one set_solid.
+constexpr std::uint64_t kMaxEditVoxels = 1ull << 27;
+/// Ticks between two looks for Ctrl-C.
+constexpr std::uint32_t kTicksAtOnce = 1024;
+
+/// Whether a corner of the cell has been changed.
+bool touches_edit(const sim::EditBlocks& edits, glm::ivec3 cell) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 voxel = cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::i16vec3 block(voxel >> 2);
+    const auto found = std::lower_bound(
+        edits.begin(), edits.end(), block,
+        [](const sim::EditBlock& edit, glm::i16vec3 at) { return sim::block_before(edit.at, at); });
+    if (found != edits.end() && found->at == block &&
+        ((found->make_solid | found->make_free) >> sim::block_bit_index(voxel) & 1) != 0)
+      return true;
+  }
+  return false;
+}
+
+smoke::MaskAtlas pack_masks(const std::vector<py::array>& images) {
+  std::vector<smoke::Mask> masks;
+  for (const py::array& image : images) {
+    if (image.dtype().kind() != 'u' || image.dtype().itemsize() != 1)
+      throw py::type_error("masks: expected arrays of uint8");
+    if (image.ndim() != 2) refuse("masks", "expected the shape (height, width), got " + shape_text(image));
+    if (image.size() > py::ssize_t{smoke::kMaxMaskAxis} * smoke::kMaxMaskAxis)
+      throw Error(ErrorCode::resource_limit, "masks: an image of more than 4094 x 4094 texels");
+    const auto texels = py::array_t<std::uint8_t, py::array::c_style>::ensure(image);
+    masks.push_back({static_cast<std::uint32_t>(image.shape(1)),
+                     static_cast<std::uint32_t>(image.shape(0)),
+                     {texels.data(), texels.data() + texels.size()}});
+  }
+  return smoke::MaskAtlas::pack(masks).value_or_throw();
+}
+
+/// A number of an event as a whole one: what is too large stays so, for check_event to refuse.
+std::uint32_t rounded(const char* argument, double value) {
+  if (!(value >= 0)) refuse(argument, "expected a number of at least 0");
+  return static_cast<std::uint32_t>(std::llround(std::min(value, 4294967295.0)));
+}
+
+std::uint32_t units(const char* argument, double metres) {
+  return rounded(argument, metres * sim::kUnitsPerMetre);
+}
+std::uint32_t milliseconds(const char* argument, double seconds) {
+  return rounded(argument, seconds * 1000);
+}
+
+}  // namespace
+
+World::World(Level level, float extinction, std::uint32_t ticks_per_second,
+             const std::vector<py::array>& masks)
+    : level_(std::move(level)),
+      masks_(pack_masks(masks)),
+      settings_{extinction, glm::vec3(0.92f), &masks_},
+      world_(level_.grid(), {ticks_per_second, masks_.key()}) {
+  if (!(extinction >= 0 && extinction <= 1e6f)) refuse("extinction", "expected 0 to 1,000,000 per metre");
+}
+
+const smoke::SmokeVolume& World::volume() const {
+  return *volume_;
+}
+
+void World::update_volume() {
+  if (!volume_)
+    volume_ = std::make_unique<smoke::SmokeVolume>(level_.grid(),
+                                                   [this](glm::ivec3 cell) -> std::span<const voxel::Plane> {
+                                                     const auto& edits = world_.state().edits;
+                                                     if (edits && touches_edit(*edits, cell)) return {};
+                                                     return level_.voxels->planes.at(cell);
+                                                   });
+  try {
+    volume_->update(world_);
+  } catch (...) {
+    volume_.reset();  // It is of no further use.
+    throw;
+  }
+}
+
+bool World::is_complete(std::uint32_t tick) const {
+  return tick == world_.earliest_tick() && (tick > 0 || is_restored_);
+}
+
+std::uint32_t World::tick_of(std::optional<double> time, std::optional<std::int64_t> tick) const {
+  if (time && tick) refuse("time, tick", "give one of them");
+  if (!time && !tick) return world_.tick() + (is_complete(world_.tick()) ? 1 : 0);
+  const double rate = world_.settings().ticks_per_second;
+  const double at = tick ? static_cast<double>(*tick) : *time * rate;
+  if (!(at >= 0 && at <= sim::kMaxTick))
+    refuse(tick ? "tick" : "time", "expected a tick from 0 to 2^29, got " + std::to_string(at));
+  // As scenario::tick_at: the tick at or before a time.
+  return time ? scenario::tick_at(*time, world_.settings().ticks_per_second) : static_cast<std::uint32_t>(at);
+}
+
+template <typename Make>
+void World::append(const When& when, const Make& make) {
+  change([&] { world_.append(sim::Event(make(tick_of(when.time, when.tick)))).value_or_throw(); });
+}
+
+void World::throw_smoke(const py::object& origin, const py::object& at, const When& when,
+                        std::uint32_t voxels, const SmokeLife& life) {
+  const sim::Position from = sim::position_from_metres(vector_of("origin", origin));
+  const sim::Position to = sim::position_from_metres(vector_of("at", at));
+  const double rate = world_.settings().ticks_per_second;
+  const sim::SmokeSettings settings{voxels, rounded("bloom", life.bloom * rate),
+                                    rounded("hold", life.hold * rate),
+                                    rounded("dissolve", life.dissolve * rate)};
+  append(when, [&](std::uint32_t tick) { return sim::ThrowSmoke{tick, from, to, settings}; });
+}
+
+void World::shoot(const py::object& origin, const py::object& toward, const When& when,
+                  const HoleForm& form) {
+  sim::Shot shot;
+  shot.origin = sim::position_from_metres(vector_of("origin", origin));
+  shot.toward = sim::position_from_metres(vector_of("toward", toward));
+  shot.radius = units("radius", form.radius);
+  shot.timing = {milliseconds("reach", form.reach), milliseconds("expand", form.expand),
+                 milliseconds("stay", form.stay), milliseconds("fade", form.fade)};
+  if (form.shape != "cylinder" && form.shape != "box")
+    refuse("shape", "expected 'cylinder' or 'box', got '" + form.shape + "'");
+  if (form.shape == "box") shot.shape = sim::HoleShape::box;
+  if (form.mask) {
+    shot.shape = sim::HoleShape::mask;
+    shot.mask = *form.mask;
+  }
+  if (!std::isfinite(form.roll)) refuse("roll", "is not finite");
+  const double turns = form.roll / 360 - std::floor(form.roll / 360);
+  shot.roll = static_cast<std::uint32_t>(std::llround(turns * sim::kFullTurn)) % sim::kFullTurn;
+  append(when, [&](std::uint32_t tick) { return shot.tick = tick, shot; });
+}
+
+void World::blast(const py::object& at, const When& when, const BlastForm& form) {
+  sim::Blast blast;
+  blast.at = sim::position_from_metres(vector_of("at", at));
+  blast.radius = units("radius", form.radius);
+  blast.speed = units("speed", form.speed);
+  blast.remaining = rounded("remaining", 255 * form.remaining);
+  blast.refill_rim_ms = milliseconds("refill_rim", form.refill_rim);
+  blast.refill_middle_ms = milliseconds("refill_middle", form.refill_middle);
+  append(when, [&](std::uint32_t tick) { return blast.tick = tick, blast; });
+}
+
+void World::move_body(std::uint32_t body, const py::object& to, const When& when) {
+  const sim::Position place = sim::position_from_metres(vector_of("to", to));
+  append(when, [&](std::uint32_t tick) { return sim::MoveBody{tick, body, place}; });
+}
+
+void World::set_solid(const py::object& low, const py::object& high, bool solid, const When& when) {
+  const voxel::GridLayout& layout = level_.grid().layout();
+  Box<int> box =
+      scenario::voxels_in(layout, glm::vec3(vector_of("low", low)), glm::vec3(vector_of("high", high)));
+  box = intersection(box, {glm::ivec3(0), layout.size});
+  if (box.empty()) refuse("low, high", "the box contains the centre of no voxel of the level");
+  const glm::u64vec3 size(box.high - box.low);
+  if (size.x * size.y * size.z > kMaxEditVoxels)
+    throw Error(ErrorCode::resource_limit, "low, high: the box has more than 2^27 voxels; take smaller ones");
+  append(when, [&](std::uint32_t tick) {
+    return sim::LevelEdit{tick, sim::edit_box(layout, box.low, box.high, solid)};
+  });
+}
+
+void World::advance_to(std::optional<double> time, std::optional<std::int64_t> tick) {
+  std::optional<std::uint32_t> target;
+  while (change([&] {
+    if (!target) target = time || tick ? tick_of(time, tick) : world_.tick();
+    if (*target < world_.earliest_tick())
+      refuse("tick",
+             std::to_string(*target) + " is before earliest_tick, " + std::to_string(world_.earliest_tick()));
+    world_.advance_to(std::min(*target, world_.tick() + kTicksAtOnce));
+    return world_.tick() < *target;
+  }))
+    stop_if_interrupted();
+}
+
+void World::step(std::uint32_t ticks) {
+  const auto target = read([&](const sim::World& world) { return std::int64_t{world.tick()} + ticks; });
+  advance_to({}, target);
+}
+
+void World::forget_before(std::optional<double> time, std::optional<std::int64_t> tick) {
+  change([&] { world_.forget_before(tick_of(time, tick)); });
+}
+
+py::bytes World::save() const {
+  const auto bytes = read([](const sim::World& world) { return wire::write_keyframe(world.state()); });
+  return bytes_of(bytes);
+}
+
+void World::restore(const py::bytes& bytes) {
+  const std::vector<std::byte> copy = copy_of(bytes);
+  change([&] {
+    const wire::PacketHead head = wire::read_head(copy).value_or_throw();
+    if (head.kind != wire::PacketKind::keyframe)
+      throw Error(ErrorCode::bad_input, "state: the packet is not a keyframe; give a Receiver its deltas");
+    world_.restore(wire::read_keyframe(head).value_or_throw()).value_or_throw();
+    is_restored_ = true;
+  });
+}
+
+void World::restore_state(const sim::State& state) {
+  change([&] {
+    world_.restore(state).value_or_throw();
+    is_restored_ = true;
+  });
+}
+
+}  // namespace brume::python
