@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cstring>
-
 #include "api/smoke_field.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
@@ -95,9 +92,10 @@ void record(brume_renderer& of, const brume_field& field, const brume_frame_para
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
   const planning::FrameInput input = frame_input(params, *field.field);
-  of.recording.begin(params.commands, params.frame, params.completed);
+  // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame;
   of.device->completed = params.completed;
+  of.recording.begin(params.commands, params.frame, params.completed);
   try {
     draw(of, params, input, range);
   } catch (...) {
@@ -140,11 +138,14 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
   return Call(__func__).run([&](Call& call) {
     brume_renderer& of = call.handle(renderer);
     const glm::uvec2 size_px = brume::host::checked_size(width, height);
-    call.change(of, [&] {
-      const std::scoped_lock lock(of.device->mutex);
+    const std::scoped_lock lock(of.mutex, of.device->mutex);
+    of.options.size_px = size_px;
+    try {
       if (of.renderer) of.renderer->resize(size_px);
-      of.options.size_px = size_px;
-    });
+    } catch (...) {
+      of.renderer.reset();
+      throw;
+    }
   });
 }
 
@@ -154,9 +155,7 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
     brume_renderer& of = call.handle(renderer);
     const brume_field& from = call.handle(field);
     const brume_frame_params frame = required_params(params);
-    // A failure leaves the renderer whole: the next frame finds everything again.
-    const std::unique_lock lock(of.mutex);
-    const std::scoped_lock device_lock(of.device->mutex);
+    const std::scoped_lock lock(of.mutex, of.device->mutex);
     call.read(from, [&] { brume::host::record(of, from, frame); });
   });
 }

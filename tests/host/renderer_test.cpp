@@ -129,6 +129,18 @@ TEST_F(RendererTest, DrawsWhatTheRendererDraws) {
   }
 }
 
+// Also while frames that use the images of the size before are in flight.
+TEST_F(RendererTest, DrawsTheSameAfterItWasResizedAndBack) {
+  make_sides(3, 2);
+  draw_both(2.0, 2);
+  EXPECT_OK(brume_renderer_resize(smoke_->renderer, 7, 500));
+  EXPECT_OK(brume_renderer_resize(smoke_->renderer, kSize.x, kSize.y));
+  EXPECT_EQ(brume_renderer_resize(smoke_->renderer, 0, 5), BRUME_ERROR_ARGUMENT);
+  draw_both(2.0, 2);
+  host_->wait();
+  EXPECT_LE(most_apart(texels_of(copies_[2]), texels_of(copies_[3])), 1 / 255.0);
+}
+
 TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
   make_sides(1, 1);
   brume_frame_params params = frame_of(scenario_, 1);
