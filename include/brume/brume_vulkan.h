@@ -46,11 +46,25 @@ typedef struct brume_device_params {
   VkPhysicalDevice physical_device;
   VkDevice device;
   uint32_t queue_family;  ///< Of the command buffers, with graphics and compute.
+  /// The host's own allocation of the device's memory, both or neither; null: vkAllocateMemory and
+  /// vkFreeMemory. Called within functions of the device and its renderers, on their thread; neither may call
+  /// Brume. `allocate_memory` returns memory of info's size and type that nothing else uses or maps.
+  void* memory_user;
+  VkResult (*allocate_memory)(void* memory_user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
+  void (*free_memory)(void* memory_user, VkDeviceMemory memory, VkDeviceSize size);
 } brume_device_params;
 
 static inline brume_device_params brume_device_defaults(void) {
-  brume_device_params params = {
-      sizeof(brume_device_params), BRUME_NULL, BRUME_NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0};
+  brume_device_params params = {sizeof(brume_device_params),
+                                BRUME_NULL,
+                                BRUME_NULL,
+                                VK_NULL_HANDLE,
+                                VK_NULL_HANDLE,
+                                VK_NULL_HANDLE,
+                                0,
+                                BRUME_NULL,
+                                BRUME_NULL,
+                                BRUME_NULL};
   return params;
 }
 
@@ -59,8 +73,15 @@ BRUME_API brume_result brume_device_create(brume_context* context, const brume_d
                                            brume_device** device) BRUME_NOEXCEPT;
 /// All frames must have been completed, and all renderers destroyed (else BRUME_ERROR_ORDER).
 BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT;
-/// Writes the bytes of device memory that its renderers use at present.
+/// Writes the bytes of device memory that its renderers use at present, beside what frames in flight still
+/// use and the memory of the CPU that uploads go through.
 BRUME_API brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT;
+/// From the next frame on the device's renderers use no more than `bytes` of device memory, beside what
+/// frames in flight still use; UINT64_MAX, as in the beginning: as much as the device has. Images of the
+/// frame's size, and for each renderer a reserve of 512 bricks of smoke with their light, are not given back.
+/// Smoke that has too little room, here or on the device, becomes coarser instead of invisible: see
+/// brume_renderer_coarseness.
+BRUME_API brume_result brume_device_set_memory_limit(brume_device* device, uint64_t bytes) BRUME_NOEXCEPT;
 
 // ---- Renderer ----
 
@@ -222,6 +243,12 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 /// null.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
+
+/// Writes how coarse the smoke of the last recorded frame is for want of memory: its voxels are 2^level times
+/// as wide as those of the level, and at least as dense, so that it hides what it should. 0: as it should be.
+/// `dims_less`, which may be null: 1 where smoke out of view dims less light than it should.
+BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
+                                                 uint32_t* dims_less) BRUME_NOEXCEPT;
 
 typedef struct brume_timing {
   char name[32];        ///< Of a pass.

@@ -35,7 +35,7 @@ Context::Context(const ContextOptions& options)
   info_ = choose_device(devices, options.device);
   create_device(options.presentation);
   read_properties();
-  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, options.validation);
+  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, MemoryOptions{.fill = options.validation});
 }
 
 Context::Context(const HostDevice& host) : device_(host.device), queue_family_(host.queue_family) {
@@ -47,7 +47,10 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
     throw Error(ErrorCode::no_device, "the host's physical device is not one of its instance");
   vk_.load_device(device_);
   read_properties();
-  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, false);
+  // What a host is short of comes and goes in smaller blocks.
+  memory_ = std::make_unique<Memory>(
+      vk_, info_.handle, device_,
+      MemoryOptions{.block_bytes = 16u << 20, .dedicated_bytes = 4u << 20, .callbacks = host.memory});
 }
 
 void Context::create_device(const Presentation& presentation) {
@@ -121,6 +124,7 @@ void Context::destroy(const Retired& handles) noexcept {
 void Context::retire(const Retired& handles) noexcept {
   const std::scoped_lock lock(retired_mutex_);
   if (frame_ <= completed_) return destroy(handles);
+  memory_->retire(handles.range);
   retired_.push_back({frame_, handles});
 }
 

@@ -38,6 +38,7 @@ struct HostDevice {
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;  ///< With graphics and compute. The queue itself remains the host's.
+  MemoryCallbacks memory{};
 };
 
 /// Additional semaphores of a submission: null, or one to wait for before writing a window's image, and one

@@ -57,13 +57,28 @@ std::string allocation_text(VkDeviceSize size, VkDeviceSize in_use, const VkMemo
 
 }  // namespace
 
-Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device, bool fill)
-    : vk_(vk), device_(device), fill_(fill) {
+Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device,
+               const MemoryOptions& options)
+    : vk_(vk), device_(device), options_(options) {
   vk_.GetPhysicalDeviceMemoryProperties(physical_device, &properties_);
 }
 
 Memory::~Memory() {
-  for (const MemoryBlock& block : blocks_) vk_.FreeMemory(device_, block.memory, nullptr);
+  for (const MemoryBlock& block : blocks_) free_block(block);
+}
+
+VkResult Memory::allocate_block(const VkMemoryAllocateInfo& info, VkDeviceMemory& memory) const {
+  const MemoryCallbacks& host = options_.callbacks;
+  return host.allocate ? host.allocate(host.user, &info, &memory)
+                       : vk_.AllocateMemory(device_, &info, nullptr, &memory);
+}
+
+void Memory::free_block(const MemoryBlock& block) const noexcept {
+  const MemoryCallbacks& host = options_.callbacks;
+  if (host.free)
+    host.free(host.user, block.memory, block.size);
+  else
+    vk_.FreeMemory(device_, block.memory, nullptr);
 }
 
 std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
@@ -91,40 +106,47 @@ Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, Me
   block.holes[0] = size;
   const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
   const VkMemoryHeap& heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex];
-  check(vk_.AllocateMemory(device_, &info, nullptr, &block.memory),
-        allocation_text(size, bytes_in_use_, heap).c_str());
+  check(allocate_block(info, block.memory), allocation_text(size, bytes_in_use_, heap).c_str());
   const bool is_visible =
       (properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-  if (!block.for_device || (fill_ && is_visible)) {
+  if (!block.for_device || (options_.fill && is_visible)) {
     void* pointer = nullptr;
     const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);
-    if (result != VK_SUCCESS) vk_.FreeMemory(device_, block.memory, nullptr);
+    if (result != VK_SUCCESS) free_block(block);
     check(result, "vkMapMemory");
     block.mapped = static_cast<std::byte*>(pointer);
   }
+  allocated_bytes_ += size;
   return blocks_.emplace_back(std::move(block));
 }
 
 Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled) {
   const std::lock_guard lock(mutex_);
   const std::uint32_t type = find_type(needs.memoryTypeBits, use);
+  if (use == MemoryUse::device && unlimited_ == 0 &&
+      (device_bytes_ > limit_ || needs.size > limit_ - device_bytes_))
+    throw Error(ErrorCode::resource_limit,
+                std::to_string(needs.size) + " bytes besides the " + std::to_string(device_bytes_) +
+                    " in use are more than the host's limit of " + std::to_string(limit_));
   const auto range_in = [&](MemoryBlock& block) -> std::optional<Range> {
     const auto offset = take(block.holes, needs.size, needs.alignment);
     if (!offset) return std::nullopt;
     bytes_in_use_ += needs.size;
+    if (block.for_device) device_bytes_ += needs.size;
     const Range range{&block, block.memory, *offset, needs.size,
                       block.for_device ? nullptr : block.mapped + *offset};
     if (block.for_device && block.mapped) fill(range);
     return range;
   };
-  if (needs.size < kDedicatedBytes) {
+  if (needs.size < options_.dedicated_bytes) {
     for (MemoryBlock& block : blocks_) {
       if (block.type != type || block.tiled != tiled || block.for_device != (use == MemoryUse::device))
         continue;
       if (const auto range = range_in(block)) return *range;
     }
   }
-  return *range_in(add_block(needs.size < kDedicatedBytes ? kBlockBytes : needs.size, type, use, tiled));
+  return *range_in(
+      add_block(needs.size < options_.dedicated_bytes ? options_.block_bytes : needs.size, type, use, tiled));
 }
 
 /// Other values each time, all of them finite as half floats and as floats.
@@ -142,18 +164,51 @@ void Memory::fill(const Range& range) {
 void Memory::free(const Range& range) noexcept {
   if (!range.block) return;
   const std::lock_guard lock(mutex_);
-  bytes_in_use_ -= range.size;
   MemoryBlock& block = *range.block;
+  bytes_in_use_ -= range.size;
+  if (block.for_device && !block.retired.erase(range.offset)) device_bytes_ -= range.size;
   give(block.holes, range.offset, range.size);
-  const bool empty = block.holes.size() == 1 && block.holes.begin()->second == block.size;
-  if (!empty || block.size == kBlockBytes) return;  // Shared blocks are retained for reuse.
-  vk_.FreeMemory(device_, block.memory, nullptr);
+  if (!block.is_empty()) return;
+  // One shared block of a kind is retained for reuse.
+  const auto is_spare = [&](const MemoryBlock& other) {
+    return &other != &block && other.is_empty() && other.type == block.type && other.tiled == block.tiled &&
+           other.for_device == block.for_device;
+  };
+  if (block.size == options_.block_bytes && std::none_of(blocks_.begin(), blocks_.end(), is_spare)) return;
+  allocated_bytes_ -= block.size;
+  free_block(block);
   blocks_.remove_if([&](const MemoryBlock& other) { return &other == &block; });
+}
+
+void Memory::retire(const Range& range) noexcept {
+  if (!range.block || !range.block->for_device) return;
+  const std::lock_guard lock(mutex_);
+  if (range.block->retired.insert(range.offset).second) device_bytes_ -= range.size;
 }
 
 VkDeviceSize Memory::bytes_in_use() const {
   const std::lock_guard lock(mutex_);
   return bytes_in_use_;
+}
+
+VkDeviceSize Memory::device_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return device_bytes_;
+}
+
+VkDeviceSize Memory::allocated_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return allocated_bytes_;
+}
+
+void Memory::set_limit(VkDeviceSize bytes) {
+  const std::lock_guard lock(mutex_);
+  limit_ = bytes;
+}
+
+VkDeviceSize Memory::limit() const {
+  const std::lock_guard lock(mutex_);
+  return limit_;
 }
 
 }  // namespace brume::gpu

@@ -72,6 +72,13 @@ Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
   for (const VkDescriptorPool pool : slot.descriptors_)
     check(context.vk().ResetDescriptorPool(context.device(), pool, 0), "vkResetDescriptorPool");
   slot.descriptors_index_ = 0;
+  // A burst of uploads does not keep its memory.
+  constexpr std::uint32_t kSpareFrames = 64;
+  slot.spare_frames_ = slot.staging_.size() > slot.staging_index_ + 1 ? slot.spare_frames_ + 1 : 0;
+  if (slot.spare_frames_ >= kSpareFrames) {
+    slot.staging_.pop_back();
+    slot.spare_frames_ = 0;
+  }
   slot.staging_index_ = 0;
   slot.staging_used_ = 0;
   slot.timings_.reset(commands);

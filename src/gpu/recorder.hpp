@@ -80,6 +80,7 @@ class FrameSlot {
   std::size_t descriptors_index_ = 0;
   std::deque<Buffer> staging_;  // Filled in order; a new one is added when all are full.
   std::size_t staging_index_ = 0;
+  std::uint32_t spare_frames_ = 0;  // in a row that left the last staging buffer empty
   VkDeviceSize staging_used_ = 0;
   Timings timings_;
 };

@@ -44,6 +44,13 @@ bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes) {
   return true;
 }
 
+void shrink(Context& context, std::initializer_list<Buffer*> buffers) {
+  for (Buffer* buffer : buffers) {
+    *buffer = Buffer();
+    grow(context, *buffer, 1);
+  }
+}
+
 Buffer::Buffer(Buffer&& other) noexcept {
   *this = std::move(other);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <initializer_list>
 
 #include "gpu/context.hpp"
 
@@ -45,6 +46,8 @@ class Buffer {
 /// recreated, with undefined contents. Throws resource_limit when the device does not support a buffer of
 /// that size.
 bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes);
+/// Replaces buffers that grow by the smallest ones. Throws resource_limit.
+void shrink(Context& context, std::initializer_list<Buffer*> buffers);
 
 struct ImageInfo {
   VkFormat format = VK_FORMAT_UNDEFINED;

@@ -13,8 +13,11 @@ HostDevice host_device(const brume_device_params& params) {
   require(params.instance != VK_NULL_HANDLE, "`instance` is null");
   require(params.physical_device != VK_NULL_HANDLE, "`physical_device` is null");
   require(params.device != VK_NULL_HANDLE, "`device` is null");
-  return {params.get_instance_proc_addr, params.instance, params.physical_device, params.device,
-          params.queue_family};
+  require((params.allocate_memory == nullptr) == (params.free_memory == nullptr),
+          "`allocate_memory` and `free_memory` must both be given, or neither");
+  return {params.get_instance_proc_addr, params.instance,
+          params.physical_device,        params.device,
+          params.queue_family,           {params.memory_user, params.allocate_memory, params.free_memory}};
 }
 
 }  // namespace
@@ -48,8 +51,12 @@ brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT {
 brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     const brume_device& held = call.handle(device);
-    required(bytes, "bytes") = held.data->context.memory().bytes_in_use();
+    required(bytes, "bytes") = held.data->context.memory().device_bytes();
   });
+}
+
+brume_result brume_device_set_memory_limit(brume_device* device, uint64_t bytes) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) { call.handle(device).data->context.memory().set_limit(bytes); });
 }
 
 }  // extern "C"

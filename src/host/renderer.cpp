@@ -27,6 +27,8 @@ namespace brume::host {
 namespace {
 
 constexpr std::uint32_t kMostPixels = 16384;
+/// Of smoke, 8 x 8 x 8: 16 MiB in all images.
+constexpr std::uint32_t kReservedBricks = 512;
 
 glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height) {
   require(width >= 1 && width <= kMostPixels && height >= 1 && height <= kMostPixels,
@@ -45,6 +47,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   require(is_scale, "`march_scale` must be 1, 2 or 4");
   options.smoke.march_scale = params.march_scale;
   options.smoke.temporal = params.temporal != 0;
+  options.smoke.reserved_bricks = kReservedBricks;
   options.media_alone = true;
   const std::scoped_lock lock(on.data->mutex);
   create(renderer, on.settings, on.data, scene_of(params), atlas_of(call, params.masks), options);
@@ -168,6 +171,19 @@ brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image
       if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
       if (image) *image = of.renderer->media().handle();
       if (view) *view = of.renderer->media().view();
+    });
+  });
+}
+
+brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
+                                       uint32_t* dims_less) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_renderer& of = call.handle(renderer);
+    std::uint32_t& to = required(level, "level");
+    call.read(of, [&] {
+      if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
+      to = static_cast<std::uint32_t>(of.renderer->smoke_level());
+      if (dims_less) *dims_less = of.renderer->is_smoke_missing();
     });
   });
 }

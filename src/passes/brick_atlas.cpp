@@ -65,7 +65,7 @@ glm::ivec3 tight_atlas(std::uint64_t slots, int most) {
 }
 
 BrickAtlas::BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
-                       std::span<const VkFormat> derived, bool tight)
+                       std::span<const VkFormat> derived, bool tight, std::uint32_t room)
     : context_(context),
       channel_formats_(channels.begin(), channels.end()),
       derived_formats_(derived.begin(), derived.end()),
@@ -74,7 +74,7 @@ BrickAtlas::BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels
       derived_(derived.size()) {
   gpu::grow(context, pages_, 1);
   gpu::grow(context, slot_bricks_, 1);
-  make_images(glm::ivec3(1));
+  make_images(room > 1 ? volume::grown_atlas({}, room) : glm::ivec3(1));
 }
 
 void BrickAtlas::make_images(glm::ivec3 bricks) {
@@ -83,10 +83,14 @@ void BrickAtlas::make_images(glm::ivec3 bricks) {
     atlas_bricks_ = glm::ivec3(0);
     for (gpu::Image& image : channels_) image = gpu::Image();
   }
-  for (std::size_t i = 0; i < channels_.size(); ++i)
-    channels_[i] = make_image(context_, bricks, channel_formats_[i], 0);
-  for (std::size_t i = 0; i < derived_.size(); ++i)
-    derived_[i] = make_image(context_, bricks, derived_formats_[i], VK_IMAGE_USAGE_STORAGE_BIT);
+  // All or none are replaced.
+  std::vector<gpu::Image> channels, derived;
+  for (const VkFormat format : channel_formats_) channels.push_back(make_image(context_, bricks, format, 0));
+  for (const VkFormat format : derived_formats_)
+    derived.push_back(make_image(context_, bricks, format, VK_IMAGE_USAGE_STORAGE_BIT));
+  // The images keep their places, which passes refer to.
+  std::ranges::move(channels, channels_.begin());
+  std::ranges::move(derived, derived_.begin());
   atlas_bricks_ = bricks;
 }
 
@@ -127,6 +131,7 @@ std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
 void BrickAtlas::reserve(VolumeList volumes) {
   if (is_reserved(volumes)) return;
   std::vector<Entry> placed = place(volumes);
+  entries_.clear();
   std::uint64_t pages = 0, slots = 0;
   for (const Entry& entry : placed) {
     pages += entry.pages;
@@ -146,6 +151,11 @@ void BrickAtlas::reserve(VolumeList volumes) {
     }
   }
   entries_ = std::move(placed);
+}
+
+void BrickAtlas::clear(glm::ivec3 bricks) {
+  entries_.clear();
+  if (bricks != atlas_bricks_) make_images(bricks);
 }
 
 glm::ivec3 BrickAtlas::atlas_for(std::uint64_t slots) const {

@@ -40,17 +40,18 @@ class BrickAtlas {
 
   /// `channels` are the formats of the volumes' channels, in order, with texels of the same size in bytes;
   /// `derived` those of further images of the same layout, which passes write and nothing is uploaded to. The
-  /// images have room for one brick until the first `reserve`. `tight`: volumes do not grow, and images are
-  /// as small as tight_atlas makes them. Throws resource_limit.
+  /// images have room for `room` bricks until the first `reserve`. `tight`: volumes do not grow, and images
+  /// are as small as tight_atlas makes them. Throws resource_limit.
   BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
-             std::span<const VkFormat> derived = {}, bool tight = false);
+             std::span<const VkFormat> derived = {}, bool tight = false, std::uint32_t room = 1);
   BrickAtlas(const BrickAtlas&) = delete;
   BrickAtlas& operator=(const BrickAtlas&) = delete;
 
   /// Makes room for what the volumes hold. Growth replaces images, derived ones too: their content is
-  /// undefined then. A volume that comes, goes or grows may move those behind it in the list, which are then
-  /// uploaded again. Not between the begin and the end of a recording, and only when the device is done with
-  /// what it recorded before. Throws resource_limit when the device's 3D textures cannot hold the bricks.
+  /// undefined then. A volume that comes, goes or
+  /// grows may move those behind it in the list, which are then uploaded again. Not between the begin and the
+  /// end of a recording, and only when the device is done with what it recorded before. Throws resource_limit
+  /// when the device's 3D textures cannot hold the bricks; what was uploaded counts as lost then.
   void reserve(VolumeList volumes);
   /// Uploads what changed since the last record; all of a volume that has had more than one update since, or
   /// that `reserve` moved. The volumes must be as `reserve` saw them. Returns the most of any volume.
@@ -61,6 +62,11 @@ class BrickAtlas {
 
   /// Where a volume of the list is, by its position. Alone in an atlas it is where its own layout says.
   const shared::BrickLayout& layout(std::size_t volume) const { return entries_[volume].layout; }
+
+  /// Images of another size, as of volume::grown_atlas, without any volume.
+  void clear(glm::ivec3 bricks);
+  /// Bricks per axis of its images.
+  glm::ivec3 atlas_bricks() const { return atlas_bricks_; }
 
   // References stay valid; the resources that they refer to are replaced by `reserve`.
   /// Of each volume the root of the page table, then its nodes (shared/volume.h).

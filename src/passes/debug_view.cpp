@@ -148,7 +148,7 @@ void DebugViewPass::find_distances(const DebugSubject& subject) {
       const sim::CloudPhase phase = cloud.phase(subject.state->tick);
       cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
         const std::uint32_t slot = subject.volume->slot_at(voxel >> 3);
-        if (slot == smoke::SmokeVolume::kNoSlot || cloud.density(rank, phase) == 0) return;
+        if (slot == smoke::SmokeBricks::kNoSlot || cloud.density(rank, phase) == 0) return;
         const std::uint32_t distance = cloud.distances()[rank];
         const std::uint32_t word = distance == sim::Cloud::kNoDistance ? shared::kUnreached : distance + 1;
         std::uint32_t& entry =

@@ -44,7 +44,7 @@ struct DebugSubject {
   DebugView view = DebugView::none;  ///< Not `none`.
   ViewSlice slice;
   LevelView level;
-  const smoke::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  const smoke::SmokeBricks* volume = nullptr;  ///< null: no smoke.
   const sim::State* state = nullptr;           ///< Whose clouds have distances; null: there are none.
 };
 

@@ -20,12 +20,17 @@ NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
       pipeline_(context, shaders::noise_advection_comp),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
-  for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &slots_due_})
-    gpu::grow(context, *buffer, 1);
+  trim();
   gpu::grow(context, impulses_, planning::kMaxImpulses * sizeof(shared::Impulse));
 }
 
-void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeVolume& volume,
+void NoiseAdvectionPass::trim() {
+  growth_ = {};
+  gpu::shrink(context_, {&parts_, &displacements_, &motions_, &slots_due_});
+  parts_stale_ = displacements_stale_ = true;
+}
+
+void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeBricks& volume,
                                  const planning::NoisePlan& plan) {
   parts_stale_ |= growth_.update(state, volume);
   parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());

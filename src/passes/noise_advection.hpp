@@ -19,7 +19,9 @@ class NoiseAdvectionPass {
   };
   /// Makes room for the clouds of a state, whose noise is planned. When SmokeUpload::reserve may be called,
   /// with the same volume.
-  void reserve(const sim::State& state, const smoke::SmokeVolume& volume, const planning::NoisePlan& plan);
+  void reserve(const sim::State& state, const smoke::SmokeBricks& volume, const planning::NoisePlan& plan);
+  /// Gives back the memory of what `reserve` makes room for, before it is called the next time.
+  void trim();
   /// Uploads the reserved plan.
   void upload(gpu::Recorder& recorder, const planning::NoisePlan& plan);
   /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is that of point +

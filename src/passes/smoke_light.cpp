@@ -39,9 +39,12 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
       one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
-  for (gpu::Buffer* buffer :
-       {&texel_lists_, &ray_pages_, &listed_bricks_, &changes_, &shadow_rays_, &gathers_, &gathered_lights_})
-    gpu::grow(context, *buffer, 1);
+  trim();
+}
+
+void SmokeLightPass::trim() {
+  gpu::shrink(context_, {&texel_lists_, &ray_pages_, &listed_bricks_, &changes_, &shadow_rays_, &gathers_,
+                         &gathered_lights_});
 }
 
 bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {

@@ -31,6 +31,8 @@ class SmokeLightPass {
   /// Not between the begin and the end of a recording, and only when the device is done with what it recorded
   /// before. Throws resource_limit.
   [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters);
+  /// Gives back what was cached; the next plan must not rely on it. When `reserve` may be called.
+  void trim();
   /// Uploads the reserved plan.
   void upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan);
   // The three steps of a part bring smoke.inscatter to the plan's frame, where a ray of its camera can meet

@@ -7,7 +7,7 @@
 namespace brume::passes {
 namespace {
 
-/// Of smoke::SmokeVolume's channels: kDensityChannel.
+/// Of smoke::SmokeBricks' channels: kDensityChannel.
 constexpr std::array kSmokeChannels{VK_FORMAT_R8G8_UNORM};
 
 /// The images that passes write, in the order of their formats.
@@ -25,7 +25,7 @@ void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span
 
 }  // namespace
 
-std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot) {
+std::uint32_t filled_cells(const smoke::SmokeBricks& volume, std::uint32_t slot) {
   glm::uvec3 low(shared::kBrickCells), end(0);
   const auto add = [&](glm::uvec3 first, glm::uvec3 last) {
     low = glm::min(low, first);
@@ -47,9 +47,9 @@ std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot)
   return end.x == 0 ? 0 : shared::pack_cells(low, end);
 }
 
-SmokeUpload::SmokeUpload(gpu::Context& context)
+SmokeUpload::SmokeUpload(gpu::Context& context, std::uint32_t room)
     : context_(context),
-      atlas_(context, kSmokeChannels, kDerivedFormats),
+      atlas_(context, kSmokeChannels, kDerivedFormats, false, room),
       resources_{.pages = atlas_.pages(),
                  .slot_bricks = atlas_.slot_bricks(),
                  .density = atlas_.channel(smoke::kDensityChannel),
@@ -57,18 +57,23 @@ SmokeUpload::SmokeUpload(gpu::Context& context)
                  .density_displacement = atlas_.derived(kDensityDisplacement),
                  .filtered_density = atlas_.derived(kFilteredDensity),
                  .light_side = atlas_.derived(kLightSide)} {
-  for (gpu::Buffer* buffer :
-       {&resources_.cells, &resources_.boundary, &resources_.corners, &resources_.filled, &resources_.slots})
-    gpu::grow(context, *buffer, 1);
+  trim(atlas_.atlas_bricks());
 }
 
-void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
-  everything_ |= &volume != volume_;
-  if ((&volume == volume_ && volume.structure_generation() == reserved_generation_) ||
+void SmokeUpload::trim(glm::ivec3 atlas_bricks) {
+  atlas_.clear(atlas_bricks);
+  gpu::shrink(context_, {&resources_.cells, &resources_.boundary, &resources_.corners, &resources_.filled,
+                         &resources_.slots});
+  reserved_volume_ = 0;
+}
+
+void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {
+  const std::uint64_t id = volume.volume().id();
+  everything_ |= id != reserved_volume_;
+  if ((id == reserved_volume_ && volume.structure_generation() == reserved_generation_) ||
       volume.slot_count() == 0)
     return;
-  volume_ = &volume;
-  reserved_generation_ = volume.structure_generation();
+  reserved_volume_ = 0;
   const volume::SparseVolume* const bricks = &volume.volume();
   atlas_.reserve({&bricks, 1});
   const std::size_t slots = volume.slot_count();
@@ -78,6 +83,8 @@ void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
   everything_ |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
   everything_ |= gpu::grow(context_, resources_.filled, slots * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.slots, slots * sizeof(std::uint32_t));
+  reserved_volume_ = id;
+  reserved_generation_ = volume.structure_generation();
 }
 
 void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility) {
@@ -85,7 +92,7 @@ void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::Smo
   resources_.required_count = static_cast<std::uint32_t>(visibility.slots.size());
 }
 
-void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
+void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                                std::span<const std::uint32_t> slots) {
   std::vector<std::uint32_t> cells;
   for (const SlotRun& run : runs_of(slots)) {
@@ -99,7 +106,7 @@ void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume
   }
 }
 
-void SmokeUpload::record_filled(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
+void SmokeUpload::record_filled(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                                 std::span<const std::uint32_t> slots) {
   std::vector<std::uint32_t> filled;
   for (const SlotRun& run : runs_of(slots)) {
@@ -110,7 +117,7 @@ void SmokeUpload::record_filled(gpu::Recorder& recorder, const smoke::SmokeVolum
   }
 }
 
-bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume) {
+bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volume) {
   const bool had_smoke = resources_.slot_count > 0;
   resources_.slot_count = volume.slot_count();
   if (volume.slot_count() == 0) return had_smoke;

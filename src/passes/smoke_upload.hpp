@@ -4,7 +4,7 @@
 #include "gpu/recorder.hpp"
 #include "passes/brick_atlas.hpp"
 #include "planning/smoke_visibility.hpp"
-#include "smoke/smoke_volume.hpp"
+#include "smoke/smoke_bricks.hpp"
 
 namespace brume::passes {
 
@@ -25,35 +25,40 @@ struct SmokeResources {
 };
 
 /// The cells of a slot that smoke may be in, as shared::pack_cells packs them.
-std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot);
+std::uint32_t filled_cells(const smoke::SmokeBricks& volume, std::uint32_t slot);
 
 class SmokeUpload {
  public:
-  /// A volume without smoke until the first record.
-  explicit SmokeUpload(gpu::Context& context);
+  /// A volume without smoke until the first record, in an atlas with room for `room` bricks.
+  explicit SmokeUpload(gpu::Context& context, std::uint32_t room = 1);
 
   /// Allocates for the volume. Outside of a recording, once the device has finished previous ones. Throws
   /// resource_limit.
-  void reserve(const smoke::SmokeVolume& volume);
+  void reserve(const smoke::SmokeBricks& volume);
+  /// Gives back the memory of what `reserve` makes room for, but for an atlas of this size; all is uploaded
+  /// again. When `reserve` may be called, and before it is.
+  void trim(glm::ivec3 atlas_bricks);
   /// Uploads changes since the last record; true when there were any. The volume is that of `reserve`.
-  bool record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume);
+  bool record(gpu::Recorder& recorder, const smoke::SmokeBricks& volume);
 
   /// Uploads which slots of the volume that `reserve` saw are visible in the frame.
   void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility);
 
   const SmokeResources& resources() const { return resources_; }
+  /// Bricks per axis of the atlas.
+  glm::ivec3 atlas_bricks() const { return atlas_.atlas_bricks(); }
 
  private:
-  void record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
+  void record_cells(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                     std::span<const std::uint32_t> slots);
-  void record_filled(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
+  void record_filled(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                      std::span<const std::uint32_t> slots);
 
   gpu::Context& context_;
   BrickAtlas atlas_;
   SmokeResources resources_;
-  const smoke::SmokeVolume* volume_ = nullptr;  // that `reserve` saw last
-  std::uint64_t reserved_generation_ = 0, uploaded_volume_ = 0, uploaded_revision_ = 0;
+  std::uint64_t reserved_volume_ = 0, reserved_generation_ = 0;  // that `reserve` saw last
+  std::uint64_t uploaded_volume_ = 0, uploaded_revision_ = 0;
   bool everything_ = true;  // a buffer is new and empty
 };
 

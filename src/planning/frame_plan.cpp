@@ -8,8 +8,8 @@
 namespace brume::planning {
 namespace {
 
-/// What of lights and media is visible, and at which resolution.
-void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
+/// Which lights and which smoke are visible; the device holds that smoke from then on. Returns all lights.
+std::vector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
   std::vector<shared::Light> flashes = plan.input.environment.flashes;
   flashes.insert(flashes.end(), plan.input.environment.glow.begin(), plan.input.environment.glow.end());
@@ -18,7 +18,28 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& his
   lights.insert(lights.end(), flashes.begin(), flashes.begin() + flash_count);
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
-  if (volume) plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
+  if (!volume) return lights;
+  // Indirect light comes from all of it.
+  plan.visibility =
+      history.resident->update({.volume = *volume,
+                                .all = plan.input.environment.bounces > 0,
+                                .eye_world = plan.input.view.camera.position_world,
+                                .atlas_bricks = target.atlas_bricks,
+                                .most_bricks = target.most_bricks},
+                               cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds));
+  plan.smoke = history.resident.get();
+  return lights;
+}
+
+void plan_hole_clusters(FramePlan& plan) {
+  const SmokeInput& smoke = plan.input.smoke;
+  const std::uint32_t slots = plan.smoke ? plan.smoke->slot_count() : 0;
+  plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
+                          slots > 0 ? plan.smoke->layout() : shared::VolumeLayout(), slots, plan.size_px);
+}
+
+/// Which media are visible, and at which resolution.
+void plan_visible_media(FramePlan& plan, PlanHistory& history, std::vector<shared::Light> lights) {
   plan.residency =
       history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
                                     plan.input.quality.volume_upload_bytes);
@@ -27,7 +48,7 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& his
     shown.push_back(residency.shows_preview);
     lit.push_back(residency.lit_by_preview);
   }
-  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown);
+  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke);
   plan.decals = plan_decals(plan.input, plan.frustum);
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
@@ -47,7 +68,7 @@ void plan_level(FramePlan& plan, PlanHistory& history) {
 
 void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   const SmokeInput& smoke = plan.input.smoke;
-  if (!smoke.volume) return;
+  if (!plan.smoke) return;
   plan.noise = plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period);
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
     plan.noise.catches_up = history.noise.is_late();
@@ -55,7 +76,7 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
     return;
   }
   const auto slots_due = history.noise.slots_due(
-      {smoke.volume, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
+      {plan.smoke, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
   plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end());
   plan.noise.catches_up = !slots_due.empty();
 }
@@ -64,14 +85,14 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const SmokeInput& smoke = plan.input.smoke;
   const Quality& quality = plan.input.quality;
   std::vector<Box<float>> boxes;
-  if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
+  if (plan.smoke) boxes = smoke_boxes(*plan.smoke, plan.visibility);
   for (const PlacedVolume& volume : plan.media.volumes)
     if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows(
           {plan.lights, target.sun_clip_from_world, device_camera(plan.input.view.camera, plan.size_px)},
           boxes, target.smoke_shadow_atlas),
-      {smoke.volume, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
+      {plan.smoke, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
        plan.level_changed || plan.volume_light.update || quality.rebuild_light,
        quality.light_update_fraction});
 }
@@ -79,18 +100,19 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
 void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
   plan.smoke_light = &history.smoke_light.plan(
-      {input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
+      {plan.smoke, input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
-       plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light,
+       plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light ||
+           history.resident->shows_other_smoke(),
        input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version});
 }
 
 void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
-  plan.volume_light = history.volume_light.plan(
-      {&plan.lit_media, input.volumes, plan.lights, input.smoke.volume, input.smoke.look, input.smoke.time,
-       input.environment.sky, plan.level_changed || input.quality.rebuild_light,
-       plan.indirect_light.version});
+  plan.volume_light = history.volume_light.plan({&plan.lit_media, input.volumes, plan.lights, plan.smoke,
+                                                 input.smoke.look, input.smoke.time, input.environment.sky,
+                                                 plan.level_changed || input.quality.rebuild_light,
+                                                 plan.indirect_light.version});
   for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
     for (MediaPlan* media : {&plan.media, &plan.lit_media}) {
@@ -117,10 +139,9 @@ const sim::State& FramePlan::state() const {
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
   FramePlan plan(input, target.size_px);
   const SmokeInput& smoke = plan.input.smoke;
-  const std::uint32_t slots = smoke.volume ? smoke.volume->slot_count() : 0;
-  plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
-                          slots > 0 ? smoke.volume->layout() : shared::VolumeLayout(), slots, target.size_px);
-  plan_visibility(plan, target, history);
+  std::vector<shared::Light> lights = plan_visibility(plan, target, history);
+  plan_hole_clusters(plan);
+  plan_visible_media(plan, history, std::move(lights));
   plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
   plan_level(plan, history);
   plan_noise_updates(plan, history);

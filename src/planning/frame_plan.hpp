@@ -2,6 +2,7 @@
 // once a frame; passes make room by it and record it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "planning/decal_plan.hpp"
@@ -10,6 +11,7 @@
 #include "planning/indirect_light_plan.hpp"
 #include "planning/media_plan.hpp"
 #include "planning/noise_updates.hpp"
+#include "planning/resident_smoke.hpp"
 #include "planning/smoke_light_cache.hpp"
 #include "planning/smoke_shadow_cache.hpp"
 #include "planning/view_frustum.hpp"
@@ -26,6 +28,9 @@ struct PlanTarget {
   glm::uvec2 size_px{1};
   glm::uvec2 smoke_shadow_atlas{0};              ///< Size of the atlas in texels.
   std::span<const shared::SliceTexture> slices;  ///< What particles may display.
+  /// The atlas of the smoke, and how much of it the device may hold (ResidentSmoke::Request).
+  glm::ivec3 atlas_bricks{0};
+  std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
 };
 
 struct FramePlan {
@@ -39,6 +44,8 @@ struct FramePlan {
   shared::Camera camera;
   ViewFrustum frustum;
   std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
+  /// That the device holds, in the history; null: none. Slots and voxels of the plan are of this.
+  const smoke::SmokeBricks* smoke = nullptr;
   SmokeVisibility visibility;
   MediaPlan media;
   std::vector<PlacedDecal> decals;
@@ -73,6 +80,7 @@ struct PlanHistory {
   SmokeLightCache smoke_light;
   VolumeLightCache volume_light;
   IndirectLightCache indirect_light;
+  std::unique_ptr<ResidentSmoke> resident = std::make_unique<ResidentSmoke>();
   VolumeStreaming volume_streaming;
   LevelView level;
   std::vector<std::uint32_t> hidden_objects;

@@ -15,6 +15,10 @@ glm::vec3 world_from_brick(const shared::VolumeLayout& layout, glm::ivec3 brick)
   return layout.origin_world + glm::vec3(brick) * float{shared::kBrickVoxels} * layout.voxel_size;
 }
 
+const smoke::SmokeBricks& all_smoke(const SmokeLightInputs& inputs) {
+  return inputs.all_smoke ? *inputs.all_smoke : *inputs.volume;
+}
+
 }  // namespace
 
 bool same_opening(const shared::Hole& hole, float time_a, float time_b) {
@@ -28,13 +32,18 @@ bool same_opening(const shared::Hole& hole, float time_a, float time_b) {
 }
 
 bool LightChangeTracker::is_continuous(const SmokeLightInputs& inputs) const {
-  if (!last_ || inputs.volume != last_->volume) return false;
+  if (!last_ || inputs.volume->volume().id() != last_->volume) return false;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != layout_.origin_world || layout.voxel_size != layout_.voxel_size ||
       layout.bricks.atlas_bricks != layout_.bricks.atlas_bricks)
     return false;
+  if (all_smoke(inputs).volume().id() != last_->all_smoke) return false;
   // The dirty slots are those since the revision before, no older ones.
-  return inputs.volume->revision() == last_->revision || inputs.volume->revision() == last_->revision + 1;
+  const auto follows = [](std::uint64_t revision, std::uint64_t last) {
+    return revision == last || revision == last + 1;
+  };
+  return follows(inputs.volume->revision(), last_->revision) &&
+         follows(all_smoke(inputs).revision(), last_->all_revision);
 }
 
 bool LightChangeTracker::all_rays_changed(const SmokeLightInputs& inputs) const {
@@ -81,7 +90,8 @@ void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
 
 void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
                                            std::vector<shared::LightChange>& changes) const {
-  if (!smoke_changed(inputs)) return;
+  const smoke::SmokeBricks& smoke = all_smoke(inputs);
+  if (smoke.revision() == last_->all_revision) return;
   // Cubes of four bricks, what changed in each as one.
   std::map<std::tuple<int, int, int>, Box<int>> cubes;
   const auto add = [&](glm::ivec3 brick) {
@@ -91,24 +101,27 @@ void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
   };
   // A slot's brick, and the one that it held before.
   const auto add_slot = [&](std::uint32_t slot) {
-    add(inputs.volume->brick_of(slot));
+    add(smoke.brick_of(slot));
     if (slot < brick_of_slot_.size()) add(brick_of_slot_[slot]);
   };
-  for (const std::uint32_t slot : inputs.volume->dirty_slots()) add_slot(slot);
-  for (const std::uint32_t slot : inputs.volume->dirty_cell_slots()) add_slot(slot);
+  for (const std::uint32_t slot : smoke.dirty_slots()) add_slot(slot);
+  for (const std::uint32_t slot : smoke.dirty_cell_slots()) add_slot(slot);
   for (const auto& [key, bricks] : cubes) {
     // Corner sets of the bricks around change, too.
-    const glm::vec3 low = world_from_brick(layout_, bricks.low - 1);
-    const glm::vec3 high = world_from_brick(layout_, bricks.high + 1);
+    const glm::vec3 low = world_from_brick(all_layout_, bricks.low - 1);
+    const glm::vec3 high = world_from_brick(all_layout_, bricks.high + 1);
     const glm::vec3 middle = 0.5f * (low + high);
     changes.push_back({middle, 0.5f * glm::length(high - low), middle, 0});
   }
 }
 
 void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
-  const bool other_volume = !last_ || last_->volume != inputs.volume;
-  last_ = {inputs.volume,
+  const smoke::SmokeBricks& smoke = all_smoke(inputs);
+  const bool other_volume = !last_ || last_->all_smoke != smoke.volume().id();
+  last_ = {inputs.volume->volume().id(),
+           smoke.volume().id(),
            inputs.volume->revision(),
+           smoke.revision(),
            inputs.time,
            inputs.look,
            inputs.sky,
@@ -116,12 +129,12 @@ void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
            inputs.visibility->caster_bounds,
            inputs.indirect_version};
   layout_ = inputs.volume->layout();
+  all_layout_ = smoke.layout();
   holes_.assign(inputs.holes.begin(), inputs.holes.end());
-  if (!other_volume && generation_ == inputs.volume->structure_generation()) return;
-  generation_ = inputs.volume->structure_generation();
-  brick_of_slot_.resize(inputs.volume->slot_count());
-  for (std::uint32_t slot = 0; slot < inputs.volume->slot_count(); ++slot)
-    brick_of_slot_[slot] = inputs.volume->brick_of(slot);
+  if (!other_volume && generation_ == smoke.structure_generation()) return;
+  generation_ = smoke.structure_generation();
+  brick_of_slot_.resize(smoke.slot_count());
+  for (std::uint32_t slot = 0; slot < smoke.slot_count(); ++slot) brick_of_slot_[slot] = smoke.brick_of(slot);
 }
 
 }  // namespace brume::planning

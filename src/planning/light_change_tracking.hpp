@@ -15,7 +15,9 @@ namespace brume::planning {
 
 /// What the light in the smoke of a frame follows from.
 struct SmokeLightInputs {
-  const smoke::SmokeVolume* volume = nullptr;   ///< null: no smoke.
+  const smoke::SmokeBricks* volume = nullptr;  ///< null: no smoke.
+  /// All smoke, of which `volume` holds a part; its changes count wherever they are. null: `volume`.
+  const smoke::SmokeBricks* all_smoke = nullptr;
   const SmokeVisibility* visibility = nullptr;  ///< Not null where there is smoke.
   std::span<const shared::Light> lights;        ///< Of the frame.
   std::span<const shared::Hole> holes;
@@ -36,11 +38,12 @@ bool same_opening(const shared::Hole& hole, float time_a, float time_b);
 /// Compares a frame's inputs with those of the frame before.
 class LightChangeTracker {
  public:
-  /// Whether the volume is that of the frame before, one revision later at most: older changes are not known.
+  /// Whether the volumes are those of the frame before, one revision later at most: older changes are not
+  /// known.
   bool is_continuous(const SmokeLightInputs& inputs) const;
   /// Whether no cached ray holds, wherever it runs. Like all below, only where there is a frame before.
   bool all_rays_changed(const SmokeLightInputs& inputs) const;
-  /// Whether densities or walls changed.
+  /// Whether densities or walls of the bricks at hand changed.
   bool smoke_changed(const SmokeLightInputs& inputs) const;
   /// Whether the noise moved, and all smoke with it.
   bool noise_moved(const SmokeLightInputs& inputs) const;
@@ -64,8 +67,8 @@ class LightChangeTracker {
 
  private:
   struct Last {
-    const smoke::SmokeVolume* volume = nullptr;
-    std::uint64_t revision = 0;
+    std::uint64_t volume = 0, all_smoke = 0;  // ids
+    std::uint64_t revision = 0, all_revision = 0;
     float time = 0;
     shared::SmokeLook look{};
     shared::Sky sky{};
@@ -74,9 +77,9 @@ class LightChangeTracker {
     std::uint64_t indirect_version = 0;
   };
   std::optional<Last> last_;
-  shared::VolumeLayout layout_{};
+  shared::VolumeLayout layout_{}, all_layout_{};
   std::vector<shared::Hole> holes_;
-  std::vector<glm::ivec3> brick_of_slot_;  // of all slots
+  std::vector<glm::ivec3> brick_of_slot_;  // of all slots of all smoke
   std::uint64_t generation_ = 0;
 };
 

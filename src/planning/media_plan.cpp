@@ -271,15 +271,15 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
 }
 
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights, const std::vector<bool>& previews) {
+                     std::span<const shared::Light> lights, const std::vector<bool>& previews,
+                     const smoke::SmokeBricks* smoke) {
   if (input.volumes.size() > shared::kMaxVolumes)
     throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.volumes.size()) +
                                           " volumes; at most " + std::to_string(shared::kMaxVolumes));
   MediaPlan plan;
-  const smoke::SmokeVolume* volume = input.smoke.volume;
-  const bool has_smoke = volume && volume->slot_count() > 0;
+  const bool has_smoke = smoke && input.smoke.volume && input.smoke.volume->slot_count() > 0;
   plan.smoke.voxel_size = 1;
-  if (has_smoke) plan.smoke = volume->layout();
+  if (has_smoke) plan.smoke = smoke->layout();
   plan.smoke.bounds_min = visibility.visible_bounds.low;
   plan.smoke.bounds_max = visibility.visible_bounds.high;
   if (visibility.visible_count > 0) {

@@ -49,9 +49,11 @@ std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);
 void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
                      const std::vector<bool>& previews);
 
-/// `previews`: of each volume of the input, whether its preview is shown; empty: none.
+/// `previews`: of each volume of the input, whether its preview is shown; empty: none. `smoke`: that of the
+/// visibility; null: none.
 /// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights, const std::vector<bool>& previews = {});
+                     std::span<const shared::Light> lights, const std::vector<bool>& previews = {},
+                     const smoke::SmokeBricks* smoke = nullptr);
 
 }  // namespace brume::planning

@@ -18,7 +18,7 @@ std::uint32_t slice_of(std::uint32_t slot) {
 }  // namespace
 
 bool NoiseUpdates::all_are_due(const NoiseInputs& inputs) const {
-  if (!last_ || last_->volume != inputs.volume) return true;
+  if (!last_ || last_->volume != inputs.volume->volume().id()) return true;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != last_->layout.origin_world || layout.voxel_size != last_->layout.voxel_size ||
       layout.bricks.atlas_bricks != last_->layout.bricks.atlas_bricks ||
@@ -59,7 +59,8 @@ void NoiseUpdates::mark_changed(const NoiseInputs& inputs) {
 }
 
 void NoiseUpdates::store_inputs(const NoiseInputs& inputs) {
-  last_ = {inputs.volume, inputs.volume->revision(), inputs.volume->layout(), inputs.look, inputs.time};
+  last_ = {inputs.volume->volume().id(), inputs.volume->revision(), inputs.volume->layout(), inputs.look,
+           inputs.time};
   motions_.assign(inputs.motions.begin(), inputs.motions.end());
   impulses_.assign(inputs.impulses.begin(), inputs.impulses.end());
 }

@@ -9,13 +9,13 @@
 #include "planning/update_scheduler.hpp"
 #include "shared/frame.h"
 #include "shared/noise_advection.h"
-#include "smoke/smoke_volume.hpp"
+#include "smoke/smoke_bricks.hpp"
 
 namespace brume::planning {
 
 /// What the noise of a frame follows from.
 struct NoiseInputs {
-  const smoke::SmokeVolume* volume = nullptr;    ///< Not null.
+  const smoke::SmokeBricks* volume = nullptr;    ///< Not null.
   std::span<const std::uint32_t> slots;          ///< Of the smoke that is visible or casts visible shadows.
   std::span<const shared::CloudMotion> motions;  ///< Of the state's clouds.
   std::span<const shared::Impulse> impulses;
@@ -42,7 +42,7 @@ class NoiseUpdates {
 
  private:
   struct Last {
-    const smoke::SmokeVolume* volume = nullptr;
+    std::uint64_t volume = 0;  // its id
     std::uint64_t revision = 0;
     shared::VolumeLayout layout{};
     shared::SmokeLook look{};

@@ -46,7 +46,7 @@ void SmokeLightCache::invalidate() {
 }
 
 /// The texels of bricks that changed must be listed again.
-void SmokeLightCache::relist_dirty_slots(const smoke::SmokeVolume& volume) {
+void SmokeLightCache::relist_dirty_slots(const smoke::SmokeBricks& volume) {
   const auto relist = [&](std::uint32_t slot) {
     if (slot < entry_of_slot_.size() && entry_of_slot_[slot] != kNone)
       entries_[entry_of_slot_[slot]].is_listed = false;

@@ -97,7 +97,7 @@ class SmokeLightCache {
   void drop_all_rays();
   void invalidate_rays();
   bool invalidate_crossing(const SmokeLightInputs& inputs, std::span<const shared::LightChange> changes);
-  void relist_dirty_slots(const smoke::SmokeVolume& volume);
+  void relist_dirty_slots(const smoke::SmokeBricks& volume);
 
   // The lights of the frame.
   void match_lights(std::span<const shared::Light> lights);

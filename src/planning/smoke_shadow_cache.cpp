@@ -39,7 +39,7 @@ bool SmokeShadowCache::Key::operator==(const Key& other) const {
 SmokeShadowCache::Key SmokeShadowCache::key_of(const SmokeShadowInputs& inputs) {
   Key key;
   if (!inputs.volume) return key;
-  key.volume = inputs.volume;
+  key.volume = inputs.volume->volume().id();
   key.revision = inputs.volume->revision();
 
   // Rays end at the caster bounds, and only these slots have this frame's density.

@@ -15,7 +15,7 @@ namespace brume::planning {
 /// What the smoke shadows of a frame follow from: all that shaders/smoke_shadow.comp reads. It reads no
 /// camera; that counts only as far as it changes the plan, or which smoke casts visible shadows.
 struct SmokeShadowInputs {
-  const smoke::SmokeVolume* volume = nullptr;   ///< null: no smoke.
+  const smoke::SmokeBricks* volume = nullptr;   ///< null: no smoke.
   const SmokeVisibility* visibility = nullptr;  ///< Not null.
   std::span<const shared::Light> lights;        ///< Of the frame, those of the plan.
   const HolePlan* holes = nullptr;              ///< Not null.
@@ -46,7 +46,7 @@ class SmokeShadowCache {
  private:
   /// What the texels were marched from.
   struct Key {
-    const smoke::SmokeVolume* volume = nullptr;
+    std::uint64_t volume = 0;  // its id; 0: none
     std::uint64_t revision = 0;
     std::vector<std::uint32_t> slots;  // rising
     Box<float> caster_bounds;

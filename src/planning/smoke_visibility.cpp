@@ -173,7 +173,7 @@ SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
   return visibility;
 }
 
-std::vector<Box<float>> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility) {
+std::vector<Box<float>> smoke_boxes(const smoke::SmokeBricks& volume, const SmokeVisibility& visibility) {
   const VolumeTransform places(volume.layout());
   std::map<std::tuple<int, int, int>, Box<float>> nodes;  // in voxels
   for (const std::uint32_t slot : visibility.slots) {

@@ -41,6 +41,6 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume);
 
 /// Boxes around the required smoke: one for each node of the page table that holds some.
-std::vector<Box<float>> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility);
+std::vector<Box<float>> smoke_boxes(const smoke::SmokeBricks& volume, const SmokeVisibility& visibility);
 
 }  // namespace brume::planning

@@ -29,7 +29,7 @@ struct VolumeLightInputs {
   const MediaPlan* media = nullptr;       ///< Not null.
   std::span<const VolumeInput> volumes;   ///< Of the frame.
   std::span<const shared::Light> lights;  ///< Of the frame.
-  const smoke::SmokeVolume* smoke = nullptr;
+  const smoke::SmokeBricks* smoke = nullptr;
   shared::SmokeLook smoke_look{};
   float time = 0;  ///< Of the smoke's noise and holes [s].
   shared::Sky sky{};

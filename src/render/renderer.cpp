@@ -19,7 +19,11 @@ void scope(gpu::Recorder& recorder, const char* name, Record record) {
 
 passes::DebugSubject debug_subject(const FramePlan& plan) {
   const FrameInput& input = plan.input;
-  return {input.debug.view, plan.view_slice, input.level.voxels, input.smoke.volume, input.smoke.state};
+  return {input.debug.view, plan.view_slice, input.level.voxels, plan.smoke, input.smoke.state};
+}
+
+std::uint32_t bricks_of(glm::ivec3 atlas) {
+  return static_cast<std::uint32_t>(atlas.x * atlas.y * atlas.z);
 }
 
 /// Each of n samples of a pixel stands for an nth of its area; a frame of an antialiased film for an eighth.
@@ -74,6 +78,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
       targets_(options.media_alone ? Targets::of_media(context, options.size_px)
                                    : Targets(context, options.size_px)),
       smoke_(context, stream, scene_, options.size_px, options.smoke),
+      smoke_budget_(options.smoke.reserved_bricks),
       shading_displays_(context.info().kind != "cpu" && !options.antialias),
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -116,7 +121,9 @@ planning::PlanTarget Renderer::plan_target() const {
           scene_.shadows().sun_clip_from_world,
           targets_.size_px,
           glm::uvec2(smoke_.shadows().atlas.info().size),
-          slices_ ? slices_->textures() : std::span<const shared::SliceTexture>()};
+          slices_ ? slices_->textures() : std::span<const shared::SliceTexture>(),
+          smoke_budget_.atlas_bricks(),
+          smoke_budget_.most_bricks()};
 }
 
 void Renderer::invalidate() {
@@ -127,6 +134,24 @@ void Renderer::invalidate() {
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
+  if (smoke_budget_.begin_frame(context_.memory(), bricks_of(smoke_.atlas_bricks()),
+                                history_.resident->wanted_count())) {
+    smoke_.trim(smoke_budget_.atlas_bricks());
+    invalidate();
+  }
+  while (true) {
+    std::optional<gpu::Memory::Unlimited> reserve;
+    if (smoke_budget_.is_reserve()) reserve.emplace(context_.memory());
+    try {
+      return try_plan(input);
+    } catch (const Error& error) {
+      const bool is_full = error.code() == ErrorCode::resource_limit;
+      if (!is_full || !input.smoke.volume || !smoke_budget_.reduce(bricks_of(smoke_.atlas_bricks()))) throw;
+    }
+  }
+}
+
+FramePlan Renderer::try_plan(const FrameInput& input) {
   const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
   try {
     upload_volumes(input);

@@ -15,6 +15,7 @@
 #include "passes/slice_textures.hpp"
 #include "passes/surface_import.hpp"
 #include "planning/frame_plan.hpp"
+#include "render/smoke_budget.hpp"
 #include "render/smoke_frame.hpp"
 
 namespace brume::render {
@@ -62,7 +63,8 @@ class Renderer {
 
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
   /// Call outside of a recording, when the device is done with the frame before; the frame must then be
-  /// recorded. The plan is valid until the next one. Throws resource_limit, and bad_input for volumes and
+  /// recorded. The plan is valid until the next one. Where memory is short, smoke becomes coarser: see
+  /// smoke_level(). Throws resource_limit where that does not help, and bad_input for volumes and
   /// particles that FrameInput does not allow; the next frame then updates everything.
   FramePlan plan(const FrameInput& input);
   /// Records the frame of the last plan. No allocation of device memory besides staging, no submit, no wait.
@@ -93,6 +95,11 @@ class Renderer {
   /// Half floats: in red, which fraction of their light the surfaces of the last frame lost to decals. Null
   /// where none was in view.
   const gpu::Image* occlusion() const { return occlusion_; }
+  /// How coarse the smoke of the last frame is for want of memory: its voxels are 2^level voxels of the
+  /// simulation wide.
+  int smoke_level() const { return history_.resident->level(); }
+  /// Whether smoke out of view dims less light than it should, for want of memory.
+  bool is_smoke_missing() const { return history_.resident->is_missing(); }
   /// Whether volumes of the last frame have bricks that are still to be uploaded.
   bool streams_volumes() const { return !history_.volume_streaming.complete(); }
   /// What of the light in the smoke the last frame updated.
@@ -102,6 +109,7 @@ class Renderer {
   planning::PlanTarget plan_target() const;
   void upload_volumes(const FrameInput& input);
   void upload_slices(const FrameInput& input);
+  FramePlan try_plan(const FrameInput& input);
   void reserve(FramePlan& plan);
   void upload_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
@@ -122,6 +130,7 @@ class Renderer {
   SceneView scene_;
   Targets targets_;
   SmokeFrame smoke_;
+  SmokeBudget smoke_budget_;
   std::optional<passes::SurfaceImport> surface_import_;  ///< Where RendererOptions::media_alone, and else:
   std::optional<passes::ShadePass> shade_pass_;
   const bool shading_displays_;

@@ -25,7 +25,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const 
       brute_force_holes_(options.brute_force_holes),
       record_entries_(options.record_entries),
       prepare_all_(options.prepare_all),
-      smoke_upload_(context),
+      smoke_upload_(context, options.reserved_bricks),
       volume_upload_(context),
       hole_clusters_(context, stream, options.masks ? *options.masks : smoke::MaskAtlas()),
       noise_(passes::make_noise_tile(context, smoke::kSmokeNoise.size)),
@@ -73,12 +73,19 @@ void SmokeFrame::set_masks(const smoke::MaskAtlas& masks) {
   hole_clusters_.set_masks(context_, stream_, masks);
 }
 
+void SmokeFrame::trim(glm::ivec3 atlas_bricks) {
+  const gpu::Memory::Unlimited shrinks(context_.memory());
+  smoke_upload_.trim(atlas_bricks);
+  noise_advection_pass_.trim();
+  light_pass_.trim();
+}
+
 void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   const planning::FrameInput& input = plan.input;
-  if (input.smoke.volume) {
-    if (input.smoke.volume->slot_count() > 0) make_noise();
-    smoke_upload_.reserve(*input.smoke.volume);
-    noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
+  if (plan.smoke) {
+    if (plan.smoke->slot_count() > 0) make_noise();
+    smoke_upload_.reserve(*plan.smoke);
+    noise_advection_pass_.reserve(plan.state(), *plan.smoke, plan.noise);
   }
   if (plan.volume_light.is_lit && volume_light_pass_.reserve(plan.volume_light, plan.media.casters))
     plan.volume_light.update = true;
@@ -104,12 +111,12 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
 
 void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   recorder.fill(march_of(in).counters, 0);
-  if (plan.input.smoke.volume) smoke_upload_.record(recorder, *plan.input.smoke.volume);
+  if (plan.smoke) smoke_upload_.record(recorder, *plan.smoke);
   smoke_upload_.record_visibility(recorder, plan.visibility);
   volume_upload_.record(recorder, plan.input.volumes, plan.residency, plan.media.volumes,
                         plan.lit_media.volumes);
   hole_clusters_.upload(recorder, plan.holes);
-  if (plan.input.smoke.volume) noise_advection_pass_.upload(recorder, plan.noise);
+  if (plan.smoke) noise_advection_pass_.upload(recorder, plan.noise);
   if (plan.smoke_shadows) passes::SmokeShadowPass::upload(recorder, *plan.smoke_shadows, shadows_);
   light_pass_.upload(recorder, *plan.smoke_light);
   if (march_tiles_) passes::ResolvePass::upload(recorder, *march_tiles_);
@@ -124,8 +131,7 @@ passes::SmokeLightPass::Inputs SmokeFrame::light_inputs(const FramePlan& plan,
 void SmokeFrame::record_density(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   recorder.concurrently([&] {
     hole_clusters_.record_first(recorder, plan.holes, in.frame, resources());
-    if (plan.input.smoke.volume)
-      noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
+    if (plan.smoke) noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
     const auto& parts = plan.smoke_light->parts;
     if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(plan, in), parts.front());
   });

@@ -29,6 +29,8 @@ struct SmokeFrameOptions {
   bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
   const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
   bool record_entries = false;              ///< See MarchPass::Options: into march_counters().
+  /// Bricks of smoke that there is always memory for, as of volume::grown_atlas.
+  std::uint32_t reserved_bricks = 64;
 };
 
 /// What a frame gives to each of its steps.
@@ -66,6 +68,11 @@ class SmokeFrame {
                           std::span<const planning::VolumeResidency> part) {
     volume_upload_.record_part(recorder, volumes, part);
   }
+  /// Gives back what frames grew, but for an atlas of this size: a frame that finds all light again must
+  /// follow.
+  void trim(glm::ivec3 atlas_bricks);
+  /// Bricks per axis of the smoke's atlas.
+  glm::ivec3 atlas_bricks() const { return smoke_upload_.atlas_bricks(); }
   /// Makes room for a plan; plans the light again where the device lost what was cached of it.
   void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
 

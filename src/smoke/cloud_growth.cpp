@@ -5,6 +5,7 @@
 #include <bit>
 #include <glm/gtc/packing.hpp>
 
+#include "core/box.hpp"
 #include "smoke/growth.hpp"
 
 namespace brume::smoke {
@@ -68,13 +69,15 @@ class GrowthAround {
 
 }  // namespace
 
-bool CloudGrowth::update(const sim::State& state, const SmokeVolume& volume) {
+bool CloudGrowth::update(const sim::State& state, const SmokeBricks& volume) {
   const auto same = [](const std::shared_ptr<const sim::Cloud>& held, const sim::LiveCloud& live) {
     return held == live.cloud;
   };
-  if (generation_ == volume.structure_generation() &&
+  const std::uint64_t id = volume.volume().id();
+  if (volume_ == id && generation_ == volume.structure_generation() &&
       std::equal(clouds_.begin(), clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
     return false;
+  volume_ = id;
   generation_ = volume.structure_generation();
 
   std::map<const sim::Cloud*, std::vector<BrickPart>> before;
@@ -83,6 +86,7 @@ bool CloudGrowth::update(const sim::State& state, const SmokeVolume& volume) {
   std::vector<const sim::Cloud*> fresh;
   for (const sim::LiveCloud& live : state.clouds) {
     clouds.push_back(live.cloud);
+    if (!touches(volume, *live.cloud)) continue;
     if (auto held = before.extract(live.cloud.get()))
       parts_of_cloud_.insert(std::move(held));
     else
@@ -134,14 +138,26 @@ std::vector<CloudGrowth::BrickPart> CloudGrowth::make_parts(const sim::Cloud& cl
   return brick_parts;
 }
 
+/// Whether a brick that a cloud's voxels are in or beside has a slot. Of coarse bricks none counts.
+bool CloudGrowth::touches(const SmokeBricks& volume, const sim::Cloud& cloud) {
+  if (volume.level() > 0 || cloud.voxels().empty()) return false;
+  bool any = false;
+  for_each_in(Box<int>{(cloud.low() - 1) >> 3, ((cloud.high() + 1) >> 3) + 1},
+              [&](glm::ivec3 brick) { any |= volume.slot_at(brick) != SmokeBricks::kNoSlot; });
+  return any;
+}
+
 /// Which parts are in which slot.
-void CloudGrowth::list_parts(const SmokeVolume& volume) {
+void CloudGrowth::list_parts(const SmokeBricks& volume) {
   const std::uint32_t slots = volume.slot_count();
   std::vector<std::vector<glm::uvec2>> by_slot(slots);
-  for (std::uint32_t i = 0; i < clouds_.size(); ++i)
-    for (const BrickPart& brick_part : parts_of_cloud_.at(clouds_[i].get()))
-      if (const std::uint32_t slot = volume.slot_at(brick_part.brick); slot != SmokeVolume::kNoSlot)
+  for (std::uint32_t i = 0; i < clouds_.size(); ++i) {
+    const auto brick_parts = parts_of_cloud_.find(clouds_[i].get());
+    if (brick_parts == parts_of_cloud_.end()) continue;
+    for (const BrickPart& brick_part : brick_parts->second)
+      if (const std::uint32_t slot = volume.slot_at(brick_part.brick); slot != SmokeBricks::kNoSlot)
         by_slot[slot].push_back({brick_part.part, i});
+  }
   parts_.assign(slots, glm::uvec2(0));
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     parts_[slot] = {parts_.size() - slots, by_slot[slot].size()};

@@ -10,16 +10,16 @@
 
 #include "shared/noise_advection.h"
 #include "sim/state.hpp"
-#include "smoke/smoke_volume.hpp"
+#include "smoke/smoke_bricks.hpp"
 
 namespace brume::smoke {
 
 /// Growth of each cloud, brick by brick, in the layout of shared/noise_advection.h. Computed when a cloud
-/// appears, dropped when it disappears.
+/// gets its first brick in the volume, dropped when it disappears. Coarse bricks have none.
 class CloudGrowth {
  public:
   /// Follows the clouds of a state and the slots of a volume; true when the list of parts changed.
-  bool update(const sim::State& state, const SmokeVolume& volume);
+  bool update(const sim::State& state, const SmokeBricks& volume);
 
   /// Per slot (first, count), then the list.
   std::span<const glm::uvec2> parts() const { return parts_; }
@@ -37,13 +37,14 @@ class CloudGrowth {
   std::vector<BrickPart> make_parts(const sim::Cloud& cloud, float voxel_size);
   std::uint32_t allocate_part();
 
-  void list_parts(const SmokeVolume& volume);
+  static bool touches(const SmokeBricks& volume, const sim::Cloud& cloud);
+  void list_parts(const SmokeBricks& volume);
 
   std::vector<std::shared_ptr<const sim::Cloud>> clouds_;  // of the last state
   std::map<const sim::Cloud*, std::vector<BrickPart>> parts_of_cloud_;
   std::vector<glm::uvec2> parts_, displacements_;
   std::vector<std::uint32_t> free_parts_, new_parts_;
-  std::uint64_t generation_ = 0;
+  std::uint64_t volume_ = 0, generation_ = 0;
 };
 
 }  // namespace brume::smoke

@@ -32,7 +32,8 @@ Reach cells_reach(const BrickBits& voxels) {
 }  // namespace
 
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes)
-    : grid_layout_(grid.layout()),
+    : SmokeBricks(volume_),
+      grid_layout_(grid.layout()),
       volume_(volume_info(grid_layout_)),
       densities_(volume_),
       walls_(volume_, std::move(planes)) {}

@@ -16,6 +16,7 @@
 #include "smoke/density_channel.hpp"
 #include "smoke/sealed_pockets.hpp"
 #include "smoke/smoke_brick.hpp"
+#include "smoke/smoke_bricks.hpp"
 #include "smoke/smoke_sources.hpp"
 #include "smoke/smoke_structure.hpp"
 #include "smoke/wall_cells.hpp"
@@ -32,7 +33,7 @@ namespace brume::smoke {
 /// tick only densities change, and corner sets that take from them. After `update` the content at each place
 /// depends on the state, the grid and the planes alone, not on what was there before; slots and the numbers
 /// of boundary cells and corner sets do depend on it, and atlas_bricks never shrinks.
-class SmokeVolume {
+class SmokeVolume final : public SmokeBricks {
  public:
   /// `grid` gives the layout. What `planes` returns must outlive the volume, or until planes_changed.
   SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes);
@@ -51,38 +52,22 @@ class SmokeVolume {
   /// rebuilds what depends on them.
   void planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell);
 
-  /// The bricks: page table, slots, density channel.
-  const volume::SparseVolume& volume() const { return volume_; }
   /// The boundary cells.
   const WallCells& walls() const { return walls_; }
   /// Where the density of each cloud can be above 0, in no order; layout().bounds_min and max are around all.
   std::span<const Box<float>> cloud_bounds() const { return cloud_bounds_; }
 
-  // Of the sparse volume.
-  static constexpr std::uint32_t kNoSlot = volume::SparseVolume::kNoSlot;
-  const shared::VolumeLayout& layout() const { return volume_.layout(); }
-  const volume::PageTable& pages() const { return volume_.pages(); }
-  std::uint32_t slot_count() const { return volume_.slot_count(); }
-  std::uint32_t slot_at(glm::ivec3 brick) const { return volume_.slot_at(brick); }
-  glm::ivec3 brick_of(std::uint32_t slot) const { return volume_.brick_of(slot); }
-  std::span<const Texel> texels(std::uint32_t slot) const {
-    return volume_.texels<Texel>(kDensityChannel, slot);
+  std::span<const std::uint32_t> cells(std::uint32_t slot) const override { return walls_.cells(slot); }
+  std::span<const shared::BoundaryCell> boundary_cells() const override { return walls_.boundary_cells(); }
+  std::span<const glm::uvec2> corner_sets() const override { return walls_.corner_sets(); }
+  std::span<const std::uint32_t> dirty_cell_slots() const override { return walls_.dirty_slots(); }
+  std::span<const volume::IndexRange> dirty_boundary_cells() const override {
+    return walls_.dirty_boundary_cells();
   }
-  std::uint64_t revision() const { return volume_.revision(); }
-  std::span<const std::uint32_t> dirty_slots() const { return volume_.dirty(kDensityChannel); }
-
-  // Of the boundary cells.
-  std::span<const std::uint32_t> cells(std::uint32_t slot) const { return walls_.cells(slot); }
-  std::span<const shared::BoundaryCell> boundary_cells() const { return walls_.boundary_cells(); }
-  std::span<const glm::uvec2> corner_sets() const { return walls_.corner_sets(); }
-  std::span<const std::uint32_t> dirty_cell_slots() const { return walls_.dirty_slots(); }
-  std::span<const volume::IndexRange> dirty_boundary_cells() const { return walls_.dirty_boundary_cells(); }
-  std::span<const volume::IndexRange> dirty_corner_sets() const { return walls_.dirty_corner_sets(); }
-  /// Whether the last update changed a corner set.
-  bool corner_sets_dirty() const { return !dirty_corner_sets().empty(); }
-
-  /// The number of updates in which a cloud came or went, or pages, cells or boundary cells changed.
-  std::uint64_t structure_generation() const { return generation_; }
+  std::span<const volume::IndexRange> dirty_corner_sets() const override {
+    return walls_.dirty_corner_sets();
+  }
+  std::uint64_t structure_generation() const override { return generation_; }
   /// Bytes of memory held.
   std::uint64_t bytes() const;
 

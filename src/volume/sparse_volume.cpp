@@ -45,6 +45,7 @@ SparseVolume::SparseVolume(const SparseVolumeInfo& info) : id_(next_id()), max_b
   layout_.origin_world = info.origin_world;
   layout_.voxel_size = info.voxel_size;
   layout_.voxels_per_metre = 1 / info.voxel_size;
+  layout_.bricks.atlas_bricks = info.atlas_bricks;
   for (const ChannelFormat& format : info.channels) {
     BRUME_ASSERT(format.bytes_per_texel > 0, std::to_string(channels_.size()));
     channels_.emplace_back().format = format;

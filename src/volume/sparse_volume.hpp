@@ -41,6 +41,7 @@ struct SparseVolumeInfo {
   float voxel_size = 1;       ///< [m]
   std::vector<ChannelFormat> channels;
   std::uint32_t max_bricks = kMaxAtlasSlots;  ///< In [1, kMaxAtlasSlots].
+  glm::ivec3 atlas_bricks{0};                 ///< Of the atlas from the start: 0, or as of grown_atlas.
 };
 
 /// A brick whose texels, apron included, are all this half float.

@@ -17,7 +17,7 @@ bool overlap(const Memory::Range& a, const Memory::Range& b) {
 }
 
 TEST_F(GpuTest, MemoryRangesNeverOverlap) {
-  Memory memory(context().vk(), context().info().handle, context().device(), false);
+  Memory memory(context().vk(), context().info().handle, context().device());
   std::mt19937 random(1);
   std::vector<Live> live;
   for (int i = 0; i < 2000; ++i) {
@@ -42,9 +42,9 @@ TEST_F(GpuTest, MemoryRangesNeverOverlap) {
 }
 
 TEST_F(GpuTest, LargeRangesHaveDedicatedMemory) {
-  Memory memory(context().vk(), context().info().handle, context().device(), false);
+  Memory memory(context().vk(), context().info().handle, context().device());
   const auto small = memory.allocate({1024, 16, ~0u}, MemoryUse::device, false);
-  const auto large = memory.allocate({Memory::kDedicatedBytes, 16, ~0u}, MemoryUse::device, false);
+  const auto large = memory.allocate({MemoryOptions().dedicated_bytes, 16, ~0u}, MemoryUse::device, false);
   const auto next = memory.allocate({1024, 16, ~0u}, MemoryUse::device, false);
   EXPECT_NE(small.memory, large.memory);
   EXPECT_EQ(small.memory, next.memory);

@@ -29,6 +29,15 @@ struct Shot {
   std::vector<float> depth;  // reverse
 };
 
+/// A sign's place: the unit cube around it becomes the sign.
+inline glm::mat4 sign_of(const Pair& pair) {
+  const glm::vec3 back = glm::normalize(pair.eye - pair.target);
+  const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back)), up = glm::cross(back, right);
+  const float edge = pair.sign_px / 45 * kHalfCrop * glm::length(pair.eye - pair.target);
+  return {glm::vec4(edge * right, 0), glm::vec4(edge * up, 0), glm::vec4(0.01f * back, 0),
+          glm::vec4(pair.target, 1)};
+}
+
 /// Renders one time from many places.
 class Eye {
  public:
@@ -38,17 +47,19 @@ class Eye {
     input_ = frame_input(scenario, simulation, kSeconds, holes_);
   }
   const Renderer& look(const Pair& pair, std::uint32_t scale) {
-    const glm::vec3 back = glm::normalize(pair.eye - pair.target);
-    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back)),
-                    up = glm::cross(back, right);
-    const float edge = pair.sign_px / 45 * kHalfCrop * glm::length(pair.eye - pair.target);
     input_.view.camera = {pair.eye, pair.target, 2 * std::atan(kHalfCrop)};
-    input_.level.grenades = {glm::mat4(glm::vec4(edge * right, 0), glm::vec4(edge * up, 0),
-                                       glm::vec4(0.01f * back, 0), glm::vec4(pair.target, 1))};
+    input_.level.grenades = {sign_of(pair)};
     renderer_.set_march_scale(scale);
     renderer_.draw(input_);
     return renderer_;
   }
+  /// The last picture without its sign.
+  const Renderer& look_past() {
+    input_.level.grenades.clear();
+    renderer_.draw(input_);
+    return renderer_;
+  }
+  const Renderer& renderer() const { return renderer_; }
 
  private:
   static RendererOptions options(const scenario::Scenario& scenario) {
