@@ -50,8 +50,8 @@ TEST_F(PressureTest, SmokeHidesTheSameWhateverMemoryThereIs) {
     memory.set_limit(before + static_cast<VkDeviceSize>(part * static_cast<double>(needed - before)));
     Shot seen = shot(eye, pair, 1);
     ++at_level[static_cast<std::size_t>(eye.renderer().smoke_level())];
-    // Of the sign's radiance, 4, less than 0.004 passes: a step of the display, and one that its dither
-    // makes.
+    // Of the sign's radiance, 4, less than 4 exp(-9) passes: 1.6 steps of a display where it is darkest, which is
+    // where its curve is steepest.
     float depth = 1e9f;
     for (int i = 0; i < 25; ++i) {
       const glm::vec2 at = glm::vec2(i % 5, i / 5) / 4.0f - 0.5f;
@@ -59,7 +59,7 @@ TEST_F(PressureTest, SmokeHidesTheSameWhateverMemoryThereIs) {
       depth = std::min(depth, sight.optical_depth(pair.eye, point).value_or_throw());
     }
     shown += contrast(seen, seen.depth, pair) > 8;
-    if (depth < 7) continue;
+    if (depth < 9) continue;
     ++hidden;
     // Two pictures of as much smoke.
     const auto look = [&] {
@@ -79,7 +79,7 @@ TEST_F(PressureTest, SmokeHidesTheSameWhateverMemoryThereIs) {
   }
   std::printf("%d hidden, at most %.2f of their signs; %d shown; levels %d %d %d %d\n", hidden, most, shown,
               at_level[0], at_level[1], at_level[2], at_level[3]);
-  EXPECT_GT(hidden, 40);
+  EXPECT_GT(hidden, 20);
   EXPECT_GT(shown, 20);
   EXPECT_GT(at_level[0], 10);
   EXPECT_GT(at_level[1] + at_level[2] + at_level[3], 10);
