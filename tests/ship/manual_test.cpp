@@ -151,7 +151,7 @@ TEST(Completion, BashCompletesCommandsOfOneAndTwoWords) {
 TEST(Completion, BashCompletesChoices) {
   const WorkFolder folder;
   EXPECT_EQ(completions(folder, "brume ren"), "render\n");
-  EXPECT_EQ(completions(folder, "brume -"), "-h --help -V --version\n");
+  EXPECT_EQ(completions(folder, "brume -"), "-V --version -h --help\n");
   EXPECT_EQ(completions(folder, "brume render --ma"), "--max-bounces --matte --march\n");
   EXPECT_EQ(completions(folder, "brume render --march ''"), "full half quarter\n");
   EXPECT_EQ(completions(folder, "brume render --march q"), "quarter\n");
