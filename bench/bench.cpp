@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/data_files.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::bench {
@@ -124,6 +125,10 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
   report.threads = thread_count();
   report.commit = commit();
   return report;
+}
+
+std::filesystem::path scene_file(const std::string& name) {
+  return find_data_file("scenes/" + name).value_or(name);
 }
 
 std::string commit() {

@@ -2,6 +2,7 @@
 // warm-up.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -28,6 +29,9 @@ struct Measurement {
   std::map<std::string, double>
       details;  ///< Problem size and secondary results: triangles, texture samples...
 };
+
+/// A file of the scenes that the program comes with; its name alone if it is missing.
+std::filesystem::path scene_file(const std::string& name);
 
 /// Of the source tree, "unknown" outside of git.
 std::string commit();

@@ -38,7 +38,7 @@ Result<std::vector<Measurement>> voxelize_motel(Bench& bench) {
 }
 
 Result<std::vector<Measurement>> voxelize_demo(Bench& bench) {
-  const auto scene = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
+  const auto scene = scene::load_scene(scene_file("demo.glb"));
   if (!scene) return scene.failure();
   // The grid of the timeline with 512 voxels along its longer sides.
   const voxel::GridLayout frame{{512, 171, 512}, 28.5f / 512, {-14.1f, -0.35f, -12.1f}};

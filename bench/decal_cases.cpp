@@ -14,7 +14,7 @@ enum class Spread {
 /// GPU time of the decals of one frame; without a past each pixel takes all of its samples itself.
 Result<std::vector<Measurement>> time_decals(Bench& bench, const std::string& name, std::size_t count,
                                              Spread spread, bool continues) {
-  const auto scenario = scenario::load_scenario(BRUME_SCENES_DIR "/flyby/flyby.toml", {});
+  const auto scenario = scenario::load_scenario(scene_file("flyby/flyby.toml"), {});
   if (!scenario) return scenario.failure();
   const bool slow = bench.context().info().kind == "cpu";
   render::RendererOptions options;

@@ -8,7 +8,7 @@ namespace brume::bench {
 namespace {
 
 /// Opens or closes a door at each call: updates voxels and planes, and builds the edit for the event log.
-Result<Measurement> swing_door(const Bench& bench, const std::string& name, const std::string& path,
+Result<Measurement> swing_door(const Bench& bench, const std::string& name, const std::filesystem::path& path,
                                const voxel::GridLayout& frame, const std::string& door) {
   auto scene = scene::load_scene(path);
   if (!scene) return scene.failure();
@@ -19,7 +19,7 @@ Result<Measurement> swing_door(const Bench& bench, const std::string& name, cons
   std::vector<std::uint32_t> parts;
   for (std::size_t i = 0; i < scenario.scene.objects.size(); ++i)
     if (scenario.scene.objects[i].name == door) parts.push_back(objects.part_of[i]);
-  if (parts.empty()) return Failure{ErrorCode::bad_input, path + ": no object \"" + door + "\""};
+  if (parts.empty()) return Failure{ErrorCode::bad_input, path.string() + ": no object \"" + door + "\""};
 
   bool shut = true;
   std::size_t changed = 0, planes = 0;
@@ -40,7 +40,7 @@ Result<Measurement> swing_door(const Bench& bench, const std::string& name, cons
 Result<std::vector<Measurement>> doors(Bench& bench) {
   std::vector<Measurement> all;
   const voxel::GridLayout demo{{114, 38, 114}, 0.25f, {-14.1f, -0.35f, -12.1f}};
-  const auto in_demo = swing_door(bench, "edit/door/demo", BRUME_SCENES_DIR "/demo.glb", demo, "door_leaf");
+  const auto in_demo = swing_door(bench, "edit/door/demo", scene_file("demo.glb"), demo, "door_leaf");
   if (!in_demo) return in_demo.failure();
   all.push_back(*in_demo);
   const auto motel = motel_scene();

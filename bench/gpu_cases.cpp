@@ -39,7 +39,7 @@ std::vector<scene::ShotEvent> shots_through_smoke(std::uint32_t count, bool from
 /// One smoke of 1,800 half-metre voxels in the yard of the demo scene, 6 m from the camera: it fills the
 /// view.
 Result<scenario::Scenario> smoke_in_the_yard(const Yard& yard) {
-  auto timeline = scene::load_timeline(BRUME_SCENES_DIR "/demo.toml");
+  auto timeline = scene::load_timeline(scene_file("demo.toml"));
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
   timeline->smoke.voxels = 1800;

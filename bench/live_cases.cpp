@@ -12,7 +12,7 @@ using scenario::EditableScenario;
 /// The demo at a time when its smoke has grown [s].
 constexpr double kStart = 4;
 Result<std::unique_ptr<EditableScenario>> demo() {
-  auto scenario = scenario::load_scenario(std::filesystem::path(BRUME_SCENES_DIR) / "demo.toml", {});
+  auto scenario = scenario::load_scenario(scene_file("demo.toml"), {});
   if (!scenario) return scenario.failure();
   auto live = EditableScenario::create(std::move(*scenario));
   if (live) (*live)->advance_to(kStart);

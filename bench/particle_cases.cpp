@@ -10,16 +10,15 @@
 namespace brume::bench {
 namespace {
 
-constexpr const char* kExhaust = BRUME_SCENES_DIR "/thruster/thruster.json";
 /// Of its ring and its beam, per metre.
 constexpr std::array kExhaustTints{glm::vec3(18, 70, 180), glm::vec3(200, 280, 350)};
 
 /// The exhaust of an ion thruster, seen from the side so that it fills the image, without anything else.
 Result<scenario::Scenario> exhaust_scenario() {
   scene::Timeline timeline;
-  timeline.scene = kExhaust;
+  timeline.scene = scene_file("thruster/thruster.json");
   scene::VolumeOptions volume;
-  volume.file = kExhaust;
+  volume.file = timeline.scene;
   volume.extinction = 0;
   for (std::size_t i = 0; i < kExhaustTints.size(); ++i) {
     const float intensity = std::max({kExhaustTints[i].r, kExhaustTints[i].g, kExhaustTints[i].b});
@@ -42,7 +41,8 @@ class ExhaustFrame {
 
   /// Instead of the march.
   void use_particles(std::uint32_t count) {
-    const grids::SliceAtlas atlas = grids::load_slice_atlas(kExhaust).value_or_throw();
+    const grids::SliceAtlas atlas =
+        grids::load_slice_atlas(scene_file("thruster/thruster.json")).value_or_throw();
     frame_.input().slices = std::make_shared<std::vector<grids::DenseVolume>>(1, atlas.channels);
     const Box<double>& box = atlas.channels.front().box;
     planning::ParticleInput particles;

@@ -131,7 +131,7 @@ Result<std::vector<Measurement>> sight_1800(Bench& bench) {
   SmokyLevel written({}, {{64, 64, 64}, 0.5f, {0, 0, 0}}, {16, 16, 16}, *word);
   all.push_back(measure(bench, "sight/1800/letters", written, kHoles));
 
-  const auto demo = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
+  const auto demo = scene::load_scene(scene_file("demo.glb"));
   if (!demo) return demo.failure();
   SmokyLevel rooms(scenario::world_triangles(*demo), {{57, 19, 57}, 0.5f, {-14.1f, -0.35f, -12.1f}},
                    {-2.6, 1, -3});

@@ -5,6 +5,7 @@
 
 #include "apps/cli/console.hpp"
 #include "apps/cli/help.hpp"
+#include "apps/cli/manual.hpp"
 #include "apps/cli/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
@@ -37,10 +38,6 @@ CLI::Option* number_option(CLI::Option* option, const NumberRange& range) {
 [[noreturn]] void refuse(const std::string& message, const CLI::App* command) {
   throw Error(ErrorCode::usage,
               message + "; see brume " + (command ? command->get_name() + " " : "") + "--help");
-}
-
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
 }
 
 /// All names of a command's options, with dashes.
@@ -188,6 +185,9 @@ const Argument& Argument::one_of(const std::vector<std::string>& values) const {
       return x == y || (x == '-' && y == '_') || (x == '_' && y == '-');
     });
   };
+  std::string names;
+  for (const std::string& value : values)
+    names += (names.empty() ? "" : std::string(1, kChoiceSeparator)) + value;
   option_->transform(CLI::Validator(
       [values, same_but_for_dashes](std::string& text) -> std::string {
         for (const std::string& value : values) {
@@ -197,7 +197,7 @@ const Argument& Argument::one_of(const std::vector<std::string>& values) const {
         }
         return "unknown value '" + text + "'" + suggestion(text, values, "");
       },
-      ""));
+      "", names));
   return *this;
 }
 
@@ -308,6 +308,10 @@ bool CommandLine::parse(int argc, char** argv) {
   }
   if (words[0] == "--version" || words[0] == "-V") {
     print(app_->version() + "\n");
+    return false;
+  }
+  if (words.size() == 2 && words[0] == "--write-manual") {  // called by the build
+    write_manual(*app_, words[1]);
     return false;
   }
 

@@ -1,7 +1,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
-#include "apps/cli/data_files.hpp"
+#include "core/data_files.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"

@@ -54,7 +54,7 @@ extern "C" {
 /// Version of this header. Before 1.0, a minor version may change the interface; the library's SOVERSION
 /// then changes too.
 #define BRUME_VERSION_MAJOR 0
-#define BRUME_VERSION_MINOR 1
+#define BRUME_VERSION_MINOR 2
 #define BRUME_VERSION_PATCH 0
 
 typedef enum brume_result {
@@ -72,7 +72,7 @@ typedef enum brume_result {
   /// brume_field_update (field) succeeds, only *_destroy works.
   BRUME_ERROR_BROKEN = 10,
   BRUME_ERROR_INTERNAL = 11,  ///< A defect of the library.
-  BRUME_ERROR_DEVICE = 12  ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
+  BRUME_ERROR_DEVICE = 12     ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
 } brume_result;
 
 /// Writes the version of the library in use. Any pointer may be null. Never fails.
@@ -102,6 +102,7 @@ typedef struct brume_field brume_field;
 /// during the call. It must not throw; it may call any function but the destruction of the handle in use.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
+/// What a context is created with.
 typedef struct brume_context_params {
   uint32_t struct_size;
   const void* next;
@@ -129,12 +130,12 @@ BRUME_API brume_result brume_context_destroy(brume_context* context) BRUME_NOEXC
 
 /// A voxel, or a size in voxels.
 typedef struct brume_voxel {
-  int32_t x, y, z;
+  int32_t x, y, z;  ///< Coordinate, or size along an axis.
 } brume_voxel;
 
 /// A point in the world [m].
 typedef struct brume_point {
-  float x, y, z;
+  float x, y, z;  ///< Coordinate [m].
 } brume_point;
 
 /// Where the voxels of a level lie. All machines of a match must use the same bits.
@@ -144,10 +145,11 @@ typedef struct brume_layout {
   brume_point origin;  ///< Low corner of voxel (0, 0, 0) [m], each within +-16384.
 } brume_layout;
 
+/// A level as solid voxels.
 typedef struct brume_voxels_params {
   uint32_t struct_size;
   const void* next;
-  brume_layout layout;
+  brume_layout layout;  ///< Where the voxels lie.
   /// One bit per voxel, 1 = solid, x fastest, then y, then z: voxel (x, y, z) is bit i % 8 of byte i / 8 with
   /// i = x + size.x * (y + size.y * z). Bits after the last voxel are ignored.
   const uint8_t* bits;
@@ -160,6 +162,7 @@ static inline brume_voxels_params brume_voxels_defaults(void) {
   return params;
 }
 
+/// A level as the triangles of its collision mesh.
 typedef struct brume_triangles_params {
   uint32_t struct_size;
   const void* next;
@@ -168,7 +171,7 @@ typedef struct brume_triangles_params {
   brume_layout layout;
   uint32_t margin;            ///< Voxels, [0, 256].
   const brume_point* points;  ///< Corners [m], finite.
-  size_t point_count;
+  size_t point_count;         ///< Of `points`.
   /// Three numbers of points for each triangle, in any winding. Triangles without area are allowed.
   const uint32_t* indices;
   size_t index_count;  ///< A multiple of 3.
@@ -208,6 +211,7 @@ BRUME_API brume_result brume_level_solid(const brume_level* level, brume_voxel l
 
 // ---- Masks: images that shots may cut out of smoke ----
 
+/// An image of how much smoke a shot removes.
 typedef struct brume_mask_image {
   uint32_t width, height;  ///< [1, 4094] texels.
   const uint8_t* texels;   ///< width * height, rows from the top: 255 removes all smoke, 0 none.
@@ -230,7 +234,7 @@ BRUME_API brume_result brume_masks_destroy(brume_masks* masks) BRUME_NOEXCEPT;
 
 /// A position of an event [1/1024 m], each coordinate within +-BRUME_MAX_COORDINATE.
 typedef struct brume_position {
-  int32_t x, y, z;
+  int32_t x, y, z;  ///< Coordinate [1/1024 m].
 } brume_position;
 
 /// Rounds a point [m] to the nearest position. Fails with BRUME_ERROR_ARGUMENT when it is not finite or
@@ -255,7 +259,7 @@ typedef enum brume_hole_shape {
 /// A smoke grenade is thrown from `from`. It flies straight at 20 m/s through `at` to the first wall, and
 /// detonates in the free voxel before it; without a wall, at `at`.
 typedef struct brume_smoke_event {
-  brume_position from, at;
+  brume_position from, at;  ///< Where it is thrown from, and at.
   uint32_t voxels;          ///< Amount of smoke: voxels that it fills, [1, 2^27].
   uint32_t bloom_ticks;     ///< From the detonation to the full amount, [1, BRUME_MAX_TICK].
   uint32_t hold_ticks;      ///< Then to the start of the dissolve, [0, BRUME_MAX_TICK].
@@ -268,16 +272,16 @@ typedef struct brume_shot_event {
   uint32_t radius;                ///< Half the edge of a box or mask [1/1024 m], [1, BRUME_MAX_COORDINATE].
   uint32_t reach_far_ms;          ///< Until the hole is open along its whole length.
   uint32_t expand_ms;             ///< At each place, until it has its full radius.
-  uint32_t stay_open_ms;
-  uint32_t fade_ms;
-  uint32_t shape;  ///< brume_hole_shape.
-  uint32_t mask;   ///< Number in the masks of the world; 0 unless the shape is a mask.
-  uint32_t roll;   ///< Clockwise as the shooter sees it [1/65536 turn], [0, 65535].
+  uint32_t stay_open_ms;          ///< How long it then stays open.
+  uint32_t fade_ms;               ///< How long it then takes to close.
+  uint32_t shape;                 ///< brume_hole_shape.
+  uint32_t mask;                  ///< Number in the masks of the world; 0 unless the shape is a mask.
+  uint32_t roll;                  ///< Clockwise as the shooter sees it [1/65536 turn], [0, 65535].
 } brume_shot_event;
 
 /// An explosion drives the smoke away from all that is visible from it.
 typedef struct brume_blast_event {
-  brume_position at;
+  brume_position at;          ///< The centre.
   uint32_t radius;            ///< [1/1024 m], from 1 to 64 voxels.
   uint32_t speed;             ///< Of the front [1/1024 m/s], [1024, 2^24].
   uint32_t remaining;         ///< Density that remains, of 255, [0, 255].
@@ -287,16 +291,16 @@ typedef struct brume_blast_event {
 
 /// A player or object moves. Its first move places it.
 typedef struct brume_move_event {
-  uint32_t body;  ///< A number of the caller's choice.
-  brume_position to;
+  uint32_t body;      ///< A number of the caller's choice.
+  brume_position to;  ///< Its new position.
 } brume_move_event;
 
 /// The level changes: all voxels of the box [low, high) become solid or free. A door opens, a wall breaks.
 /// The part of the box outside of the level is ignored; the box must have a voxel. In an edited voxel, smoke
 /// ends at the voxel's faces.
 typedef struct brume_edit_event {
-  brume_voxel low, high;
-  uint32_t solid;  ///< 1: solid, 0: free.
+  brume_voxel low, high;  ///< The box [low, high).
+  uint32_t solid;         ///< 1: solid, 0: free.
 } brume_edit_event;
 
 /// An event of a world's log.
@@ -312,7 +316,7 @@ typedef struct brume_event {
     brume_move_event move;
     brume_edit_event edit;
     uint32_t reserved[32];
-  } u;
+  } u;  ///< What the event holds, by its kind.
 } brume_event;
 
 /// An event of a kind (brume_event_kind) at a tick with the default settings of that kind and all positions
@@ -341,6 +345,7 @@ static inline brume_event brume_event_defaults(uint32_t kind, uint32_t tick) {
   return event;
 }
 
+/// What a world is created with.
 typedef struct brume_world_params {
   uint32_t struct_size;
   const void* next;
@@ -394,15 +399,16 @@ BRUME_API brume_result brume_world_restore(brume_world* world, const brume_state
 
 // ---- States: immutable snapshots ----
 
+/// Counts and times of a state.
 typedef struct brume_state_info {
-  uint32_t tick;
-  uint32_t ticks_per_second;
-  uint32_t event_count;  ///< Events so far.
-  uint32_t grenade_count;
-  uint32_t cloud_count;
-  uint32_t blast_count;
-  uint32_t hole_count;
-  uint32_t body_count;
+  uint32_t tick;              ///< The tick of the state.
+  uint32_t ticks_per_second;  ///< As of its world.
+  uint32_t event_count;       ///< Events so far.
+  uint32_t grenade_count;     ///< Grenades in the air.
+  uint32_t cloud_count;       ///< Smokes.
+  uint32_t blast_count;       ///< Cavities of explosions.
+  uint32_t hole_count;        ///< Holes of shots.
+  uint32_t body_count;        ///< Bodies.
 } brume_state_info;
 
 BRUME_API brume_result brume_state_destroy(brume_state* state) BRUME_NOEXCEPT;
@@ -422,46 +428,46 @@ BRUME_API brume_result brume_state_load(brume_context* context, const void* byte
 /// A grenade in the air. An id is the number of the event that something comes from, the same on all
 /// machines.
 typedef struct brume_grenade {
-  uint32_t id;  ///< Its cloud will have the same.
-  uint32_t throw_tick, detonation_tick;
-  brume_voxel landing;   ///< Where it detonates.
-  brume_point position;  ///< At the state's tick [m].
+  uint32_t id;                           ///< Its cloud will have the same.
+  uint32_t throw_tick, detonation_tick;  ///< When its flight begins and ends.
+  brume_voxel landing;                   ///< Where it detonates.
+  brume_point position;                  ///< At the state's tick [m].
 } brume_grenade;
 
 /// A smoke.
 typedef struct brume_cloud {
-  uint32_t id;
-  uint32_t detonation_tick;
-  uint32_t end_tick;      ///< When the last of it is gone.
-  brume_voxel source;     ///< Where it detonated.
-  brume_voxel low, high;  ///< Around all voxels that it may fill at some tick, [low, high).
+  uint32_t id;               ///< Number of its event.
+  uint32_t detonation_tick;  ///< When it began to bloom.
+  uint32_t end_tick;         ///< When the last of it is gone.
+  brume_voxel source;        ///< Where it detonated.
+  brume_voxel low, high;     ///< Around all voxels that it may fill at some tick, [low, high).
 } brume_cloud;
 
 /// The cavity of an explosion.
 typedef struct brume_blast {
-  uint32_t id;
-  uint32_t tick;
-  uint32_t end_tick;  ///< When it has refilled.
-  brume_position centre;
-  uint32_t radius;  ///< [1/1024 m]
+  uint32_t id;            ///< Number of its event.
+  uint32_t tick;          ///< When it exploded.
+  uint32_t end_tick;      ///< When it has refilled.
+  brume_position centre;  ///< Where it exploded.
+  uint32_t radius;        ///< [1/1024 m]
 } brume_blast;
 
 /// A hole of a shot.
 typedef struct brume_hole {
-  uint32_t id;
-  uint32_t tick;  ///< Of the shot.
-  brume_position origin, toward;
-  uint32_t radius;    ///< [1/1024 m]
-  uint32_t distance;  ///< Depth from the origin [1/1024 m].
-  uint32_t shape;     ///< brume_hole_shape.
-  uint32_t mask, roll;
+  uint32_t id;                    ///< Number of its event.
+  uint32_t tick;                  ///< Of the shot.
+  brume_position origin, toward;  ///< Where the shot came from, and a point along it.
+  uint32_t radius;                ///< [1/1024 m]
+  uint32_t distance;              ///< Depth from the origin [1/1024 m].
+  uint32_t shape;                 ///< brume_hole_shape.
+  uint32_t mask, roll;            ///< As of brume_shot_event.
 } brume_hole;
 
 /// A body, and where it was before its last move.
 typedef struct brume_body {
-  uint32_t body;
-  uint32_t tick, previous_tick;
-  brume_position position, previous;
+  uint32_t body;                      ///< The caller's number.
+  uint32_t tick, previous_tick;       ///< When it moved, and the time before.
+  brume_position position, previous;  ///< Its positions after these moves.
 } brume_body;
 
 /// Write what a state holds, by rising id (bodies: by rising number).
@@ -478,6 +484,7 @@ BRUME_API brume_result brume_state_bodies(const brume_state* state, brume_body* 
 
 // ---- Packets ----
 
+/// What a sender is created with.
 typedef struct brume_sender_params {
   uint32_t struct_size;
   const void* next;
@@ -506,6 +513,7 @@ BRUME_API brume_result brume_sender_packet(const brume_sender* sender, void* buf
 BRUME_API brume_result brume_sender_answer(brume_sender* sender, const void* request, size_t request_size,
                                            void* buffer, size_t capacity, size_t* size) BRUME_NOEXCEPT;
 
+/// Limits of a receiver.
 typedef struct brume_receiver_params {
   uint32_t struct_size;
   const void* next;
@@ -553,6 +561,7 @@ BRUME_API brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEX
 /// Most elements of one array of queries.
 #define BRUME_MAX_QUERIES 268435456u
 
+/// What a field is created with.
 typedef struct brume_field_params {
   uint32_t struct_size;
   const void* next;
@@ -568,13 +577,13 @@ static inline brume_field_params brume_field_defaults(void) {
 /// A line from a to b. Coordinates must be finite and within +-16384 m; they may lie outside of the level,
 /// where there is air.
 typedef struct brume_segment {
-  brume_point a, b;
+  brume_point a, b;  ///< An end [m].
 } brume_segment;
 
 /// The first solid voxel along a segment.
 typedef struct brume_wall {
-  uint32_t hit;  ///< 1; 0: there is none, and all other members are 0.
-  brume_voxel voxel;
+  uint32_t hit;        ///< 1; 0: there is none, and all other members are 0.
+  brume_voxel voxel;   ///< The solid voxel.
   brume_voxel normal;  ///< Outward normal of the face that the segment enters: a unit vector.
   float distance;      ///< From a to that face [m].
 } brume_wall;

@@ -28,7 +28,9 @@ namespace brume::api {
 /// A failed call: its result, and as what() the line of brume_last_error().
 class Error : public std::runtime_error {
  public:
+  /// Takes the line of the calling thread's last failure.
   explicit Error(brume_result result) : std::runtime_error(brume_last_error()), result_(result) {}
+  /// What the call returned.
   brume_result result() const noexcept { return result_; }
 
  private:
@@ -112,24 +114,30 @@ inline brume_position position(double x, double y, double z) {
       [&](brume_position* out) { return brume_position_from_metres(x, y, z, out); });
 }
 
+/// A brume_context.
 class Context : public detail::Handle<brume_context, brume_context_destroy> {
  public:
+  /// brume_context_create.
   explicit Context(const brume_context_params& params = brume_context_defaults())
       : Handle(detail::created<brume_context>(
             [&](brume_context** out) { return brume_context_create(&params, out); })) {}
 };
 
+/// A brume_level.
 class Level : public detail::Handle<brume_level, brume_level_destroy> {
  public:
+  /// brume_level_create_from_voxels.
   Level(const Context& context, const brume_voxels_params& params)
       : Handle(detail::created<brume_level>([&](brume_level** out) {
           return brume_level_create_from_voxels(context.get(), &params, out);
         })) {}
+  /// brume_level_create_from_triangles.
   Level(const Context& context, const brume_triangles_params& params)
       : Handle(detail::created<brume_level>([&](brume_level** out) {
           return brume_level_create_from_triangles(context.get(), &params, out);
         })) {}
 
+  /// brume_level_layout.
   brume_layout layout() const {
     return detail::value_of<brume_layout>([&](brume_layout* out) { return brume_level_layout(get(), out); });
   }
@@ -141,14 +149,17 @@ class Level : public detail::Handle<brume_level, brume_level_destroy> {
   }
 };
 
+/// A brume_masks.
 class Masks : public detail::Handle<brume_masks, brume_masks_destroy> {
  public:
+  /// brume_masks_create.
   Masks(const Context& context, const std::vector<brume_mask_image>& images)
       : Handle(detail::created<brume_masks>([&](brume_masks** out) {
           return brume_masks_create(context.get(), images.data(), images.size(), out);
         })) {}
 };
 
+/// A brume_state: an immutable snapshot.
 class State : public detail::Handle<brume_state, brume_state_destroy> {
  public:
   /// Takes over a handle.
@@ -159,38 +170,46 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
           return brume_state_load(context.get(), bytes.data(), bytes.size(), out);
         })) {}
 
+  /// Counts and times.
   brume_state_info describe() const {
     return detail::value_of<brume_state_info>(
         [&](brume_state_info* out) { return brume_state_describe(get(), out); });
   }
+  /// As World::hash.
   std::uint64_t hash() const {
     return detail::value_of<std::uint64_t>([&](std::uint64_t* out) { return brume_state_hash(get(), out); });
   }
+  /// The state as bytes, for the constructor.
   Bytes save() const {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {
       return brume_state_save(get(), buffer, capacity, size);
     });
   }
+  /// Those in the air.
   std::vector<brume_grenade> grenades() const {
     return detail::list_of<brume_grenade>([&](brume_grenade* list, std::size_t capacity, std::size_t* count) {
       return brume_state_grenades(get(), list, capacity, count);
     });
   }
+  /// All smokes.
   std::vector<brume_cloud> clouds() const {
     return detail::list_of<brume_cloud>([&](brume_cloud* list, std::size_t capacity, std::size_t* count) {
       return brume_state_clouds(get(), list, capacity, count);
     });
   }
+  /// The cavities of explosions.
   std::vector<brume_blast> blasts() const {
     return detail::list_of<brume_blast>([&](brume_blast* list, std::size_t capacity, std::size_t* count) {
       return brume_state_blasts(get(), list, capacity, count);
     });
   }
+  /// The holes of shots.
   std::vector<brume_hole> holes() const {
     return detail::list_of<brume_hole>([&](brume_hole* list, std::size_t capacity, std::size_t* count) {
       return brume_state_holes(get(), list, capacity, count);
     });
   }
+  /// All bodies.
   std::vector<brume_body> bodies() const {
     return detail::list_of<brume_body>([&](brume_body* list, std::size_t capacity, std::size_t* count) {
       return brume_state_bodies(get(), list, capacity, count);
@@ -198,42 +217,57 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
   }
 };
 
+/// A brume_world.
 class World : public detail::Handle<brume_world, brume_world_destroy> {
  public:
+  /// brume_world_create.
   explicit World(const Level& level, const brume_world_params& params = brume_world_defaults())
       : Handle(detail::created<brume_world>(
             [&](brume_world** out) { return brume_world_create(level.get(), &params, out); })) {}
 
+  /// Adds an event, late or not: brume_world_append.
   void append(const brume_event& event) { check(brume_world_append(get(), &event, 1)); }
+  /// Adds events at once, which rolls back once.
   void append(const std::vector<brume_event>& events) {
     check(brume_world_append(get(), events.data(), events.size()));
   }
+  /// Replaces all events from a tick on.
   void replace_from(std::uint32_t tick, const std::vector<brume_event>& events) {
     check(brume_world_replace_from(get(), tick, events.data(), events.size()));
   }
+  /// Moves to a tick, forwards or backwards.
   void advance_to(std::uint32_t tick) { check(brume_world_advance_to(get(), tick)); }
+  /// Moves to the next tick.
   void step() { check(brume_world_step(get())); }
+  /// Drops history before a tick.
   void forget_before(std::uint32_t tick) { check(brume_world_forget_before(get(), tick)); }
+  /// Adopts a state.
   void restore(const State& state) { check(brume_world_restore(get(), state.get())); }
 
+  /// The present tick.
   std::uint32_t tick() const {
     return detail::value_of<std::uint32_t>([&](std::uint32_t* out) { return brume_world_tick(get(), out); });
   }
+  /// The earliest tick that it can roll back to.
   std::uint32_t earliest_tick() const {
     return detail::value_of<std::uint32_t>(
         [&](std::uint32_t* out) { return brume_world_earliest_tick(get(), out); });
   }
+  /// Equal states have equal hashes on every machine.
   std::uint64_t hash() const {
     return detail::value_of<std::uint64_t>([&](std::uint64_t* out) { return brume_world_hash(get(), out); });
   }
+  /// A snapshot of the present state.
   State state() const {
     return State(
         detail::created<brume_state>([&](brume_state** out) { return brume_world_state(get(), out); }));
   }
 };
 
+/// A brume_sender.
 class Sender : public detail::Handle<brume_sender, brume_sender_destroy> {
  public:
+  /// brume_sender_create.
   explicit Sender(const Context& context, const brume_sender_params& params = brume_sender_defaults())
       : Handle(detail::created<brume_sender>(
             [&](brume_sender** out) { return brume_sender_create(context.get(), &params, out); })) {}
@@ -243,11 +277,13 @@ class Sender : public detail::Handle<brume_sender, brume_sender_destroy> {
     check(brume_sender_push(get(), state.get()));
     return packet();
   }
+  /// The packet of the last state pushed.
   Bytes packet() const {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {
       return brume_sender_packet(get(), buffer, capacity, size);
     });
   }
+  /// The answer to a receiver's request; empty when it is up to date.
   Bytes answer(const Bytes& request) {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {
       return brume_sender_answer(get(), request.data(), request.size(), buffer, capacity, size);
@@ -255,71 +291,88 @@ class Sender : public detail::Handle<brume_sender, brume_sender_destroy> {
   }
 };
 
+/// A brume_receiver.
 class Receiver : public detail::Handle<brume_receiver, brume_receiver_destroy> {
  public:
+  /// brume_receiver_create.
   explicit Receiver(const Context& context, const brume_receiver_params& params = brume_receiver_defaults())
       : Handle(detail::created<brume_receiver>(
             [&](brume_receiver** out) { return brume_receiver_create(context.get(), &params, out); })) {}
 
+  /// Processes a packet or answer, in any order.
   brume_reception receive(const Bytes& packet) {
     std::uint32_t reception = 0;
     check(brume_receiver_receive(get(), packet.data(), packet.size(), &reception));
     return static_cast<brume_reception>(reception);
   }
+  /// Whether a state is known to be missing: send a request.
   bool behind() const {
     return detail::value_of<std::uint32_t>(
                [&](std::uint32_t* out) { return brume_receiver_behind(get(), out); }) != 0;
   }
+  /// A request for the sender.
   Bytes request() const {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {
       return brume_receiver_request(get(), buffer, capacity, size);
     });
   }
+  /// The newest state.
   State state() const {
     return State(
         detail::created<brume_state>([&](brume_state** out) { return brume_receiver_state(get(), out); }));
   }
+  /// Drops all states: a new match starts.
   void reset() { check(brume_receiver_reset(get())); }
 };
 
+/// A brume_field.
 class Field : public detail::Handle<brume_field, brume_field_destroy> {
  public:
+  /// brume_field_create.
   explicit Field(const Level& level, const brume_field_params& params = brume_field_defaults())
       : Handle(detail::created<brume_field>(
             [&](brume_field** out) { return brume_field_create(level.get(), &params, out); })) {}
 
+  /// Shows a state; costs what changed.
   void update(const State& state) { check(brume_field_update(get(), state.get())); }
 
+  /// The bricks of 8^3 voxels that the last update changed.
   std::vector<brume_voxel> changed_bricks() const {
     return detail::list_of<brume_voxel>([&](brume_voxel* list, std::size_t capacity, std::size_t* count) {
       return brume_field_changed_bricks(get(), list, capacity, count);
     });
   }
 
+  /// exp(-depth) of the light passes.
   float optical_depth(const brume_segment& segment) const {
     return detail::value_of<float>(
         [&](float* out) { return brume_field_optical_depths(get(), &segment, 1, out); });
   }
+  /// One for each segment.
   std::vector<float> optical_depths(const std::vector<brume_segment>& segments) const {
     std::vector<float> out(segments.size());
     check(brume_field_optical_depths(get(), segments.data(), segments.size(), out.data()));
     return out;
   }
+  /// Whether nothing solid and less smoke than an optical depth of `threshold` lies between.
   bool visible(const brume_segment& segment, float threshold) const {
     return detail::value_of<std::uint8_t>([&](std::uint8_t* out) {
              return brume_field_visible(get(), &segment, 1, threshold, out);
            }) != 0;
   }
+  /// 1 for each visible segment, else 0.
   Bytes visible(const std::vector<brume_segment>& segments, float threshold) const {
     Bytes out(segments.size());
     check(brume_field_visible(get(), segments.data(), segments.size(), threshold, out.data()));
     return out;
   }
+  /// The first solid voxel along a segment.
   std::optional<brume_wall> first_wall(const brume_segment& segment) const {
     const auto wall = detail::value_of<brume_wall>(
         [&](brume_wall* out) { return brume_field_first_walls(get(), &segment, 1, out); });
     return wall.hit != 0 ? std::optional<brume_wall>(wall) : std::nullopt;
   }
+  /// One for each segment; see brume_wall::hit.
   std::vector<brume_wall> first_walls(const std::vector<brume_segment>& segments) const {
     std::vector<brume_wall> out(segments.size());
     check(brume_field_first_walls(get(), segments.data(), segments.size(), out.data()));

@@ -38,19 +38,21 @@ typedef struct brume_renderer brume_renderer;
 /// vote, arithmetic and ballot in compute shaders.
 BRUME_API const void* brume_vulkan_features(void) BRUME_NOEXCEPT;
 
+/// The Vulkan device of the host.
 typedef struct brume_device_params {
   uint32_t struct_size;
   const void* next;
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr;
-  VkInstance instance;
-  VkPhysicalDevice physical_device;
-  VkDevice device;
-  uint32_t queue_family;  ///< Of the command buffers, with graphics and compute.
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr;  ///< By which all other functions are found.
+  VkInstance instance;                               ///< Of the host.
+  VkPhysicalDevice physical_device;                  ///< Of `device`.
+  VkDevice device;                                   ///< With brume_vulkan_features().
+  uint32_t queue_family;                             ///< Of the command buffers, with graphics and compute.
   /// The host's own allocation of the device's memory, both or neither; null: vkAllocateMemory and
   /// vkFreeMemory. Called within functions of the device and its renderers, on their thread; neither may call
   /// Brume. `allocate_memory` returns memory of info's size and type that nothing else uses or maps.
-  void* memory_user;
+  void* memory_user;  ///< For both.
   VkResult (*allocate_memory)(void* memory_user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
+  /// Frees what `allocate_memory` returned.
   void (*free_memory)(void* memory_user, VkDeviceMemory memory, VkDeviceSize size);
 } brume_device_params;
 
@@ -91,6 +93,7 @@ typedef enum brume_light_kind {
   BRUME_LIGHT_SUN = 2  ///< The same light from one direction everywhere.
 } brume_light_kind;
 
+/// A light.
 typedef struct brume_light {
   uint32_t kind;          ///< brume_light_kind.
   brume_point position;   ///< [m]; of a sun ignored.
@@ -100,6 +103,7 @@ typedef struct brume_light {
   float outer_angle;      ///< None outside, (0, pi].
 } brume_light;
 
+/// What a renderer is created with.
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
@@ -110,12 +114,12 @@ typedef struct brume_renderer_params {
   uint32_t temporal;  ///< 1: smoke is accumulated over the frames that continue each other.
   /// Lights that stay, with shadow maps. At most 1024.
   const brume_light* lights;
-  size_t light_count;
+  size_t light_count;  ///< Of `lights`.
   /// What casts shadows into the smoke: triangles, as in brume_triangles_params. None: nothing does.
   const brume_point* points;
-  size_t point_count;
-  const uint32_t* indices;
-  size_t index_count;
+  size_t point_count;        ///< Of `points`.
+  const uint32_t* indices;   ///< Three numbers of points for each triangle.
+  size_t index_count;        ///< A multiple of 3.
   const brume_masks* masks;  ///< Those of the fields that it shows; null: none.
 } brume_renderer_params;
 
@@ -147,13 +151,15 @@ BRUME_API brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t 
 
 // ---- Frames ----
 
+/// The camera of a frame.
 typedef struct brume_camera {
   brume_point position;  ///< [m]
   brume_point forward;   ///< Any length but 0.
   brume_point up;        ///< Of the picture; any length but 0.
   float vertical_fov;    ///< [rad], (0, pi). Pixels are square.
-  /// From the middle of each pixel to the point that it shows, right and down [px]: the host's jitter.
-  float jitter_x, jitter_y;
+  /// The jitter of the host: from the middle of each pixel to the point that it shows, to the right [px].
+  float jitter_x;
+  float jitter_y;  ///< Downwards [px].
 } brume_camera;
 
 /// The depth of the surfaces that the host drew with the same camera.
@@ -173,6 +179,7 @@ typedef struct brume_picture {
   float exposure;  ///< Multiplies the smoke's radiance, > 0.
 } brume_picture;
 
+/// How smoke looks; its shape in the large is that of the field.
 typedef struct brume_smoke_look {
   float albedo[3];            ///< [0, 1].
   float anisotropy;           ///< Mean cosine of the phase function, (-1, 1).
@@ -184,17 +191,18 @@ typedef struct brume_smoke_look {
   float rise;                 ///< How fast noise rises [m/s], [-10, 10].
 } brume_smoke_look;
 
+/// All that changes from frame to frame.
 typedef struct brume_frame_params {
   uint32_t struct_size;
   const void* next;
-  VkCommandBuffer commands;
-  uint64_t frame;      ///< Above that of the frame before, of all renderers of the device; from 1.
-  uint64_t completed;  ///< The last frame whose commands the device has completed; 0: none.
-  brume_camera camera;
-  brume_depth depth;
-  brume_picture picture;
-  brume_smoke_look look;  ///< Extinction is the field's: what players see is what queries find.
-  double seconds;         ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
+  VkCommandBuffer commands;  ///< In the recording state, outside of a rendering.
+  uint64_t frame;            ///< Above that of the frame before, of all renderers of the device; from 1.
+  uint64_t completed;        ///< The last frame whose commands the device has completed; 0: none.
+  brume_camera camera;       ///< That of the depth and the picture.
+  brume_depth depth;         ///< What hides smoke.
+  brume_picture picture;     ///< What smoke is blended over.
+  brume_smoke_look look;     ///< Extinction is the field's: what players see is what queries find.
+  double seconds;            ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
   /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
   uint32_t jitter_index;
   uint32_t continues;  ///< 1: the next frame of a film (brume_renderer_params::temporal).
@@ -205,7 +213,7 @@ typedef struct brume_frame_params {
   uint32_t bounces;
   /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lights. At most 64; no suns.
   const brume_light* lights;
-  size_t light_count;
+  size_t light_count;  ///< Of `lights`.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -250,6 +258,7 @@ BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkIm
 BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
                                                  uint32_t* dims_less) BRUME_NOEXCEPT;
 
+/// The time that a pass took.
 typedef struct brume_timing {
   char name[32];        ///< Of a pass.
   double milliseconds;  ///< On the device.

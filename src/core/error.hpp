@@ -57,7 +57,7 @@ class [[nodiscard]] Result {
   const T* operator->() const { return &const_cast<Result*>(this)->value(); }
   /// The failure. Must only be called when there is no value.
   const Failure& failure() const {
-    if (state_.index() != 1) assertion_failed("failure() of a Result with a value", __FILE__, __LINE__, "");
+    if (state_.index() != 1) assertion_failed("failure() of a Result with a value", __FILE_NAME__, __LINE__, "");
     return *std::get_if<1>(&state_);
   }
   /// The value; throws the failure as `Error` if there is none.
@@ -69,7 +69,7 @@ class [[nodiscard]] Result {
  private:
   T& value() {
     if (state_.index() != 0)
-      assertion_failed("value of a failed Result", __FILE__, __LINE__, failure().message);
+      assertion_failed("value of a failed Result", __FILE_NAME__, __LINE__, failure().message);
     return *std::get_if<0>(&state_);
   }
   std::variant<T, Failure> state_;
@@ -98,5 +98,5 @@ class [[nodiscard]] Result<void> {
 /// hold. Checked in every build.
 #define BRUME_ASSERT(condition, values)                                                  \
   do {                                                                                   \
-    if (!(condition)) ::brume::assertion_failed(#condition, __FILE__, __LINE__, values); \
+    if (!(condition)) ::brume::assertion_failed(#condition, __FILE_NAME__, __LINE__, values); \
   } while (false)

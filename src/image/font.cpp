@@ -9,6 +9,7 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+#include "core/data_files.hpp"
 #include "core/file.hpp"
 #include "core/utf8.hpp"
 
@@ -78,7 +79,9 @@ struct Font::Face {
 };
 
 const std::filesystem::path& default_font() {
-  static const std::filesystem::path path("/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf");
+  static const std::filesystem::path path =
+      find_data_file("fonts/DejaVuSans-Bold.ttf")
+          .value_or("/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf");
   return path;
 }
 

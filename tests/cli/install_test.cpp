@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <sstream>
 
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
@@ -11,49 +10,6 @@ namespace brume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-TEST(Install, TheManualPageNamesEveryCommand) {
-  const WorkFolder folder;
-  const std::string help = run_brume(folder.path(), {"--help"}).out;
-  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/apps/cli/brume.1");
-  std::istringstream lines(help.substr(help.find("Commands:\n") + 10));
-  int commands = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.size() < 4 || line.rfind("  ", 0) != 0 || line[2] == ' ') continue;
-    const std::string command = line.substr(2, line.find("  ", 2) - 2);
-    EXPECT_NE(page.find(".It Cm " + command + "\n"), std::string::npos) << command;
-    ++commands;
-  }
-  EXPECT_GE(commands, 11);
-}
-
-// What bash completes a command line to: words, the last of which is begun.
-std::string completions(const WorkFolder& folder, const std::string& words) {
-  const std::string script = "PATH='" + fs::path(BRUME_PROGRAM).parent_path().string() +
-                             "':$PATH; source '" BRUME_SOURCE_DIR "/apps/cli/brume.bash'; COMP_WORDS=(" +
-                             words +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _brume; echo \"${COMPREPLY[*]}\"";
-  folder.write("complete.sh", script);
-  const std::string out = (folder.path() / "out").string();
-  const std::string command = "cd '" + folder.path().string() + "' && bash complete.sh > '" + out + "' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << words;
-  return *read_text_file(out);
-}
-
-TEST(Install, BashCompletesCommandsOfOneAndTwoWords) {
-  const WorkFolder folder;
-  folder.write("slices.glb", "");
-  EXPECT_EQ(completions(folder, "brume b"), "bake bench\n");
-  EXPECT_EQ(completions(folder, "brume bake ''"), "slices occlusion spheres pyroclastic sphere slab torus\n");
-  EXPECT_EQ(completions(folder, "brume bake sl"), "slices slab\n");
-  EXPECT_EQ(completions(folder, "brume bake slices sl"), "slices.glb\n");
-  EXPECT_EQ(completions(folder, "brume bake slices --p"), "--progress --padding --preset\n");
-  EXPECT_EQ(completions(folder, "brume bake slices slices.glb -o a.png --ch"), "--channels\n");
-  EXPECT_EQ(completions(folder, "brume bake occlusion --fall"), "--falloff\n");
-  EXPECT_EQ(completions(folder, "brume bake sphere --rad"), "--radius\n");
-  EXPECT_EQ(completions(folder, "brume render sl"), "slices.glb\n");
-  EXPECT_EQ(completions(folder, "brume help bake o"), "occlusion\n");
-}
 
 TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
   const WorkFolder folder;
@@ -66,7 +22,8 @@ TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
         "share/brume/scenes/README.md", "share/brume/scenes/flyby/drone_ao.json",
         "share/brume/scenes/flyby/drone_ao.png", "share/brume/scenes/thruster/thruster.json",
         "share/brume/scenes/thruster/flame.png", "share/bash-completion/completions/brume",
-        "share/man/man1/brume.1"})
+        "share/man/man1/brume.1", "share/man/man1/brume-bake-slices.1", "share/zsh/vendor-completions/_brume",
+        "share/fish/vendor_completions.d/brume.fish", "share/doc/brume/copyright"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
 
   // So does its helper.

@@ -7,7 +7,7 @@ bl_info = {
     "name": "Brume",
     "description": "Exports levels for volumetric smoke and renders them with Brume",
     "author": "The Brume authors",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Brume, File > Export > Brume Level, Add > Brume",
     "category": "Import-Export",
