@@ -154,7 +154,7 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
   return Call(__func__).run([&](Call& call) {
     brume_renderer& of = call.handle(renderer);
     const brume_field& from = call.handle(field);
-    const brume_frame_params frame = required_params(params);
+    const brume_frame_params frame = required_params(params, brume_frame_defaults());
     const std::scoped_lock lock(of.mutex, of.device->mutex);
     call.read(from, [&] { brume::host::record(of, from, frame); });
   });

@@ -151,6 +151,7 @@ class Hostile {
   std::vector<std::vector<std::uint8_t>> packets_;
   alignas(64) std::array<unsigned char, 4096> garbage_;
   std::vector<std::uint8_t> bits_;
+  alignas(8) std::array<unsigned char, 8192> struct_;  ///< The parameters of a call.
 };
 
 }  // namespace brume::api
