@@ -84,8 +84,8 @@ void check_struct(const void* bytes, std::uint32_t struct_size, std::uint32_t kn
     refuse("`struct_size` is " + std::to_string(struct_size) + ", expected " + std::to_string(known_size) +
            why);
   };
-  const bool is_known = struct_size == known_size ||
-                        std::ranges::find(earlier_sizes, struct_size) != earlier_sizes.end();
+  const bool is_known =
+      struct_size == known_size || std::ranges::find(earlier_sizes, struct_size) != earlier_sizes.end();
   if (is_known) return;
   const bool is_later =
       struct_size > known_size && struct_size <= kMostStructBytes && struct_size % alignof(void*) == 0;

@@ -1,4 +1,5 @@
-// The library's log output: a callback that the program installs, or a sink of a thread's own. Silent without.
+// The library's log output: a callback that the program installs, or a sink of a thread's own. Silent
+// without.
 #pragma once
 
 #include <functional>

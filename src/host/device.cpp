@@ -32,7 +32,8 @@ brume_result brume_device_create(brume_context* context, const brume_device_para
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(device, "device");
-    create(device, owner.settings, brume::host::host_device(required_params(params, brume_device_defaults())));
+    create(device, owner.settings,
+           brume::host::host_device(required_params(params, brume_device_defaults())));
   });
 }
 

@@ -48,7 +48,7 @@ VolumeLoader::Results VolumeLoader::want(std::vector<Key> keys) {
     if (wanted_.empty()) return others;
   }
   changed_.notify_all();
-  if (!thread_.joinable()) 
+  if (!thread_.joinable())
     thread_ = std::thread([this, log = log_of_threads(), threads = thread_count()] { run(log, threads); });
   return others;
 }

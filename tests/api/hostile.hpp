@@ -53,7 +53,7 @@ class Hostile {
   const std::map<std::string, std::map<int, std::uint64_t>>& results() const { return results_; }
   std::uint64_t calls() const { return calls_; }
 
- private:
+ protected:
   using Step = void (Hostile::*)();
   static const std::vector<Step>& steps();
 
