@@ -12,7 +12,7 @@ namespace brume::host {
 namespace {
 
 #ifdef BRUME_MANY_CALLS
-constexpr int kFrames = 4000;
+constexpr int kFrames = 300;
 #else
 constexpr int kFrames = 12;
 #endif

@@ -98,6 +98,19 @@ TEST_F(RendererTest, DrawsTheFramesOfAnEarlierHeader) {
   EXPECT_OK(brume_renderer_destroy(renderer));
 }
 
+TEST_F(RendererTest, DrawsTheSameWhereAllIsPrepared) {
+  HostedSmoke::prepares_all = true;
+  make_sides(1, 1);
+  HostedSmoke::prepares_all = false;
+  draw_both(2.0, 1);
+  ASSERT_OK(brume_renderer_set_march_scale(smoke_->renderer, 2));
+  whole_->set_march_scale(2);
+  draw_both(2.0, 2);
+  host_->wait();
+  expect_same(0);
+  expect_same(1);
+}
+
 TEST_F(RendererTest, TakesSettingsOfQuality) {
   make_sides(2, 1);
   draw_both(3.5, 1);
