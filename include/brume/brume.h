@@ -76,7 +76,7 @@ typedef enum brume_result {
   /// brume_field_update (field) succeeds, only *_destroy works.
   BRUME_ERROR_BROKEN = 10,
   BRUME_ERROR_INTERNAL = 11,  ///< A defect of the library.
-  BRUME_ERROR_DEVICE = 12  ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
+  BRUME_ERROR_DEVICE = 12     ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
 } brume_result;
 
 /// Writes the version of the library in use. Any pointer may be null. Never fails.
@@ -108,6 +108,7 @@ typedef struct brume_field brume_field;
 /// of the handle in use.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
+/// Settings of a context.
 typedef struct brume_context_params {
   uint32_t struct_size;
   const void* next;
@@ -150,6 +151,7 @@ typedef struct brume_layout {
   brume_point origin;  ///< Low corner of voxel (0, 0, 0) [m], each within +-16384.
 } brume_layout;
 
+/// A level by its voxels.
 typedef struct brume_voxels_params {
   uint32_t struct_size;
   const void* next;
@@ -166,6 +168,7 @@ static inline brume_voxels_params brume_voxels_defaults(void) {
   return params;
 }
 
+/// A level by its triangles.
 typedef struct brume_triangles_params {
   uint32_t struct_size;
   const void* next;
@@ -214,6 +217,7 @@ BRUME_API brume_result brume_level_solid(const brume_level* level, brume_voxel l
 
 // ---- Masks: images that shots may cut out of smoke ----
 
+/// An image of the smoke that a shot removes.
 typedef struct brume_mask_image {
   uint32_t width, height;  ///< [1, 4094] texels.
   const uint8_t* texels;   ///< width * height, rows from the top: 255 removes all smoke, 0 none.
@@ -347,6 +351,7 @@ static inline brume_event brume_event_defaults(uint32_t kind, uint32_t tick) {
   return event;
 }
 
+/// Settings of a world.
 typedef struct brume_world_params {
   uint32_t struct_size;
   const void* next;
@@ -400,6 +405,7 @@ BRUME_API brume_result brume_world_restore(brume_world* world, const brume_state
 
 // ---- States: immutable snapshots ----
 
+/// What a state holds, in numbers.
 typedef struct brume_state_info {
   uint32_t tick;
   uint32_t ticks_per_second;
@@ -484,6 +490,7 @@ BRUME_API brume_result brume_state_bodies(const brume_state* state, brume_body* 
 
 // ---- Packets ----
 
+/// Settings of a sender.
 typedef struct brume_sender_params {
   uint32_t struct_size;
   const void* next;
@@ -512,6 +519,7 @@ BRUME_API brume_result brume_sender_packet(const brume_sender* sender, void* buf
 BRUME_API brume_result brume_sender_answer(brume_sender* sender, const void* request, size_t request_size,
                                            void* buffer, size_t capacity, size_t* size) BRUME_NOEXCEPT;
 
+/// Limits of a receiver.
 typedef struct brume_receiver_params {
   uint32_t struct_size;
   const void* next;
@@ -559,6 +567,7 @@ BRUME_API brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEX
 /// Most elements of one array of queries.
 #define BRUME_MAX_QUERIES 268435456u
 
+/// Settings of a field.
 typedef struct brume_field_params {
   uint32_t struct_size;
   const void* next;

@@ -40,11 +40,12 @@ typedef struct brume_volume brume_volume;
 /// vote, arithmetic and ballot in compute shaders.
 BRUME_API const void* brume_vulkan_features(void) BRUME_NOEXCEPT;
 
+/// The host's device.
 typedef struct brume_device_params {
   uint32_t struct_size;
   const void* next;
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr;
-  VkInstance instance;
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr;  ///< Vulkan is called through it alone.
+  VkInstance instance;                               ///< That it is of.
   VkPhysicalDevice physical_device;
   VkDevice device;
   uint32_t queue_family;  ///< Of the command buffers, with graphics and compute.
@@ -72,6 +73,7 @@ typedef enum brume_light_kind {
   BRUME_LIGHT_SUN = 2  ///< The same light from one direction everywhere.
 } brume_light_kind;
 
+/// A light.
 typedef struct brume_light {
   uint32_t kind;          ///< brume_light_kind.
   brume_point position;   ///< [m]; of a sun ignored.
@@ -81,6 +83,7 @@ typedef struct brume_light {
   float outer_angle;      ///< None outside, (0, pi].
 } brume_light;
 
+/// Settings of a renderer.
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
@@ -143,6 +146,7 @@ typedef enum brume_repeat {
   BRUME_REPEAT_CLIP = 3        ///< Nothing before and after it.
 } brume_repeat;
 
+/// A file of grids, or a sequence of them.
 typedef struct brume_volume_params {
   uint32_t struct_size;
   const void* next;
@@ -178,6 +182,7 @@ BRUME_API brume_result brume_volume_create(brume_context* context, const brume_v
 /// What frames in flight show of it stays with their renderers.
 BRUME_API brume_result brume_volume_destroy(brume_volume* volume) BRUME_NOEXCEPT;
 
+/// What the first frame of a volume holds.
 typedef struct brume_volume_info {
   brume_point low, high;   ///< Around all that is dense in the first frame, in the file's space.
   float density;           ///< Largest value of the density.
@@ -193,7 +198,7 @@ BRUME_API brume_result brume_volume_describe(const brume_volume* volume,
 
 /// A volume in a frame: where it is and how it looks.
 typedef struct brume_shown_volume {
-  const brume_volume* volume;
+  const brume_volume* volume;          ///< One may be shown several times.
   brume_point x_axis, y_axis, z_axis;  ///< Of the file's space in the world; they must span space.
   brume_point position;                ///< Of the file's origin [m].
   double seconds;                      ///< From the start of a sequence [s], within +-10^6.
@@ -223,6 +228,7 @@ static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume*
 
 // ---- Frames ----
 
+/// The host's camera of a frame.
 typedef struct brume_camera {
   brume_point position;  ///< [m]
   brume_point forward;   ///< Any length but 0.
@@ -249,6 +255,7 @@ typedef struct brume_picture {
   float exposure;  ///< Multiplies the smoke's radiance, > 0.
 } brume_picture;
 
+/// How smoke looks.
 typedef struct brume_smoke_look {
   float albedo[3];            ///< [0, 1].
   float anisotropy;           ///< Mean cosine of the phase function, (-1, 1).
@@ -277,12 +284,13 @@ typedef struct brume_quality {
 /// Lights whose shadows of a frame's media the host may ask for.
 #define BRUME_MAX_SHADOW_LIGHTS 4
 
+/// A frame.
 typedef struct brume_frame_params {
   uint32_t struct_size;
   const void* next;
-  VkCommandBuffer commands;
-  uint64_t frame;      ///< Above that of the frame before, of all renderers of the device; from 1.
-  uint64_t completed;  ///< The last frame whose commands the device has completed; 0: none.
+  VkCommandBuffer commands;  ///< In the recording state, outside of a rendering.
+  uint64_t frame;            ///< Above that of the frame before, of all renderers of the device; from 1.
+  uint64_t completed;        ///< The last frame whose commands the device has completed; 0: none.
   brume_camera camera;
   brume_depth depth;
   brume_picture picture;
@@ -357,6 +365,7 @@ BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkIm
 BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                               VkImageView* view) BRUME_NOEXCEPT;
 
+/// How long a pass took.
 typedef struct brume_timing {
   char name[32];        ///< Of a pass.
   double milliseconds;  ///< On the device.
