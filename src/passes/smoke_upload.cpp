@@ -63,11 +63,13 @@ SmokeUpload::SmokeUpload(gpu::Context& context)
 }
 
 void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
-  everything_ |= &volume != volume_;
-  if ((&volume == volume_ && volume.structure_generation() == reserved_generation_) ||
+  // Not by address: another volume may lie where one was.
+  const std::uint64_t id = volume.volume().id();
+  everything_ |= id != reserved_volume_;
+  if ((id == reserved_volume_ && volume.structure_generation() == reserved_generation_) ||
       volume.slot_count() == 0)
     return;
-  volume_ = &volume;
+  reserved_volume_ = id;
   reserved_generation_ = volume.structure_generation();
   const volume::SparseVolume* const bricks = &volume.volume();
   atlas_.reserve({&bricks, 1});

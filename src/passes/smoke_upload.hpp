@@ -52,7 +52,7 @@ class SmokeUpload {
   gpu::Context& context_;
   BrickAtlas atlas_;
   SmokeResources resources_;
-  const smoke::SmokeVolume* volume_ = nullptr;  // that `reserve` saw last
+  std::uint64_t reserved_volume_ = 0;  // SparseVolume::id of what `reserve` saw last; 0: none
   std::uint64_t reserved_generation_ = 0, uploaded_volume_ = 0, uploaded_revision_ = 0;
   bool everything_ = true;  // a buffer is new and empty
 };
