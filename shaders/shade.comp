@@ -36,6 +36,7 @@ layout(binding = kBindOcclusion) uniform sampler2D decal_occlusion;
 layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
 layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
 #include "lib/light_rows.glsl"
+#include "lib/smoke_transmittance.glsl"
 #include "lib/indirect_light.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
@@ -68,15 +69,6 @@ bool faces_tile(Light light, TileSurfaces tile) {
 bool reaches_tile(Light light, TileSurfaces tile) {
   const TileBox box = TileBox(tile.low_world, tile.high_world);
   return kCullLights == 0u || (reaches_box(light, box) && faces_tile(light, tile));
-}
-
-/// Transmittance of the smoke between a light and a surface. `texel_uv`: the size of a texel of the atlas.
-float smoke_transmittance(uint index, vec4 on_face, vec2 texel_uv) {
-  const SmokeShadowFace face = face_from_rows(index * kFacesPerLight + uint(on_face.z));
-  const vec2 texel = on_face.xy * face.scale + face.offset;
-  const vec2 inside = clamp(texel, vec2(face.first_texel) + 0.5, vec2(face.first_texel + face.size) - 0.5);
-  if (face.size.x == 0u || texel != inside) return 1.0;
-  return textureLod(smoke_shadows, texel * texel_uv, 0.0).r;
 }
 
 /// Lights that reach the tile, of those from `first` to below `end`: 32 at most, one bit each.

@@ -19,7 +19,11 @@
 //            start and which end before it returns. Calls have their own floating-point environment: rounding
 //            modes, flushed denormals and traps of the caller do not matter.
 // Structs    Parameter structs begin with `struct_size` = sizeof(the struct) and `next` = NULL. Take their
-//            defaults from the *_defaults functions. Other structs never change.
+//            defaults from the *_defaults functions. Other structs never change, nor does brume_event.
+// Growth     Later versions may add members at the end of a parameter struct, where 0 means what the library
+//            did before. A shorter struct of an earlier header works: the members that it lacks have their
+//            defaults. A longer one of a later header works as long as what this library does not know is 0,
+//            and else is BRUME_ERROR_ARGUMENT. `next` is for structs of later versions; there are none yet.
 // Arrays     A null pointer is accepted where the count is 0. Outputs must not overlap inputs.
 // Bytes      Functions that write bytes take `buffer`, `capacity` and `size`: *size receives the number of
 //            bytes; a null buffer with capacity 0 queries it. BRUME_ERROR_BUFFER: the capacity is too small;
@@ -97,9 +101,11 @@ typedef struct brume_sender brume_sender;
 typedef struct brume_receiver brume_receiver;
 typedef struct brume_field brume_field;
 
-/// Receives the line of each failed call with a handle of its context, as brume_last_error() returns it.
-/// Called in the thread of that call, after its work, possibly by several threads at once. `line` is valid
-/// during the call. It must not throw; it may call any function but the destruction of the handle in use.
+/// Receives the line of each failed call with a handle of its context, as brume_last_error() returns it, and
+/// with BRUME_OK warnings, such as of a volume that is shown at a lower resolution. Called in the thread of
+/// that call, after its work, possibly by several threads at once; warnings also by threads that load
+/// volumes. `line` is valid during the call. It must not throw; it may call any function but the destruction
+/// of the handle in use.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
 /// What a context is created with.
@@ -305,7 +311,7 @@ typedef struct brume_edit_event {
 
 /// An event of a world's log.
 typedef struct brume_event {
-  uint32_t struct_size;  ///< Also the distance between the events of an array.
+  uint32_t struct_size;  ///< sizeof(brume_event), in every version: new kinds fit into `reserved`.
   const void* next;
   uint32_t kind;  ///< brume_event_kind: which member of the union counts.
   uint32_t tick;  ///< [0, BRUME_MAX_TICK].

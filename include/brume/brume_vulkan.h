@@ -3,6 +3,7 @@
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
+//   context --> volume ---------------'
 //
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
@@ -30,6 +31,7 @@ extern "C" {
 
 typedef struct brume_device brume_device;
 typedef struct brume_renderer brume_renderer;
+typedef struct brume_volume brume_volume;
 
 // ---- Device ----
 
@@ -121,6 +123,9 @@ typedef struct brume_renderer_params {
   const uint32_t* indices;   ///< Three numbers of points for each triangle.
   size_t index_count;        ///< A multiple of 3.
   const brume_masks* masks;  ///< Those of the fields that it shows; null: none.
+  /// 1: its first frame prepares what any later frame of smoke needs, of all march scales, so that none waits
+  /// for a pipeline.
+  uint32_t prepare_all;
 } brume_renderer_params;
 
 static inline brume_renderer_params brume_renderer_defaults(void) {
@@ -136,7 +141,8 @@ static inline brume_renderer_params brume_renderer_defaults(void) {
                                   0,
                                   BRUME_NULL,
                                   0,
-                                  BRUME_NULL};
+                                  BRUME_NULL,
+                                  0};
   return params;
 }
 
@@ -148,6 +154,99 @@ BRUME_API brume_result brume_renderer_destroy(brume_renderer* renderer) BRUME_NO
 /// Frames of another size from the next one on. A film starts over.
 BRUME_API brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width,
                                              uint32_t height) BRUME_NOEXCEPT;
+
+/// Another brume_renderer_params::march_scale, 1, 2 or 4, from the next frame on.
+BRUME_API brume_result brume_renderer_set_march_scale(brume_renderer* renderer,
+                                                      uint32_t march_scale) BRUME_NOEXCEPT;
+
+// ---- Volumes ----
+
+typedef enum brume_repeat {
+  BRUME_REPEAT_NONE = 0,       ///< The first frame before it, the last one after it.
+  BRUME_REPEAT_LOOP = 1,       ///< From the start again.
+  BRUME_REPEAT_PING_PONG = 2,  ///< Backwards, and so on.
+  BRUME_REPEAT_CLIP = 3        ///< Nothing before and after it.
+} brume_repeat;
+
+/// A file of grids, or a sequence of them.
+typedef struct brume_volume_params {
+  uint32_t struct_size;
+  const void* next;
+  /// Path, UTF-8: .brv, or .vdb and .nvdb, which the program brume-vdb reads, installed beside the host's
+  /// program or on the PATH. Of a sequence the name has the number of its frames as %d or %04d.
+  const char* file;
+  /// Names of grids of numbers: what is dense, and what glows. Null: the first of the usual names; an empty
+  /// name of `heat` is that, too.
+  const char* density;
+  const char* heat;
+  const char* color;  ///< Of the grid of colours that multiply the albedo; null: the same.
+  float frame_rate;   ///< Of a sequence [1/s], [0.001, 1000].
+  uint32_t repeat;    ///< brume_repeat, of a sequence.
+  /// 1: recording waits until the frame of its time is loaded. 0: the frame before is shown until then.
+  uint32_t waits;
+  /// Device memory that the bricks of a frame may take: a larger one is shown at half its resolution, or a
+  /// quarter, and so on, with a warning in the log. 0: as much as a device can address.
+  uint64_t max_bytes;
+} brume_volume_params;
+
+static inline brume_volume_params brume_volume_defaults(void) {
+  brume_volume_params params = {
+      sizeof(brume_volume_params), BRUME_NULL, BRUME_NULL, BRUME_NULL, BRUME_NULL, BRUME_NULL, 24.0f,
+      BRUME_REPEAT_NONE,           0,          0};
+  return params;
+}
+
+/// Loads a file of grids, or the first one of a sequence. A sequence has a thread that loads ahead, from the
+/// first frame that shows it until it is destroyed. Errors: BRUME_ERROR_DATA for a file that is missing or
+/// damaged or lacks the grids, or without brume-vdb; BRUME_ERROR_LIMIT for one that is too large.
+BRUME_API brume_result brume_volume_create(brume_context* context, const brume_volume_params* params,
+                                           brume_volume** volume) BRUME_NOEXCEPT;
+/// What frames in flight show of it stays with their renderers.
+BRUME_API brume_result brume_volume_destroy(brume_volume* volume) BRUME_NOEXCEPT;
+
+/// What the first frame of a volume holds.
+typedef struct brume_volume_info {
+  brume_point low, high;   ///< Around all that is dense in the first frame, in the file's space.
+  float density;           ///< Largest value of the density.
+  uint32_t glows;          ///< 1: a grid of heat was found.
+  uint32_t z_is_up;        ///< 1: in the file z is up, as Blender writes it; else y.
+  uint32_t is_extinction;  ///< 1: the density is an extinction per unit of the file.
+  uint32_t halvings;       ///< Of the resolution: brume_volume_params::max_bytes.
+} brume_volume_info;
+
+/// Writes what its first frame holds.
+BRUME_API brume_result brume_volume_describe(const brume_volume* volume,
+                                             brume_volume_info* info) BRUME_NOEXCEPT;
+
+/// A volume in a frame: where it is and how it looks.
+typedef struct brume_shown_volume {
+  const brume_volume* volume;          ///< One may be shown several times.
+  brume_point x_axis, y_axis, z_axis;  ///< Of the file's space in the world; they must span space.
+  brume_point position;                ///< Of the file's origin [m].
+  double seconds;                      ///< From the start of a sequence [s], within +-10^6.
+  float extinction;                    ///< [1/m] where the density is 1, [0, 10^6].
+  float albedo[3];                     ///< [0, 1].
+  float anisotropy;                    ///< Mean cosine of the phase function, (-1, 1).
+  float multiple_scattering;           ///< Weight of light that is scattered more than once, [0, 1].
+  float emission;                      ///< Multiplies what glows, [0, 10^6].
+  float kelvin;                        ///< Temperature where the heat is 1, [1, 40000].
+} brume_shown_volume;
+
+static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume* volume) {
+  brume_shown_volume shown = {volume,
+                              {1.0f, 0.0f, 0.0f},
+                              {0.0f, 1.0f, 0.0f},
+                              {0.0f, 0.0f, 1.0f},
+                              {0.0f, 0.0f, 0.0f},
+                              0.0,
+                              1.0f,
+                              {0.9f, 0.9f, 0.9f},
+                              0.2f,
+                              1.0f,
+                              1.0f,
+                              1000.0f};
+  return shown;
+}
 
 // ---- Frames ----
 
@@ -191,6 +290,23 @@ typedef struct brume_smoke_look {
   float rise;                 ///< How fast noise rises [m/s], [-10, 10].
 } brume_smoke_look;
 
+/// What a frame may save. 0 in each: the best.
+typedef struct brume_quality {
+  float step_scale;           ///< Multiplies the steps of the march, [0.25, 16]; 0: 1.
+  float resolve_error_scale;  ///< The same of the error of a reduced march, [0.25, 16]; 0: 1.
+  uint32_t no_fine_shadows;   ///< 1: noise does not shadow itself, which takes up to half of the march.
+  /// About which fraction of the light that changed is found in this frame, [1/16, 1]; 0: all. Below 1 it is
+  /// as old as the inverse of that in frames.
+  float light_update_fraction;
+  float bounce_update_fraction;  ///< The same of brume_frame_params::bounces.
+  /// Bytes of a large volume that are uploaded in this frame; until all are, it is shown at a lower
+  /// resolution. 0: all at once.
+  uint64_t volume_upload_bytes;
+} brume_quality;
+
+/// Lights whose shadows of a frame's media the host may ask for.
+#define BRUME_MAX_SHADOW_LIGHTS 4
+
 /// All that changes from frame to frame.
 typedef struct brume_frame_params {
   uint32_t struct_size;
@@ -214,6 +330,12 @@ typedef struct brume_frame_params {
   /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lights. At most 64; no suns.
   const brume_light* lights;
   size_t light_count;  ///< Of `lights`.
+  const brume_shown_volume* volumes;  ///< At most 32; they may overlap each other and the smoke.
+  size_t volume_count;
+  /// Lights for brume_renderer_shadows, by their number: those of the renderer, then those of the frame.
+  uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
+  uint32_t shadow_light_count;  ///< [0, BRUME_MAX_SHADOW_LIGHTS].
+  brume_quality quality;
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -234,14 +356,20 @@ static inline brume_frame_params brume_frame_defaults(void) {
       0.2f,
       0,
       BRUME_NULL,
-      0};
+      0,
+      BRUME_NULL,
+      0,
+      {0, 0, 0, 0},
+      0,
+      {0.0f, 0.0f, 0, 0.0f, 0.0f, 0}};
   return params;
 }
 
-/// Records the smoke of a field, as of its last update, in front of the host's surfaces, and blends it over
-/// the host's picture p: exposure * radiance + transmittance * p. The field may be updated as soon as the
-/// function returns. Errors: BRUME_ERROR_MISMATCH for a field with other masks; BRUME_ERROR_LIMIT when the
-/// device has too little memory; BRUME_ERROR_DEVICE.
+/// Records the smoke of a field, as of its last update, and volumes in front of the host's surfaces, and
+/// blends them over the host's picture p: exposure * radiance + transmittance * p. `field` may be null: no
+/// smoke, and no level. Field and volumes may change as soon as the function returns. Errors:
+/// BRUME_ERROR_MISMATCH for a field with other masks; BRUME_ERROR_LIMIT when the device has too little
+/// memory; BRUME_ERROR_DEVICE.
 BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
@@ -257,6 +385,14 @@ BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkIm
 /// `dims_less`, which may be null: 1 where smoke out of view dims less light than it should.
 BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
                                                  uint32_t* dims_less) BRUME_NOEXCEPT;
+
+/// The shadows of the last frame's smoke and volumes on the host's surfaces: half floats, in R, G, B and A
+/// which fraction of brume_frame_params::shadow_lights[0] to [3] they let through to the surface of the
+/// pixel, 1 without one; the shadows of the renderer's triangles are not in it. In VK_IMAGE_LAYOUT_GENERAL,
+/// written by compute shaders. BRUME_ERROR_ORDER unless the last frame had shadow_lights; another image after
+/// brume_renderer_resize. Either pointer may be null.
+BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
+                                              VkImageView* view) BRUME_NOEXCEPT;
 
 /// The time that a pass took.
 typedef struct brume_timing {

@@ -35,6 +35,8 @@ const char* kind_name(Kind kind) {
       return "device";
     case Kind::renderer:
       return "renderer";
+    case Kind::volume:
+      return "volume";
   }
   return "unknown object";
 }
@@ -65,6 +67,32 @@ brume_result result_of(ErrorCode code, brume_result bad_input) {
     default:
       return BRUME_ERROR_INTERNAL;
   }
+}
+
+void Settings::write(LogLevel level, const std::string& line) {
+  const brume_log_callback callback = log.load();
+  if (level == LogLevel::warning && callback) callback(log_user, BRUME_OK, line.c_str());
+}
+
+void CallWarnings::write(LogLevel level, const std::string& line) {
+  if (level == LogLevel::warning) lines_.push_back(line);
+}
+
+void check_struct(const void* bytes, std::uint32_t struct_size, std::uint32_t known_size,
+                  std::span<const std::uint32_t> earlier_sizes) {
+  const auto wrong = [&](const char* why) {
+    refuse("`struct_size` is " + std::to_string(struct_size) + ", expected " + std::to_string(known_size) +
+           why);
+  };
+  const bool is_known =
+      struct_size == known_size || std::ranges::find(earlier_sizes, struct_size) != earlier_sizes.end();
+  if (is_known) return;
+  const bool is_later =
+      struct_size > known_size && struct_size <= kMostStructBytes && struct_size % alignof(void*) == 0;
+  if (!is_later) wrong(": take the defaults from the *_defaults function of the same header");
+  const auto* further = static_cast<const unsigned char*>(bytes);
+  if (std::any_of(further + known_size, further + struct_size, [](unsigned char byte) { return byte != 0; }))
+    wrong(": the caller's header is of a later version, and sets a member that this library does not know");
 }
 
 void write_bytes(const void* bytes, std::size_t count, void* buffer, std::size_t capacity,
@@ -100,6 +128,22 @@ void Call::adopt(const std::shared_ptr<Settings>& settings) {
   if (settings_) return;
   settings_ = settings;
   threads_.emplace(settings->thread_count);
+  warnings_.emplace(settings);
+}
+
+/// In the caller's floating-point environment, as report.
+void Call::log_warnings() noexcept {
+  if (!warnings_) return;
+  const std::vector<std::string> lines = warnings_->take();
+  const brume_log_callback log = settings_->log.load();
+  warnings_.reset();
+  if (lines.empty() || !log) return;
+  threads_.reset();
+  floating_point_.reset();
+  char error[kMaxLine];
+  std::memcpy(error, t_last_error, kMaxLine);
+  for (const std::string& line : lines) log(settings_->log_user, BRUME_OK, line.c_str());
+  std::memcpy(t_last_error, error, kMaxLine);
 }
 
 brume_result Call::failed() noexcept {
@@ -127,6 +171,7 @@ brume_result Call::report(brume_result result, const char* message) noexcept {
   append(length, function_);
   append(length, ": ");
   append(length, message);
+  log_warnings();
   threads_.reset();
   const brume_log_callback log = settings_ ? settings_->log.load() : nullptr;
   if (!log) return result;

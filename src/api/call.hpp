@@ -5,26 +5,49 @@
 #include <brume/brume.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "api/floating_point.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::api {
 
 /// Settings of a context; objects created from it hold them.
-struct Settings {
+struct Settings : std::enable_shared_from_this<Settings>, LogSink {
   unsigned thread_count = 0;
   std::atomic<brume_log_callback> log = nullptr;
   void* log_user = nullptr;
+
+  /// Warnings of threads that calls have started.
+  void write(LogLevel level, const std::string& line) override;
+  std::shared_ptr<LogSink> of_threads() override { return shared_from_this(); }
+};
+
+/// The warnings of a call, which are logged at its end: the callback may call functions.
+class CallWarnings : public LogSink {
+ public:
+  explicit CallWarnings(std::shared_ptr<Settings> settings) : settings_(std::move(settings)), scope_(this) {}
+  void write(LogLevel level, const std::string& line) override;
+  std::shared_ptr<LogSink> of_threads() override { return settings_; }
+  std::vector<std::string> take() { return std::exchange(lines_, {}); }
+
+ private:
+  std::shared_ptr<Settings> settings_;
+  std::vector<std::string> lines_;
+  LogScope scope_;
 };
 
 enum class Kind : std::uint32_t {
@@ -37,7 +60,8 @@ enum class Kind : std::uint32_t {
   receiver,
   field,
   device,
-  renderer
+  renderer,
+  volume
 };
 
 /// The start of what every handle points to.
@@ -89,21 +113,32 @@ T unwrap(Result<T> result, brume_result bad_input = BRUME_ERROR_ARGUMENT) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// A parameter struct, or the defaults for null.
+/// Sizes of a parameter struct in earlier versions of the headers, where it had fewer members.
+template <typename Params>
+inline constexpr std::array<std::uint32_t, 0> kEarlierSizes{};
+
+/// Refuses a struct that neither this version of the header knows, nor an earlier one, nor a later one whose
+/// further members are 0. `bytes` are as many as its struct_size says, at most kMostStructBytes are read.
+void check_struct(const void* bytes, std::uint32_t struct_size, std::uint32_t known_size,
+                  std::span<const std::uint32_t> earlier_sizes);
+inline constexpr std::uint32_t kMostStructBytes = 4096;
+
+/// A parameter struct of any version, or the defaults for null. Members that its version lacks have their
+/// defaults.
 template <typename Params>
 Params params_or(const Params* given, const Params& defaults) {
   if (!given) return defaults;
-  const std::uint32_t size = given->struct_size;
-  if (size != sizeof(Params))
-    refuse("`struct_size` is " + std::to_string(size) + ", expected " + std::to_string(sizeof(Params)) +
-           ": take the defaults from the *_defaults function of the same header");
+  check_struct(given, given->struct_size, sizeof(Params), kEarlierSizes<Params>);
   require(given->next == nullptr, "`next` must be null");
-  return *given;
+  Params params = defaults;
+  std::memcpy(&params, given, std::min<std::size_t>(given->struct_size, sizeof(Params)));
+  params.struct_size = sizeof(Params);
+  return params;
 }
 /// The same where there must be one.
 template <typename Params>
-Params required_params(const Params* given) {
-  return params_or(&required(given, "params"), Params{});
+Params required_params(const Params* given, const Params& defaults) {
+  return params_or(&required(given, "params"), defaults);
 }
 
 /// Copies bytes to the caller, or only their number.
@@ -162,10 +197,11 @@ class Call {
   brume_result run(Body body) noexcept {
     try {
       body(*this);
-      return BRUME_OK;
     } catch (...) {
       return failed();
     }
+    log_warnings();
+    return BRUME_OK;
   }
 
  private:
@@ -174,11 +210,13 @@ class Call {
   void adopt(const std::shared_ptr<Settings>& settings);
   brume_result failed() noexcept;
   brume_result report(brume_result result, const char* message) noexcept;
+  void log_warnings() noexcept;
 
   const char* function_;
   std::optional<DefaultFloatingPoint> floating_point_;
   std::shared_ptr<Settings> settings_;
   std::optional<ThreadCountScope> threads_;
+  std::optional<CallWarnings> warnings_;
 };
 
 /// Creates an object and gives it to the caller.

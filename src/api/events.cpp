@@ -76,6 +76,15 @@ sim::Event checked_event(const brume_event& event, const voxel::GridLayout& layo
   return checked;
 }
 
+/// As an element of an array, an event has one size in all versions.
+const brume_event& whole_event(const brume_event& event) {
+  if (event.struct_size != sizeof(brume_event))
+    refuse("`struct_size` is " + std::to_string(event.struct_size) + ", expected " +
+           std::to_string(sizeof(brume_event)) + ": start from brume_event_defaults");
+  require(event.next == nullptr, "`next` must be null");
+  return event;
+}
+
 }  // namespace
 
 std::vector<sim::Event> events_of(const brume_event* events, std::size_t count,
@@ -86,7 +95,7 @@ std::vector<sim::Event> events_of(const brume_event* events, std::size_t count,
   out.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     try {
-      out.push_back(checked_event(params_or(&events[i], brume_event{}), layout, mask_count));
+      out.push_back(checked_event(whole_event(events[i]), layout, mask_count));
     } catch (CallFailure& failure) {
       failure.message.insert(0, "event " + std::to_string(i) + ": ");
       throw;

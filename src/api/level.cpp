@@ -116,11 +116,11 @@ void read_solid(const BitGrid& grid, glm::ivec3 low, glm::ivec3 high, std::uint8
 
 template <typename Params>
 brume_result create_level(const char* function, brume_context* context, const Params* params,
-                          brume_level** level) noexcept {
+                          const Params& defaults, brume_level** level) noexcept {
   return Call(function).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(level, "level");
-    create(level, owner.settings, level_of(required_params(params)));
+    create(level, owner.settings, level_of(required_params(params, defaults)));
   });
 }
 
@@ -151,12 +151,12 @@ extern "C" {
 
 brume_result brume_level_create_from_voxels(brume_context* context, const brume_voxels_params* params,
                                             brume_level** level) BRUME_NOEXCEPT {
-  return create_level(__func__, context, params, level);
+  return create_level(__func__, context, params, brume_voxels_defaults(), level);
 }
 
 brume_result brume_level_create_from_triangles(brume_context* context, const brume_triangles_params* params,
                                                brume_level** level) BRUME_NOEXCEPT {
-  return create_level(__func__, context, params, level);
+  return create_level(__func__, context, params, brume_triangles_defaults(), level);
 }
 
 brume_result brume_level_destroy(brume_level* level) BRUME_NOEXCEPT {

@@ -16,7 +16,10 @@ Sink& sink() {
   return instance;
 }
 
+thread_local LogSink* t_sink = nullptr;
+
 void log_line(LogLevel level, const std::string& line) {
+  if (t_sink) return t_sink->write(level, line);
   const std::lock_guard lock(sink().mutex);
   if (sink().callback) sink().callback(level, line);
 }
@@ -26,6 +29,15 @@ void log_line(LogLevel level, const std::string& line) {
 void set_log_callback(LogCallback callback) {
   const std::lock_guard lock(sink().mutex);
   sink().callback = std::move(callback);
+}
+
+LogScope::LogScope(LogSink* sink) : before_(std::exchange(t_sink, sink)) {}
+LogScope::~LogScope() {
+  t_sink = before_;
+}
+
+std::shared_ptr<LogSink> log_of_threads() {
+  return t_sink ? t_sink->of_threads() : nullptr;
 }
 
 void log_info(const std::string& line) {

@@ -1,4 +1,5 @@
 #include "gpu/device_features.hpp"
+#include "host/frame.hpp"
 #include "host/objects.hpp"
 
 using namespace brume::api;
@@ -35,7 +36,8 @@ brume_result brume_device_create(brume_context* context, const brume_device_para
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(device, "device");
-    create(device, owner.settings, brume::host::host_device(required_params(params)));
+    create(device, owner.settings,
+           brume::host::host_device(required_params(params, brume_device_defaults())));
   });
 }
 

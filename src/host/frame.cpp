@@ -14,33 +14,11 @@ using api::require;
 constexpr std::size_t kMostLights = 1024;
 constexpr float kMostMetres = 16384;
 
-glm::vec3 vec3_of(const brume_point& p) {
-  return {p.x, p.y, p.z};
-}
-glm::vec3 vec3_of(const float (&c)[3]) {
-  return {c[0], c[1], c[2]};
-}
-
-/// False for what is not a number, here and below.
-bool is_within(float value, float low, float high) {
-  return value >= low && value <= high;
-}
-bool is_within(glm::vec3 v, float low, float high) {
-  return is_within(v.x, low, high) && is_within(v.y, low, high) && is_within(v.z, low, high);
-}
-
 glm::vec3 unit(const brume_point& direction, const char* name) {
   const glm::dvec3 v(vec3_of(direction));
   const double length = glm::length(v);
   if (!(length > 1e-12 && length < 1e30)) refuse(std::string("`") + name + "` must be finite and not 0");
   return glm::vec3(v / length);
-}
-
-glm::vec3 position(const brume_point& p, const char* name) {
-  const glm::vec3 v = vec3_of(p);
-  if (!is_within(v, -kMostMetres, kMostMetres))
-    refuse(std::string("`") + name + "` must be finite and within 16384 m of the world's origin");
-  return v;
 }
 
 scene::Camera camera_of(const brume_camera& camera) {
@@ -110,7 +88,72 @@ void add_triangles(const brume_renderer_params& params, scene::Mesh& mesh) {
       refuse("an index is " + std::to_string(index) + ", beyond the last point");
 }
 
+bool can_be_sampled(VkImageLayout layout) {
+  switch (layout) {
+    case VK_IMAGE_LAYOUT_GENERAL:
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// 0: as without it.
+float scale_of(float given, float low, float high, const char* expected) {
+  if (given == 0) return 1;
+  require(is_within(given, low, high), expected);
+  return given;
+}
+
+planning::Quality quality_of(const brume_quality& given) {
+  planning::Quality quality;
+  quality.step_scale =
+      scale_of(given.step_scale, 0.25f, 16, "`quality.step_scale` must be from 0.25 to 16, or 0");
+  quality.resolve_error_scale = scale_of(given.resolve_error_scale, 0.25f, 16,
+                                         "`quality.resolve_error_scale` must be from 0.25 to 16, or 0");
+  quality.fine_shadows = given.no_fine_shadows == 0;
+  quality.light_update_fraction = scale_of(given.light_update_fraction, 1 / 16.0f, 1,
+                                           "`quality.light_update_fraction` must be from 1/16 to 1, or 0");
+  quality.indirect_update_fraction =
+      scale_of(given.bounce_update_fraction, 1 / 16.0f, 1,
+               "`quality.bounce_update_fraction` must be from 1/16 to 1, or 0");
+  quality.volume_upload_bytes = given.volume_upload_bytes;
+  return quality;
+}
+
+void show_smoke(const brume_smoke_look& look, const api::SmokeField& field, planning::FrameInput& input) {
+  input.level.voxels = {&field.grid(), field.state().edits};
+  input.smoke.volume = &field.volume();
+  input.smoke.state = &field.state();
+  input.smoke.holes = field.holes();
+  input.smoke.look = planning::smoke_look(options_of(look, field.extinction()), field.layout().voxel_size);
+}
+
 }  // namespace
+
+bool is_within(float value, float low, float high) {
+  return value >= low && value <= high;
+}
+bool is_within(glm::vec3 v, float low, float high) {
+  return is_within(v.x, low, high) && is_within(v.y, low, high) && is_within(v.z, low, high);
+}
+glm::vec3 vec3_of(const brume_point& p) {
+  return {p.x, p.y, p.z};
+}
+glm::vec3 vec3_of(const float (&c)[3]) {
+  return {c[0], c[1], c[2]};
+}
+
+glm::vec3 position(const brume_point& p, const char* name) {
+  const glm::vec3 v = vec3_of(p);
+  if (!is_within(v, -kMostMetres, kMostMetres))
+    refuse(std::string("`") + name + "` must be finite and within 16384 m of the world's origin");
+  return v;
+}
 
 scene::Light scene_light(const brume_light& light, std::size_t number) {
   const std::string name = "light " + std::to_string(number);
@@ -144,13 +187,14 @@ scene::Scene scene_of(const brume_renderer_params& params) {
 
 passes::HostDepthRange depth_range(const brume_depth& depth) {
   require(depth.view != VK_NULL_HANDLE, "`depth.view` is null");
+  require(can_be_sampled(depth.layout), "`depth.layout` must be one in which depth can be sampled");
   require(depth.near_plane > 0 && depth.near_plane < kMostMetres,
           "`depth.near_plane` must be above 0 and below 16384");
   require(depth.far_plane > depth.near_plane, "`depth.far_plane` must be above near_plane");
   return {depth.near_plane, depth.far_plane, depth.reversed != 0};
 }
 
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field) {
+planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField* field) {
   planning::FrameInput input;
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
@@ -164,12 +208,10 @@ planning::FrameInput frame_input(const brume_frame_params& params, const api::Sm
   require(params.bounces <= 16, "`bounces` must be at most 16");
   input.environment.bounces = params.bounces;
   input.environment.flashes = frame_lights(params);
-  input.level.voxels = {&field.grid(), field.state().edits};
-  input.smoke.volume = &field.volume();
-  input.smoke.state = &field.state();
-  input.smoke.holes = field.holes();
-  input.smoke.look =
-      planning::smoke_look(options_of(params.look, field.extinction()), field.layout().voxel_size);
+  input.quality = quality_of(params.quality);
+  // What is too dark to be seen depends on it.
+  if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
+  if (field) show_smoke(params.look, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
   return input;
 }

@@ -3,16 +3,41 @@
 
 #include <brume/brume_vulkan.h>
 
+#include <array>
+#include <cstddef>
+
 #include "api/smoke_field.hpp"
 #include "render/renderer.hpp"
 
+namespace brume::api {
+
+// The sizes of 0.1.
+template <>
+inline constexpr std::array kEarlierSizes<brume_device_params>{
+    std::uint32_t{offsetof(brume_device_params, memory_user)}};
+template <>
+inline constexpr std::array kEarlierSizes<brume_renderer_params>{
+    std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};
+template <>
+inline constexpr std::array kEarlierSizes<brume_frame_params>{
+    std::uint32_t{offsetof(brume_frame_params, volumes)}};
+
+}  // namespace brume::api
+
 namespace brume::host {
 
+/// False for what is not a number.
+bool is_within(float value, float low, float high);
+bool is_within(glm::vec3 v, float low, float high);
+glm::vec3 vec3_of(const brume_point& p);
+glm::vec3 vec3_of(const float (&c)[3]);
+
 /// All throw a CallFailure for what brume_vulkan.h does not allow.
+glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
-/// What the result points to is the field's.
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField& field);
+/// Without volumes. What the result points to is the field's. `field`: null: no smoke.
+planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField* field);
 
 }  // namespace brume::host

@@ -11,6 +11,7 @@
 #include "api/objects.hpp"
 #include "gpu/host_recording.hpp"
 #include "render/renderer.hpp"
+#include "scenario/volumes.hpp"
 #include "scene/scene.hpp"
 
 namespace brume::host {
@@ -25,6 +26,14 @@ struct DeviceData {
   std::atomic<int> renderers = 0;
 };
 
+/// A file of grids or a sequence of them.
+struct VolumeData {
+  scene::VolumeOptions options;                ///< Without its place and look, which are of each frame.
+  std::shared_ptr<scenario::Volumes> volumes;  ///< Of one.
+  scenario::VolumeWait wait = scenario::VolumeWait::never;
+  std::mutex mutex;  ///< Held while frames are chosen.
+};
+
 }  // namespace brume::host
 
 struct brume_device : brume::api::Handle {
@@ -33,6 +42,14 @@ struct brume_device : brume::api::Handle {
       : Handle(kKind, std::move(of)), data(std::make_shared<brume::host::DeviceData>(host)) {}
 
   std::shared_ptr<brume::host::DeviceData> data;
+};
+
+struct brume_volume : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::volume;
+  brume_volume(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<brume::host::VolumeData> of_volume)
+      : Handle(kKind, std::move(of)), data(std::move(of_volume)) {}
+
+  std::shared_ptr<brume::host::VolumeData> data;
 };
 
 struct brume_renderer : brume::api::Handle {
@@ -48,7 +65,11 @@ struct brume_renderer : brume::api::Handle {
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;
   brume::passes::MediaLayerPass layer;
+  /// From the first frame on that asks for shadows.
+  std::optional<brume::passes::SurfaceShadowPass> shadow_pass;
+  brume::gpu::Image shadows;  ///< Of the renderer's size, or null.
+  bool has_shadows = false;   ///< Of the last frame.
   /// From the first frame on, which uploads.
   std::optional<brume::render::Renderer> renderer;
-  std::uint64_t shown_volume = 0;  ///< SparseVolume::id of the last frame's smoke.
+  std::uint64_t shown_volume = 0;  ///< SparseVolume::id of the last frame's smoke; 0: none.
 };

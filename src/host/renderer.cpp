@@ -1,6 +1,9 @@
 #include "api/smoke_field.hpp"
+#include "core/same_bytes.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
+#include "host/volumes.hpp"
+#include "shared/surface_import.h"
 
 using namespace brume::api;
 
@@ -30,10 +33,17 @@ constexpr std::uint32_t kMostPixels = 16384;
 /// Of smoke, 8 x 8 x 8: 16 MiB in all images.
 constexpr std::uint32_t kReservedBricks = 512;
 
+static_assert(BRUME_MAX_SHADOW_LIGHTS == shared::kMaxSurfaceShadows);
+
 glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height) {
   require(width >= 1 && width <= kMostPixels && height >= 1 && height <= kMostPixels,
           "`width` and `height` must be from 1 to 16384");
   return {width, height};
+}
+
+std::uint32_t checked_scale(std::uint32_t march_scale) {
+  require(march_scale == 1 || march_scale == 2 || march_scale == 4, "`march_scale` must be 1, 2 or 4");
+  return march_scale;
 }
 
 void create_renderer(Call& call, brume_device* device, const brume_renderer_params* given,
@@ -43,9 +53,8 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   const brume_renderer_params params = params_or(given, brume_renderer_defaults());
   render::RendererOptions options;
   options.size_px = checked_size(params.width, params.height);
-  const bool is_scale = params.march_scale == 1 || params.march_scale == 2 || params.march_scale == 4;
-  require(is_scale, "`march_scale` must be 1, 2 or 4");
-  options.smoke.march_scale = params.march_scale;
+  options.smoke.march_scale = checked_scale(params.march_scale);
+  options.smoke.prepare_all = params.prepare_all != 0;
   options.smoke.temporal = params.temporal != 0;
   options.smoke.reserved_bricks = kReservedBricks;
   options.media_alone = true;
@@ -53,7 +62,15 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   create(renderer, on.settings, on.data, scene_of(params), atlas_of(call, params.masks), options);
 }
 
-void check_frame(const brume_renderer& of, const brume_field& field, const brume_frame_params& params) {
+/// Whether the device can blend over a picture of a format of Vulkan 1.0.
+bool can_blend(const gpu::Context& context, VkFormat format) {
+  if (format <= VK_FORMAT_UNDEFINED || format > VK_FORMAT_ASTC_12x12_SRGB_BLOCK) return false;
+  VkFormatProperties properties{};
+  context.vk().GetPhysicalDeviceFormatProperties(context.info().handle, format, &properties);
+  return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
+}
+
+void check_frame(const brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   require(params.commands != VK_NULL_HANDLE, "`commands` is null");
   if (params.frame <= of.device->frame)
     fail(BRUME_ERROR_ORDER, "`frame` is " + std::to_string(params.frame) + ", the last one was " +
@@ -62,28 +79,75 @@ void check_frame(const brume_renderer& of, const brume_field& field, const brume
   if (params.completed < of.device->completed)
     fail(BRUME_ERROR_ORDER, "`completed` was " + std::to_string(of.device->completed) + " before");
   const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
-  if (field.field->masks() != masks)
+  if (field && field->field->masks() != masks)
     fail(BRUME_ERROR_MISMATCH, "the field has other masks than the renderer");
   if (params.picture.view == VK_NULL_HANDLE) return;
-  require(params.picture.format != VK_FORMAT_UNDEFINED, "`picture.format` is undefined");
+  require(can_blend(of.device->context, params.picture.format),
+          "`picture.format` must be one that the device can blend");
   require(params.picture.exposure > 0 && params.picture.exposure < 1e9f,
           "`picture.exposure` must be above 0");
+}
+
+/// Lights by their numbers in the plan, which has those that reach what is in view.
+glm::uvec4 planned_lights(const render::Renderer& renderer, const brume_frame_params& params,
+                          const planning::FramePlan& plan) {
+  std::vector<shared::Light> lights = renderer.scene().resources().light_list;
+  const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
+  lights.insert(lights.end(), flashes.begin(), flashes.end());
+  glm::uvec4 numbers(shared::kNoLight);
+  for (std::uint32_t i = 0; i < params.shadow_light_count; ++i) {
+    const auto same = [&](const shared::Light& other) {
+      return same_bytes(lights[params.shadow_lights[i]], other);
+    };
+    const auto found = std::ranges::find_if(plan.lights, same);
+    if (found != plan.lights.end())
+      numbers[static_cast<int>(i)] = static_cast<std::uint32_t>(found - plan.lights.begin());
+  }
+  return numbers;
+}
+
+void reserve_shadows(brume_renderer& of) {
+  gpu::Context& context = of.device->context;
+  if (!of.shadow_pass) of.shadow_pass.emplace(context);
+  if (of.shadows.handle() != VK_NULL_HANDLE) return;
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {of.options.size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  of.shadows = gpu::Image(context, info);
+}
+
+void draw_shadows(brume_renderer& of, const brume_frame_params& params, const planning::FramePlan& plan) {
+  const render::Renderer& renderer = *of.renderer;
+  const gpu::Scope timed(of.recording.recorder(), "shadows");
+  of.shadow_pass->record(
+      of.recording.recorder(),
+      {renderer.frame(), renderer.scene().resources().lights, renderer.scene().shadows().sun,
+       renderer.smoke().shadows(), renderer.targets().gbuffer.depth},
+      planned_lights(renderer, params, plan), of.shadows);
 }
 
 void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
           const passes::HostDepthRange& range) {
   if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
   render::Renderer& renderer = *of.renderer;
-  if (const std::uint64_t volume = input.smoke.volume->volume().id(); volume != of.shown_volume) {
+  const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
+  if (volume != of.shown_volume) {
     renderer.invalidate();
     of.shown_volume = volume;
   }
   if (params.picture.view) of.layer.reserve(params.picture.format);
+  of.has_shadows = false;
+  if (params.shadow_light_count > 0) reserve_shadows(of);
   const planning::FramePlan plan = renderer.plan(input);
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
       {VK_NULL_HANDLE, params.depth.view, VK_FORMAT_D32_SFLOAT, size_px, params.depth.layout});
   renderer.record_media_over(of.recording.recorder(), plan, {depth, range});
+  if (params.shadow_light_count > 0) {
+    draw_shadows(of, params, plan);
+    of.has_shadows = true;
+  }
   if (!params.picture.view) return;
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
@@ -91,10 +155,21 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   of.layer.record(of.recording.recorder(), renderer.media(), params.picture.exposure, picture);
 }
 
-void record(brume_renderer& of, const brume_field& field, const brume_frame_params& params) {
+void check_shadow_lights(const brume_renderer& of, const brume_frame_params& params) {
+  require(params.shadow_light_count <= BRUME_MAX_SHADOW_LIGHTS, "`shadow_light_count` must be at most 4");
+  const std::size_t lights = of.scene.lights.size() + params.light_count;
+  for (std::uint32_t i = 0; i < params.shadow_light_count; ++i)
+    if (params.shadow_lights[i] >= lights)
+      refuse("`shadow_lights` has " + std::to_string(params.shadow_lights[i]) + ", but there are " +
+             std::to_string(lights) + " lights");
+}
+
+void record(Call& call, brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
-  const planning::FrameInput input = frame_input(params, *field.field);
+  planning::FrameInput input = frame_input(params, field ? &*field->field : nullptr);
+  check_shadow_lights(of, params);
+  const ShownVolumes volumes = add_volumes(call, params, input);
   // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame;
   of.device->completed = params.completed;
@@ -104,6 +179,7 @@ void record(brume_renderer& of, const brume_field& field, const brume_frame_para
   } catch (...) {
     // What it holds may be half of what it planned: the next frame makes another.
     of.renderer.reset();
+    of.has_shadows = false;
     of.recording.end();
     throw;
   }
@@ -143,8 +219,25 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     const glm::uvec2 size_px = brume::host::checked_size(width, height);
     const std::scoped_lock lock(of.mutex, of.device->mutex);
     of.options.size_px = size_px;
+    of.shadows = {};
+    of.has_shadows = false;
     try {
       if (of.renderer) of.renderer->resize(size_px);
+    } catch (...) {
+      of.renderer.reset();
+      throw;
+    }
+  });
+}
+
+brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t march_scale) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_renderer& of = call.handle(renderer);
+    const std::uint32_t scale = brume::host::checked_scale(march_scale);
+    const std::scoped_lock lock(of.mutex, of.device->mutex);
+    of.options.smoke.march_scale = scale;
+    try {
+      if (of.renderer) of.renderer->set_march_scale(scale);
     } catch (...) {
       of.renderer.reset();
       throw;
@@ -156,10 +249,11 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
                                    const brume_frame_params* params) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     brume_renderer& of = call.handle(renderer);
-    const brume_field& from = call.handle(field);
-    const brume_frame_params frame = required_params(params);
+    const brume_field* from = field ? &call.handle(field) : nullptr;
+    const brume_frame_params frame = required_params(params, brume_frame_defaults());
     const std::scoped_lock lock(of.mutex, of.device->mutex);
-    call.read(from, [&] { brume::host::record(of, from, frame); });
+    const auto record = [&] { brume::host::record(call, of, from, frame); };
+    from ? call.read(*from, record) : record();
   });
 }
 
@@ -184,6 +278,18 @@ brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t*
       if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
       to = static_cast<std::uint32_t>(of.renderer->smoke_level());
       if (dims_less) *dims_less = of.renderer->is_smoke_missing();
+    });
+  });
+}
+
+brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
+                                    VkImageView* view) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_renderer& of = call.handle(renderer);
+    call.read(of, [&] {
+      if (!of.has_shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
+      if (image) *image = of.shadows.handle();
+      if (view) *view = of.shadows.view();
     });
   });
 }

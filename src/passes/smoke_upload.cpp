@@ -68,6 +68,7 @@ void SmokeUpload::trim(glm::ivec3 atlas_bricks) {
 }
 
 void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {
+  // Not by address: another volume may lie where one was.
   const std::uint64_t id = volume.volume().id();
   everything_ |= id != reserved_volume_;
   if ((id == reserved_volume_ && volume.structure_generation() == reserved_generation_) ||

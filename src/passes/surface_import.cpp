@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "brume_shaders.hpp"
+#include "shared/frame.h"
+#include "shared/gbuffer.h"
+#include "shared/smoke_shadow.h"
 #include "shared/surface_import.h"
 
 namespace brume::passes {
@@ -33,6 +36,27 @@ void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth
                 },
                 params_of(range, near_z, size_px));
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+}
+
+SurfaceShadowPass::SurfaceShadowPass(gpu::Context& context)
+    : pipeline_(context, shaders::surface_shadows_comp),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      linear_(context, {}) {}
+
+void SurfaceShadowPass::record(gpu::Recorder& recorder, const Inputs& in, glm::uvec4 lights,
+                               const gpu::Image& target) const {
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindLights, gpu::read(in.lights)},
+                    {shared::kBindSun, gpu::uniform(in.sun)},
+                    {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
+                    {shared::kBindSmokeShadows, gpu::sampled(in.shadows.atlas, linear_)},
+                    {shared::kBindSmokeShadowFaces, gpu::read(in.shadows.faces)},
+                    {shared::kBindSurfaceShadows, gpu::stored(target)},
+                },
+                shared::SurfaceShadowParams{lights});
+  recorder.dispatch_threads(pipeline_, target.info().size.x, target.info().size.y);
 }
 
 MediaLayerPass::MediaLayerPass(gpu::Context& context)

@@ -1,10 +1,11 @@
-// Takes over the surfaces that a host drew, and draws the media over the host's picture.
+// Takes over the surfaces that a host drew, and draws the media over the host's picture and their shadows.
 #pragma once
 
 #include <map>
 
 #include "gpu/recorder.hpp"
 #include "passes/gbuffer.hpp"
+#include "passes/smoke_shadow.hpp"
 
 namespace brume::passes {
 
@@ -27,6 +28,28 @@ class SurfaceImport {
  private:
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_;
+};
+
+/// The media's shadows on the surfaces of a host.
+class SurfaceShadowPass {
+ public:
+  explicit SurfaceShadowPass(gpu::Context& context);
+
+  struct Inputs {
+    const gpu::Buffer& frame;   ///< FrameConstants.
+    const gpu::Buffer& lights;  ///< Of the frame: SceneResources::lights.
+    const gpu::Buffer& sun;     ///< ShadowMaps::sun.
+    const SmokeShadows& shadows;
+    const gpu::Image& depth;  ///< Of GBuffer::imported.
+  };
+  /// Writes which fraction of each light arrives through the media at the surface of each pixel, 1 without a
+  /// surface or a light. `lights`: numbers in the frame's lights, kNoLight: none. `target`: half floats.
+  void record(gpu::Recorder& recorder, const Inputs& inputs, glm::uvec4 lights,
+              const gpu::Image& target) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler nearest_, linear_;
 };
 
 class MediaLayerPass {

@@ -94,7 +94,23 @@ ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::
   return input;
 }
 
+void add_glow(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
+              FrameInput& input) {
+  for (const shared::Light& light : glow_lights(options, volume, seconds, input.view.exposure))
+    input.environment.glow.push_back(light);
+}
+
 }  // namespace
+
+void add_volume(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+                const scenario::VolumeFrame& first, double seconds, FrameInput& input) {
+  input.volumes.push_back(input_of(options, volume, first, seconds));
+  add_glow(options, volume, seconds, input);
+}
+
+void sort_glow(FrameInput& input) {
+  std::ranges::stable_sort(input.environment.glow, std::greater(), &shared::Light::range);
+}
 
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
                  const FrameOptions& frame, FrameInput& input) {
@@ -108,17 +124,17 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
     const auto& slices = scenario.slices.of_volumes;
     const bool is_particles =
         frame.particles && options[i].particles > 0 && i < slices.size() && slices[i].has_value();
-    if (is_particles)
+    if (is_particles) {
       input.particles.push_back(
           particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
-    else
-      input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
-    (is_particles ? input.particles.back().index : input.volumes.back().index) = i;
-    for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
-      input.environment.glow.push_back(light);
+      input.particles.back().index = i;
+      add_glow(options[i], volumes[i], seconds, input);
+    } else {
+      add_volume(options[i], volumes[i], scenario.volumes->first_frame(i), seconds, input);
+      input.volumes.back().index = i;
+    }
   }
-  // A frame takes a limited number of them.
-  std::ranges::stable_sort(input.environment.glow, std::greater(), &shared::Light::range);
+  sort_glow(input);
 }
 
 }  // namespace brume::planning

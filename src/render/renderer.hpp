@@ -81,6 +81,8 @@ class Renderer {
   void draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then = {});
 
   const Targets& targets() const { return targets_; }
+  /// FrameConstants of the last frame.
+  const gpu::Buffer& frame() const { return frame_; }
   /// Half floats: premultiplied radiance and transmittance of the media.
   const gpu::Image& media() const { return smoke_.result(targets_); }
   /// Half floats: radiance of the picture before exposure and tone curve.

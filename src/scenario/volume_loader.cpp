@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/progress.hpp"
+#include "core/tasks.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -47,7 +48,8 @@ VolumeLoader::Results VolumeLoader::want(std::vector<Key> keys) {
     if (wanted_.empty()) return others;
   }
   changed_.notify_all();
-  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  if (!thread_.joinable())
+    thread_ = std::thread([this, log = log_of_threads(), threads = thread_count()] { run(log, threads); });
   return others;
 }
 
@@ -77,7 +79,9 @@ std::optional<VolumeLoader::Key> VolumeLoader::next() const {
   return std::nullopt;
 }
 
-void VolumeLoader::run() {
+void VolumeLoader::run(std::shared_ptr<LogSink> log, unsigned threads) {
+  const LogScope logged(log.get());
+  const ThreadCountScope counted(threads);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return ends_ || next(); });

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/log.hpp"
 #include "scenario/volume_frame.hpp"
 
 namespace brume::scenario {
@@ -33,7 +34,8 @@ class VolumeLoader {
   /// `stopped` becomes true when the result is no longer wanted: the load may then fail.
   using Load = std::function<Result<LoadedVolume>(const Key&, const std::atomic<bool>& stopped)>;
 
-  /// `load` runs in the thread, for one key after another. What it throws becomes a failure.
+  /// `load` runs in the thread, for one key after another. What it throws becomes a failure. The thread logs
+  /// and starts threads as the one that first calls `want`.
   explicit VolumeLoader(Load load) : load_(std::move(load)) {}
   /// Stops the frame that is being loaded, and waits for it; none is begun after it.
   ~VolumeLoader();
@@ -51,7 +53,7 @@ class VolumeLoader {
   Result<LoadedVolume> wait(const Key& key);
 
  private:
-  void run();
+  void run(std::shared_ptr<LogSink> log, unsigned threads);
   std::optional<Key> next() const;
 
   Load load_;

@@ -1,6 +1,7 @@
 // Errors, versions, logs and settings of the C interface.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -99,19 +100,57 @@ TEST_F(CallTest, WrongHandlesAreRejected) {
   EXPECT_EQ(brume_context_destroy(nullptr), BRUME_OK);
 }
 
-TEST_F(CallTest, StructsOfOtherSizesAreRejected) {
-  brume_world_params params = brume_world_defaults();
-  params.struct_size += 8;
+TEST_F(CallTest, StructsOfNoVersionAreRejected) {
+  // As large as the library reads, so that every size below is that of what is there.
+  struct Padded {
+    brume_world_params params = brume_world_defaults();
+    std::array<unsigned char, 4096> after{};
+  } given;
   brume_world* world = nullptr;
-  EXPECT_EQ(brume_world_create(level_.get(), &params, &world), BRUME_ERROR_ARGUMENT);
-  EXPECT_NE(std::string(brume_last_error()).find("struct_size"), std::string::npos);
-  params = brume_world_defaults();
+  const auto known = static_cast<std::uint32_t>(sizeof(brume_world_params));
+  for (const std::uint32_t size : {0u, 4u, known - 8, known - 1, known + 1, known + 4, 4104u, ~0u}) {
+    given.params.struct_size = size;
+    EXPECT_EQ(brume_world_create(level_.get(), &given.params, &world), BRUME_ERROR_ARGUMENT) << size;
+    EXPECT_EQ(std::string(brume_last_error()),
+              "brume_world_create: `struct_size` is " + std::to_string(size) + ", expected " +
+                  std::to_string(known) +
+                  ": take the defaults from the *_defaults function of the same header");
+  }
+  brume_world_params params = brume_world_defaults();
   params.next = &params;
   EXPECT_EQ(brume_world_create(level_.get(), &params, &world), BRUME_ERROR_ARGUMENT);
   EXPECT_EQ(world, nullptr);
-  brume_event event = brume_event_defaults(BRUME_EVENT_MOVE, 0);
-  event.struct_size = 0;
-  EXPECT_THROW(World(level_).append(event), Error);
+  for (const std::uint32_t size : {0u, static_cast<std::uint32_t>(sizeof(brume_event)) + 8}) {
+    brume_event event = brume_event_defaults(BRUME_EVENT_MOVE, 0);
+    event.struct_size = size;
+    EXPECT_THROW(World(level_).append(event), Error);
+  }
+}
+
+// What a caller gives whose header is newer than the library.
+TEST_F(CallTest, StructsOfLaterVersionsWorkUntilTheySetWhatIsUnknown) {
+  struct Later {
+    brume_world_params params = brume_world_defaults();
+    std::uint64_t first = 0;
+    float second = 0;
+  } later;
+  later.params.struct_size = sizeof later;
+  later.params.ticks_per_second = 30;
+  brume_world* world = nullptr;
+  ASSERT_EQ(brume_world_create(level_.get(), &later.params, &world), BRUME_OK) << brume_last_error();
+  brume_state* state = nullptr;
+  brume_state_info info{};
+  EXPECT_EQ(brume_world_state(world, &state), BRUME_OK);
+  EXPECT_EQ(brume_state_describe(state, &info), BRUME_OK);
+  EXPECT_EQ(info.ticks_per_second, 30u);
+  EXPECT_EQ(brume_state_destroy(state), BRUME_OK);
+  EXPECT_EQ(brume_world_destroy(world), BRUME_OK);
+
+  world = nullptr;
+  later.second = 0.5f;
+  EXPECT_EQ(brume_world_create(level_.get(), &later.params, &world), BRUME_ERROR_ARGUMENT);
+  EXPECT_NE(std::string(brume_last_error()).find("later version"), std::string::npos) << brume_last_error();
+  EXPECT_EQ(world, nullptr);
 }
 
 TEST_F(CallTest, NumbersOutOfRangeAreRejectedWithTheEvent) {

@@ -53,7 +53,7 @@ class Hostile {
   const std::map<std::string, std::map<int, std::uint64_t>>& results() const { return results_; }
   std::uint64_t calls() const { return calls_; }
 
- private:
+ protected:
   using Step = void (Hostile::*)();
   static const std::vector<Step>& steps();
 
@@ -151,6 +151,7 @@ class Hostile {
   std::vector<std::vector<std::uint8_t>> packets_;
   alignas(64) std::array<unsigned char, 4096> garbage_;
   std::vector<std::uint8_t> bits_;
+  alignas(8) std::array<unsigned char, 8192> struct_;  ///< The parameters of a call.
 };
 
 }  // namespace brume::api

@@ -47,12 +47,15 @@ T* Hostile::wrong_handle() {
   }
 }
 
+/// With as many bytes behind it as a struct of a later version may have: zeros or not.
 template <typename Params>
 const Params* Hostile::spoiled(Params& params) {
   if (chance(0.03)) return nullptr;
   if (chance(0.03)) params.struct_size = number(512);
+  if (chance(0.02)) params.struct_size = sizeof(Params) + 8 * below(20);
   if (chance(0.02)) params.next = garbage_.data();
-  return &params;
+  struct_.fill(chance(0.5) ? 0 : 1);
+  return new (struct_.data()) Params(params);
 }
 
 template <typename T>

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
-#include "tests/api/run_shell.hpp"
+#include "tests/api/abi.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::api {
@@ -66,6 +66,30 @@ TEST(Library, ExportsTheFunctionsOfTheHeaderAndNothingElse) {
   for (std::string name; list >> name;) listed.insert(name);
   EXPECT_EQ(exported, listed) << "a function that is removed or changes is a new SOVERSION";
   EXPECT_EQ(exported, declared());
+}
+
+TEST(Abi, IsTheOneThatIsKept) {
+  const ShellRun run = abi_difference("brume.h", "api/brume.abi");
+  EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
+}
+
+TEST(Abi, ChangesOfTheHeaderAreFound) {
+  const cli::WorkFolder folder;
+  const std::string header = *read_text_file(kInclude + "/brume/brume.h");
+  fs::create_directories(folder.path() / "brume");
+  struct Change {
+    const char *before, *after;
+  };
+  for (const auto& [before, after] :
+       {Change{"  float extinction; ", "  double extinction; "},
+        Change{"  size_t byte_count; ", "  size_t byte_count; uint32_t added; "},
+        Change{"  BRUME_HOLE_BOX = 1,", "  BRUME_HOLE_BOX = 3,"},
+        Change{"BRUME_API brume_result brume_world_step(brume_world* world) BRUME_NOEXCEPT;", ""}}) {
+    const std::size_t at = header.find(before);
+    ASSERT_NE(at, header.npos) << before;
+    folder.write("brume/brume.h", std::string(header).replace(at, std::string(before).size(), after));
+    EXPECT_NE(abi_difference("brume.h", "api/brume.abi", folder.path().string()).status, 0) << after;
+  }
 }
 
 class Package : public testing::Test {

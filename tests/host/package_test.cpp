@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
-#include "tests/api/run_shell.hpp"
+#include "tests/api/abi.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
@@ -49,6 +49,11 @@ TEST(VulkanLibrary, ExportsTheFunctionsOfBothHeadersAndNothingElse) {
   for (std::string address, type, name; lines >> address >> type >> name;)
     if (type != "A") exported.insert(name.substr(0, name.find('@')));
   EXPECT_EQ(exported, declared);
+}
+
+TEST(VulkanAbi, IsTheOneThatIsKept) {
+  const ShellRun run = api::abi_difference("brume_vulkan.h", "host/brume_vulkan.abi");
+  EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
 }
 
 class HostExample : public testing::Test {

@@ -1,113 +1,13 @@
 // The C interface of the renderer draws, in the frames of a host, what the renderer draws by itself.
-#include <cstring>
-#include <deque>
-#include <glm/gtc/packing.hpp>
+#include <cstddef>
 #include <set>
 
-#include "planning/scenario_frame.hpp"
-#include "render/renderer.hpp"
-#include "scenario/simulation.hpp"
-#include "tests/host/hosted_smoke.hpp"
+#include "tests/host/hosted_pair.hpp"
 
 namespace brume::host {
 namespace {
 
-using Texels = std::vector<std::uint64_t>;  // of half floats
-
-gpu::Buffer readback_buffer(gpu::Context& context) {
-  return {context, Texels::value_type{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-          gpu::MemoryUse::readback};
-}
-
-Texels texels_of(const gpu::Buffer& buffer) {
-  Texels texels(buffer.size() / 8);
-  std::memcpy(texels.data(), buffer.mapped(), buffer.size());
-  return texels;
-}
-
-/// The largest difference of two images of half floats.
-double most_apart(const Texels& a, const Texels& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (int half = 0; half < 4; ++half) {
-      const auto value = [&](std::uint64_t texel) {
-        return double{glm::unpackHalf1x16(static_cast<std::uint16_t>(texel >> 16 * half))};
-      };
-      most = std::max(most, std::abs(value(a[i]) - value(b[i])));
-    }
-  return most;
-}
-
-class RendererTest : public testing::Test {
- protected:
-  RendererTest() : scenario_(render::two_smokes(0.6f)) { scenario_.timeline.doors.clear(); }
-
-  void make_sides(std::size_t in_flight, std::uint32_t march_scale) {
-    host_.emplace(in_flight);
-    gpu_ = std::make_unique<gpu::Context>(host_->device());
-    recording_ = std::make_unique<gpu::HostRecording>(*gpu_);
-    simulation_ = scenario::Simulation::create(scenario_).value_or_throw();
-    smoke_ = std::make_unique<HostedSmoke>(host_->device(), scenario_, march_scale);
-  }
-  void TearDown() override {
-    if (!host_) return;
-    host_->wait();
-    smoke_.reset();
-    copies_.clear();
-    whole_.reset();
-    recording_.reset();
-    gpu_.reset();
-    for (const std::string& message : host_->take_messages()) ADD_FAILURE() << message;
-  }
-
-  /// Draws a time by the renderer itself, then by the interface over the depth of the former.
-  void draw_both(double seconds, std::uint32_t march_scale) {
-    simulation_->advance_to(seconds);
-    smoke_->advance_to(seconds);
-    EXPECT_EQ(smoke_->world.hash(), simulation_->world().state_hash());
-    host_->frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
-      recording_->begin(commands, frame, completed);
-      if (!whole_) {
-        render::RendererOptions options{.size_px = kSize};
-        options.smoke.march_scale = march_scale;
-        whole_ = std::make_unique<render::Renderer>(*gpu_, *recording_, scenario_.scene, options);
-      }
-      planning::FrameInput input = planning::frame_input(scenario_, *simulation_, seconds, holes_);
-      input.view.frame_index = static_cast<std::uint32_t>(frame);
-      whole_->record_frame(recording_->recorder(), whole_->plan(input));
-      copies_.push_back(readback_buffer(*gpu_));
-      recording_->recorder().read_back(whole_->media(), copies_.back());
-      recording_->end();
-      record_interface(commands, frame, completed, seconds);
-    });
-  }
-  void record_interface(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed,
-                        double seconds) {
-    brume_frame_params params = frame_of(scenario_, seconds);
-    params.commands = commands;
-    params.frame = frame;
-    params.completed = completed;
-    params.jitter_index = static_cast<std::uint32_t>(frame);
-    const gpu::Image& depth = whole_->targets().gbuffer.depth;
-    params.depth.view = depth.view();
-    params.depth.layout = depth.last_use.layout;
-    ASSERT_OK(brume_renderer_record(smoke_->renderer, smoke_->field.get(), &params));
-    VkImage image = VK_NULL_HANDLE;
-    ASSERT_OK(brume_renderer_smoke(smoke_->renderer, &image, nullptr));
-    copies_.push_back(readback_buffer(*gpu_));
-    host_->copy(commands, image, {kSize.x, kSize.y}, copies_.back().handle());
-  }
-
-  scenario::Scenario scenario_;
-  std::optional<gpu::HostApplication> host_;
-  std::unique_ptr<gpu::Context> gpu_;
-  std::unique_ptr<gpu::HostRecording> recording_;
-  std::unique_ptr<scenario::Simulation> simulation_;
-  std::vector<shared::Hole> holes_;
-  std::unique_ptr<render::Renderer> whole_;
-  std::unique_ptr<HostedSmoke> smoke_;
-  std::deque<gpu::Buffer> copies_;  // of each frame two: whole, interface
-};
+using RendererTest = HostedPair;
 
 TEST_F(RendererTest, DrawsWhatTheRendererDraws) {
   for (const std::uint32_t march_scale : {1u, 2u}) {
@@ -176,6 +76,63 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
   EXPECT_EQ(brume_renderer_record(nullptr, smoke_->field.get(), &params), BRUME_ERROR_HANDLE);
   EXPECT_EQ(brume_device_destroy(smoke_->device), BRUME_ERROR_ORDER);
   EXPECT_EQ(brume_renderer_smoke(smoke_->renderer, nullptr, nullptr), BRUME_ERROR_ORDER);
+}
+
+// A caller with the header of 0.1, whose struct ended before the volumes.
+TEST_F(RendererTest, DrawsTheFramesOfAnEarlierHeader) {
+  make_sides(1, 1);
+  draw_both(2.0, 1);
+  change_params_ = [](brume_frame_params& params) {
+    params.struct_size = offsetof(brume_frame_params, volumes);
+    std::memset(&params.volumes, 0xa5, sizeof params - offsetof(brume_frame_params, volumes));
+  };
+  draw_both(2.0, 1);
+  host_->wait();
+  expect_same(0);
+  expect_same(1);
+  brume_renderer_params params = brume_renderer_defaults();
+  params.struct_size = offsetof(brume_renderer_params, prepare_all);
+  params.prepare_all = ~0u;
+  brume_renderer* renderer = nullptr;
+  EXPECT_OK(brume_renderer_create(smoke_->device, &params, &renderer));
+  EXPECT_OK(brume_renderer_destroy(renderer));
+}
+
+TEST_F(RendererTest, DrawsTheSameWhereAllIsPrepared) {
+  HostedSmoke::prepares_all = true;
+  make_sides(1, 1);
+  HostedSmoke::prepares_all = false;
+  draw_both(2.0, 1);
+  ASSERT_OK(brume_renderer_set_march_scale(smoke_->renderer, 2));
+  whole_->set_march_scale(2);
+  draw_both(2.0, 2);
+  host_->wait();
+  expect_same(0);
+  expect_same(1);
+}
+
+TEST_F(RendererTest, TakesSettingsOfQuality) {
+  make_sides(2, 1);
+  draw_both(3.5, 1);
+  change_input_ = [](planning::FrameInput& input) {
+    input.quality.step_scale = 4;
+    input.quality.fine_shadows = false;
+    input.quality.light_update_fraction = 0.25f;
+  };
+  change_params_ = [](brume_frame_params& params) {
+    params.quality.step_scale = 4;
+    params.quality.no_fine_shadows = 1;
+    params.quality.light_update_fraction = 0.25f;
+  };
+  draw_both(3.5, 1);
+  whole_->set_march_scale(4);
+  ASSERT_OK(brume_renderer_set_march_scale(smoke_->renderer, 4));
+  draw_both(3.5, 1);
+  host_->wait();
+  const Texels best = expect_same(0), coarse = expect_same(1), quarter = expect_same(2);
+  EXPECT_GT(most_apart(best, coarse), 1 / 255.0);
+  EXPECT_GT(most_apart(coarse, quarter), 1 / 255.0);
+  EXPECT_EQ(brume_renderer_set_march_scale(smoke_->renderer, 3), BRUME_ERROR_ARGUMENT);
 }
 
 }  // namespace

@@ -1,0 +1,150 @@
+#include "host/volumes.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "host/frame.hpp"
+#include "planning/volume_inputs.hpp"
+
+using namespace brume::api;
+
+namespace brume::host {
+namespace {
+
+/// Of a volume's device memory: half floats.
+constexpr std::uint64_t kBrickBytes = 2 * std::uint64_t{shared::kTexelsPerBrick};
+
+std::string text_of(const char* given) {
+  return given ? given : "";
+}
+
+scene::VolumeOptions options_of(const brume_volume_params& params) {
+  scene::VolumeOptions options;
+  options.file = text_of(&required(params.file, "file"));
+  require(!options.file.empty(), "`file` is empty");
+  options.density = text_of(params.density);
+  options.heat = text_of(params.heat);
+  options.color = text_of(params.color);
+  require(is_within(params.frame_rate, 0.001f, 1000), "`frame_rate` must be from 0.001 to 1000");
+  options.frame_rate = params.frame_rate;
+  require(params.repeat <= BRUME_REPEAT_CLIP, "`repeat` must be a brume_repeat");
+  options.loop = params.repeat == BRUME_REPEAT_LOOP;
+  options.ping_pong = params.repeat == BRUME_REPEAT_PING_PONG;
+  options.clip = params.repeat == BRUME_REPEAT_CLIP;
+  return options;
+}
+
+/// A failure to load is that of the file, also where brume-vdb is missing.
+template <typename T>
+T loaded(Result<T> result) {
+  if (!result && result.failure().code == ErrorCode::no_device)
+    fail(BRUME_ERROR_DATA, result.failure().message);
+  return unwrap(std::move(result), BRUME_ERROR_DATA);
+}
+
+std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
+  auto data = std::make_shared<VolumeData>();
+  data->options = options_of(params);
+  data->wait = params.waits != 0 ? scenario::VolumeWait::until_loaded : scenario::VolumeWait::never;
+  data->volumes = loaded(scenario::Volumes::load(std::span(&data->options, 1)));
+  if (params.max_bytes > 0) {
+    scenario::VolumeRoom room;
+    room.bricks = std::min(room.bricks, params.max_bytes / kBrickBytes);
+    loaded(data->volumes->limit(room));
+  }
+  data->volumes->make_previews();
+  return data;
+}
+
+void place(const brume_shown_volume& shown, const std::string& name, scene::VolumeOptions& options) {
+  options.position_world = position(shown.position, (name + ".position").c_str());
+  const glm::dvec3 x(vec3_of(shown.x_axis)), y(vec3_of(shown.y_axis)), z(vec3_of(shown.z_axis));
+  const double lengths = glm::length(x) * glm::length(y) * glm::length(z);
+  // False for what is not a number.
+  const bool spans =
+      lengths > 1e-18 && lengths < 1e18 && std::abs(glm::dot(x, glm::cross(y, z))) > 1e-9 * lengths;
+  if (!spans) refuse(name + " must have finite axes that span space");
+  options.x_axis = glm::vec3(x);
+  options.y_axis = glm::vec3(y);
+  options.z_axis = glm::vec3(z);
+}
+
+void set_look(const brume_shown_volume& shown, const std::string& name, scene::VolumeOptions& options) {
+  const auto check = [&](bool condition, const char* expected) {
+    if (!condition) refuse(name + ": " + expected);
+  };
+  check(is_within(shown.extinction, 0, 1e6f), "`extinction` must be from 0 to 10^6");
+  options.extinction = shown.extinction;
+  options.albedo = vec3_of(shown.albedo);
+  check(is_within(options.albedo, 0, 1), "`albedo` must be from 0 to 1");
+  check(shown.anisotropy > -1 && shown.anisotropy < 1, "`anisotropy` must be above -1 and below 1");
+  options.anisotropy = shown.anisotropy;
+  check(is_within(shown.multiple_scattering, 0, 1), "`multiple_scattering` must be from 0 to 1");
+  options.multiple_scattering = shown.multiple_scattering;
+  check(is_within(shown.emission, 0, 1e6f), "`emission` must be from 0 to 10^6");
+  options.emission = shown.emission;
+  check(is_within(shown.kelvin, 1, 40000), "`kelvin` must be from 1 to 40000");
+  options.kelvin = shown.kelvin;
+  check(std::abs(shown.seconds) <= 1e6, "`seconds` must be within 10^6");
+}
+
+}  // namespace
+
+ShownVolumes add_volumes(Call& call, const brume_frame_params& params, planning::FrameInput& input) {
+  require(params.volume_count <= shared::kMaxVolumes, "at most 32 volumes");
+  if (params.volume_count > 0) required(params.volumes, "volumes");
+  std::vector<scene::VolumeOptions> options;
+  for (std::size_t i = 0; i < params.volume_count; ++i) {
+    const std::string name = "volume " + std::to_string(i);
+    options.push_back(call.handle(params.volumes[i].volume).data->options);
+    place(params.volumes[i], name, options.back());
+    set_look(params.volumes[i], name, options.back());
+  }
+  ShownVolumes shown;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    VolumeData& data = *params.volumes[i].volume->data;
+    const double seconds = params.volumes[i].seconds;
+    const std::scoped_lock lock(data.mutex);
+    shown.push_back(data.volumes->at(std::span(&options[i], 1), seconds, data.wait).front());
+    if (shown.back().frame)
+      planning::add_volume(options[i], shown.back(), data.volumes->first_frame(0), seconds, input);
+  }
+  planning::sort_glow(input);
+  return shown;
+}
+
+}  // namespace brume::host
+
+extern "C" {
+
+brume_result brume_volume_create(brume_context* context, const brume_volume_params* params,
+                                 brume_volume** volume) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_context& owner = call.handle(context);
+    required(volume, "volume");
+    create(volume, owner.settings, brume::host::load(required_params(params, brume_volume_defaults())));
+  });
+}
+
+brume_result brume_volume_destroy(brume_volume* volume) BRUME_NOEXCEPT {
+  return destroy(__func__, volume);
+}
+
+brume_result brume_volume_describe(const brume_volume* volume, brume_volume_info* info) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume::host::VolumeData& data = *call.handle(volume).data;
+    required(info, "info");
+    const std::scoped_lock lock(data.mutex);
+    const brume::scenario::VolumeFrame& first = data.volumes->first_frame(0);
+    const auto point = [](const glm::vec3& p) { return brume_point{p.x, p.y, p.z}; };
+    *info = {point(first.bounds.low),
+             point(first.bounds.high),
+             first.density.high,
+             first.heat ? 1u : 0u,
+             first.z_is_up ? 1u : 0u,
+             first.is_extinction ? 1u : 0u,
+             static_cast<std::uint32_t>(first.density.level)};
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,17 @@
+// Volumes of files in a host's frames.
+#pragma once
+
+#include "host/objects.hpp"
+#include "planning/frame_input.hpp"
+#include "scenario/volumes.hpp"
+
+namespace brume::host {
+
+/// The volumes of a frame as they are at their times: holds what FrameInput points to.
+using ShownVolumes = std::vector<scenario::VolumeAt>;
+
+/// Adds the volumes of a frame, and the light of what glows in them. Loads what they wait for. Throws a
+/// CallFailure for what brume_vulkan.h does not allow.
+ShownVolumes add_volumes(api::Call& call, const brume_frame_params& params, planning::FrameInput& input);
+
+}  // namespace brume::host

@@ -1,0 +1,284 @@
+#include "tests/host/hostile_frames.hpp"
+
+#include <cmath>
+
+namespace brume::host {
+namespace {
+
+gpu::ImageInfo image_of(VkFormat format, glm::uvec2 size, VkImageUsageFlags usage) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {size, 1};
+  info.usage = usage;
+  return info;
+}
+
+}  // namespace
+
+HostileFrames::HostileFrames(unsigned seed, std::string file)
+    : Hostile(seed),
+      gpu_(host_.device()),
+      recording_(gpu_),
+      depth_(gpu_, image_of(VK_FORMAT_R32_SFLOAT, kSize,
+                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
+      picture_(gpu_, image_of(VK_FORMAT_R16G16B16A16_SFLOAT, kSize, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
+      file_(std::move(file)) {}
+
+HostileFrames::~HostileFrames() {
+  host_.wait();
+  for (brume_volume* volume : volumes_) EXPECT_EQ(brume_volume_destroy(volume), BRUME_OK);
+  for (brume_renderer* renderer : renderers_) EXPECT_EQ(brume_renderer_destroy(renderer), BRUME_OK);
+  for (brume_device* device : devices_) EXPECT_EQ(brume_device_destroy(device), BRUME_OK);
+}
+
+void HostileFrames::begin_frame(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+  constexpr std::uint64_t kNumbers = 64;  // of each frame, for its calls
+  commands_ = commands;
+  number_ = kNumbers * frame;
+  completed_ = kNumbers * completed + kNumbers - 1;
+  has_drawn_ = false;
+  if (frame > 1) return;
+  completed_ = 0;
+  recording_.begin(commands, frame, completed);
+  recording_.recorder().clear(depth_, {});
+  gpu::Recorder::Attachments attachments;
+  attachments.colours = {&picture_};
+  recording_.recorder().begin_rendering(attachments, kSize);
+  recording_.recorder().end_rendering();
+  recording_.end();
+  host_.wait_for_compute(commands);
+}
+
+void HostileFrames::run_frames(int frames) {
+  static constexpr std::array<Step, 9> kSteps{
+      &HostileFrames::device,        &HostileFrames::renderer_create, &HostileFrames::renderer_change,
+      &HostileFrames::renderer_read, &HostileFrames::volume_create,   &HostileFrames::volume_read,
+      &HostileFrames::record,        &HostileFrames::record,          &HostileFrames::record};
+  constexpr int kStepsOfFrame = 24;
+  run(2000);  // states and fields
+  for (int i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+      begin_frame(commands, frame, completed);
+      for (int step = 0; step < kStepsOfFrame; ++step) (this->*kSteps[below(kSteps.size())])();
+    });
+    // Each frame draws over the picture of the one before.
+    host_.wait();
+    run(20);
+  }
+}
+
+float HostileFrames::within(float low, float high) {
+  return chance(0.004) ? real(3) : low + (high - low) * std::abs(std::min(real(1), 1.0f));
+}
+
+template <typename Number>
+void HostileFrames::spoil(Number& number, double probability) {
+  if (!chance(probability)) return;
+  if constexpr (std::is_floating_point_v<Number>)
+    number = static_cast<Number>(chance(0.5) ? NAN : real(1e6f));
+  else
+    number = static_cast<Number>(this->number(5));
+}
+
+void HostileFrames::device() {
+  const gpu::HostDevice& host = host_.device();
+  brume_device_params params = brume_device_defaults();
+  params.get_instance_proc_addr = chance(0.05) ? nullptr : host.get_instance_proc_addr;
+  params.instance = chance(0.05) ? VK_NULL_HANDLE : host.instance;
+  params.physical_device = chance(0.05) ? VK_NULL_HANDLE : host.physical_device;
+  params.device = chance(0.05) ? VK_NULL_HANDLE : host.device;
+  spoil(params.queue_family, 0.2);
+  if (devices_.empty() || chance(0.3)) {
+    auto out = output<brume_device*>();
+    const brume_result result = brume_device_create(handle(contexts_), spoiled(params), out.pointer());
+    if (checked("brume_device_create", result, out.untouched())) devices_.push_back(out.value());
+  }
+  read<std::uint64_t>("brume_device_memory", devices_, brume_device_memory);
+  // The first one stays: the renderers' frames are of it.
+  const bool is_last = devices_.size() > 1;
+  brume_device* one = is_last ? devices_.back() : wrong_handle<brume_device>();
+  if (checked("brume_device_destroy", brume_device_destroy(one), true) && is_last) devices_.pop_back();
+  if (renderers_.empty()) return;
+  EXPECT_FALSE(checked("brume_device_destroy", brume_device_destroy(devices_.front()), true));
+}
+
+brume_light HostileFrames::light() {
+  brume_light light = {below(3), point(9), {0, -1, 0.2f}, {1, 2, 3}, 0.2f, 0.5f};
+  spoil(light.kind);
+  spoil(light.direction.y);
+  spoil(light.intensity[1]);
+  spoil(light.inner_angle);
+  spoil(light.outer_angle);
+  return light;
+}
+
+void HostileFrames::renderer_create() {
+  if (devices_.empty() || (renderers_.size() > 1 && !chance(0.2))) return;
+  brume_renderer_params params = brume_renderer_defaults();
+  params.width = kSize.x;
+  params.height = kSize.y;
+  // Other sizes than that of the host's images only where they are refused.
+  if (chance(0.1)) params.width = chance(0.5) ? 0 : 16385;
+  if (chance(0.1)) params.height = chance(0.5) ? 0 : ~0u;
+  spoil(params.march_scale, 0.1);
+  params.temporal = below(2);
+  lights_.assign(below(3), light());
+  params.lights = chance(0.05) ? nullptr : lights_.data();
+  params.light_count = chance(0.1) ? 1025 + number(9) : lights_.size();
+  const std::array<brume_point, 3> points{point(9), point(9), point(9)};
+  const std::array<std::uint32_t, 3> indices{0, 1, chance(0.1) ? number(9) : 2};
+  params.points = chance(0.05) ? nullptr : points.data();
+  params.point_count = points.size();
+  params.indices = chance(0.05) ? nullptr : indices.data();
+  params.index_count = chance(0.1) ? 2 : 3;
+  params.masks = chance(0.1) ? handle(masks_) : nullptr;
+  auto out = output<brume_renderer*>();
+  brume_device* on = chance(0.1) ? handle(devices_) : devices_.front();
+  const brume_result result = brume_renderer_create(on, spoiled(params), out.pointer());
+  if (!checked("brume_renderer_create", result, out.untouched())) return;
+  renderers_.push_back(out.value());
+  // Of the defaults, where there were no parameters.
+  if (checked("brume_renderer_resize", brume_renderer_resize(out.value(), kSize.x, kSize.y), true) &&
+      renderers_.size() > 2) {
+    EXPECT_TRUE(checked("brume_renderer_destroy", brume_renderer_destroy(renderers_.back()), true));
+    renderers_.pop_back();
+  }
+}
+
+void HostileFrames::renderer_change() {
+  const bool is_wrong = chance(0.5);
+  const std::uint32_t width = is_wrong ? (chance(0.5) ? 0 : 16385 + number(9)) : kSize.x;
+  checked("brume_renderer_resize", brume_renderer_resize(handle(renderers_), width, kSize.y), true);
+  checked("brume_renderer_set_march_scale", brume_renderer_set_march_scale(handle(renderers_), number(5)),
+          true);
+  checked("brume_renderer_destroy", brume_renderer_destroy(wrong_handle<brume_renderer>()), true);
+}
+
+void HostileFrames::renderer_read() {
+  const auto read_image = [&](const char* name, auto function) {
+    auto image = output<VkImage>();
+    auto view = output<VkImageView>();
+    const brume_result result = function(handle(renderers_), image.pointer(), view.pointer());
+    checked(name, result, image.untouched() && view.untouched());
+  };
+  read_image("brume_renderer_smoke", brume_renderer_smoke);
+  read_image("brume_renderer_shadows", brume_renderer_shadows);
+  read_list("brume_renderer_timings", renderers_, brume_renderer_timings);
+}
+
+void HostileFrames::volume_create() {
+  if (volumes_.size() > 1 && !chance(0.2)) return;
+  brume_volume_params params = brume_volume_defaults();
+  params.file = chance(0.1) ? (chance(0.5) ? nullptr : "") : file_.c_str();
+  if (chance(0.1)) params.file = "/nowhere/%d.brv";
+  if (chance(0.1)) params.density = chance(0.5) ? "nothing" : "";
+  if (chance(0.1)) params.heat = "nothing";
+  if (chance(0.1)) params.color = "density";
+  spoil(params.frame_rate, 0.1);
+  spoil(params.repeat, 0.1);
+  params.waits = below(2);
+  params.max_bytes = chance(0.3) ? number(100000) : 0;
+  auto out = output<brume_volume*>();
+  const brume_result result = brume_volume_create(handle(contexts_), spoiled(params), out.pointer());
+  if (!checked("brume_volume_create", result, out.untouched())) return;
+  volumes_.push_back(out.value());
+  if (volumes_.size() <= 3) return;
+  EXPECT_TRUE(checked("brume_volume_destroy", brume_volume_destroy(volumes_.front()), true));
+  volumes_.erase(volumes_.begin());
+}
+
+void HostileFrames::volume_read() {
+  read<brume_volume_info>("brume_volume_describe", volumes_, brume_volume_describe);
+  checked("brume_volume_destroy", brume_volume_destroy(wrong_handle<brume_volume>()), true);
+  EXPECT_NE(brume_vulkan_features(), nullptr);
+}
+
+brume_shown_volume HostileFrames::shown_volume() {
+  brume_shown_volume shown = brume_shown_volume_defaults(handle(volumes_));
+  shown.position = point(9);
+  spoil(shown.x_axis.x);
+  if (chance(0.01)) shown.y_axis = shown.x_axis;
+  spoil(shown.z_axis.y);
+  spoil(shown.seconds);
+  spoil(shown.extinction);
+  spoil(shown.albedo[2]);
+  spoil(shown.anisotropy);
+  spoil(shown.multiple_scattering);
+  spoil(shown.emission);
+  spoil(shown.kelvin);
+  return shown;
+}
+
+void HostileFrames::spoil(brume_frame_params& params) {
+  constexpr double kRarely = 0.006;
+  for (float* value : {&params.camera.position.y,
+                       &params.camera.forward.x,
+                       &params.camera.up.z,
+                       &params.camera.vertical_fov,
+                       &params.camera.jitter_x,
+                       &params.depth.near_plane,
+                       &params.depth.far_plane,
+                       &params.picture.exposure,
+                       &params.look.albedo[0],
+                       &params.look.anisotropy,
+                       &params.look.multiple_scattering,
+                       &params.look.erosion,
+                       &params.look.noise_size,
+                       &params.look.hole_rim,
+                       &params.look.swirl,
+                       &params.look.rise,
+                       &params.ambient[2],
+                       &params.bounce,
+                       &params.quality.step_scale,
+                       &params.quality.resolve_error_scale,
+                       &params.quality.light_update_fraction,
+                       &params.quality.bounce_update_fraction})
+    spoil(*value, kRarely);
+  spoil(params.seconds, kRarely);
+  if (chance(kRarely)) params.camera.forward = {0, 0, 0};
+  if (chance(kRarely)) params.camera.up = params.camera.forward;
+  if (chance(kRarely)) params.commands = VK_NULL_HANDLE;
+  if (chance(kRarely)) params.depth.view = VK_NULL_HANDLE;
+  if (chance(0.02)) params.depth.layout = static_cast<VkImageLayout>(chance(0.5) ? 0 : number(999));
+  if (chance(0.02)) params.picture.format = static_cast<VkFormat>(number(200));
+  if (chance(0.02)) params.light_count = count(lights_.size());
+  if (chance(0.02)) params.volume_count = count(shown_.size());
+  if (chance(kRarely)) params.bounces = 17 + number(9);
+  spoil(params.shadow_lights[1], 0.02);
+  if (chance(0.02)) params.shadow_light_count = 5 + number(9);
+  // Wrong numbers of frames.
+  if (chance(0.02)) params.frame = below(2) * (params.frame - 1);
+  if (chance(0.02)) params.completed = params.frame + number(9);
+  if (chance(0.02) && params.completed > 0) params.completed = 0;
+}
+
+void HostileFrames::record() {
+  brume_frame_params params = brume_frame_defaults();
+  params.commands = commands_;
+  params.frame = ++number_;
+  params.completed = completed_;
+  params.camera.position = {within(1, 5), within(1, 3), within(5, 12)};
+  params.depth = {depth_.view(), VK_IMAGE_LAYOUT_GENERAL, 0.1f, INFINITY, 1};
+  const bool draws = !has_drawn_ && chance(0.3);
+  if (draws) params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+  lights_.clear();
+  for (std::uint32_t i = below(4); i > 0; --i) lights_.push_back(light());
+  std::erase_if(lights_,
+                [&](const brume_light& one) { return one.kind == BRUME_LIGHT_SUN && !chance(0.05); });
+  params.lights = lights_.data();
+  params.light_count = lights_.size();
+  shown_.clear();
+  for (std::uint32_t i = below(3); i > 0 && !volumes_.empty(); --i) shown_.push_back(shown_volume());
+  params.volumes = shown_.data();
+  params.volume_count = shown_.size();
+  params.shadow_light_count = lights_.empty() ? 0 : below(3);
+  params.continues = below(2);
+  params.seconds = within(0, 9);
+  spoil(params);
+  const brume_field* field = chance(0.1) ? nullptr : handle(fields_);
+  const brume_result result = brume_renderer_record(handle(renderers_), field, spoiled(params));
+  has_drawn_ |= checked("brume_renderer_record", result, true) && draws;
+}
+
+}  // namespace brume::host

@@ -1,0 +1,46 @@
+// Hostile arguments never crash the C interface of the renderer, nor reach Vulkan.
+#include <set>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "grids/files.hpp"
+#include "grids/generate.hpp"
+#include "tests/host/hostile_frames.hpp"
+#include "tests/work_folder.hpp"
+
+namespace brume::host {
+namespace {
+
+#ifdef BRUME_MANY_CALLS
+constexpr int kFrames = 300;
+#else
+constexpr int kFrames = 12;
+#endif
+
+TEST(HostileFrames, ArgumentsGiveResultsInEveryFunction) {
+  const cli::WorkFolder folder;
+  const std::string file = (folder.path() / "cloud.brv").string();
+  const grids::Grid cloud =
+      grids::generate_cloud({.kind = grids::CloudKind::sphere, .edge = 24, .voxel_size = 0.1, .radius = 1});
+  grids::save_grid_file(file, {{cloud}, {}}).value_or_throw();
+  HostileFrames hostile(1, file);
+  hostile.run_frames(kFrames);
+  for (const std::string& message : hostile.take_messages()) ADD_FAILURE() << message;
+
+  std::set<std::string> declared, called;
+  const std::string text = *read_text_file(BRUME_SOURCE_DIR "/include/brume/brume_vulkan.h");
+  for (std::size_t at = 0; (at = text.find("BRUME_API brume_result ", at)) != text.npos; ++at) {
+    const std::size_t name = at + std::string("BRUME_API brume_result ").size();
+    declared.insert(text.substr(name, text.find('(', name) - name));
+  }
+  for (const auto& [function, results] : hostile.results()) {
+    if (!declared.contains(function)) continue;
+    called.insert(function);
+    EXPECT_TRUE(results.contains(BRUME_OK)) << function;
+    EXPECT_GT(results.size(), 1u) << function;
+  }
+  EXPECT_EQ(called, declared);
+}
+
+}  // namespace
+}  // namespace brume::host
