@@ -214,7 +214,8 @@ Command add_bake(CommandLine& program) {
                      "Evaluate the formula on a Vulkan device: values differ by rounding");
   arguments.add_option("--device", options->device, "Device of --gpu by number or name (see brume devices)")
       .type_name("NAME");
-  declare_units(arguments, options->units, "numbered clouds, such as cloud_%04d.brv; it is added to the seed");
+  declare_units(arguments, options->units,
+                "numbered clouds, such as cloud_%04d.brv; it is added to the seed");
   declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] {
     run_units(arguments, options->units, *common,

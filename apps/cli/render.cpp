@@ -106,10 +106,10 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   without_limits.reference.matte = options.reference.matte;
   without_limits.samples.reset();
   const std::vector<std::string> device{"reference", exact_text(time)};
-  ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
-                         {plan.renderer.size_px, options.samples, plan.has_layers(),
-                          checkpoint_key(
-                              sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}))});
+  ReferenceFrames frames(
+      loaded.scenario, std::move(loaded.simulation), options.reference,
+      {plan.renderer.size_px, options.samples, plan.has_layers(),
+       checkpoint_key(sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}))});
   frames.set_camera(camera_before(plan, loaded));
   write(options, plan, common, film_of(loaded, {"reference"}), [&](double seconds, std::uint32_t i) {
     if (loaded.orbit) frames.set_camera(orbiting(plan, *loaded.orbit, seconds, i));

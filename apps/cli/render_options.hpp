@@ -19,7 +19,8 @@ namespace brume::cli {
 
 struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
-                                               view = "none", slice, fps = "24", raycast, mode = "realtime", shard;
+                                               view = "none", slice, fps = "24", raycast, mode = "realtime",
+                                               shard;
   SceneOptions scene;
   ReferenceOptions reference;
   std::optional<double> time, orbit, shutter;

@@ -62,9 +62,9 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
                               orbit.value_or(0), shutter.value_or(-1)})
     settings.push_back(exact_text(number));
   const bool depend = frames_depend(options);
-  for (const std::uint32_t whole : {volume_memory, samples.value_or(0), temporal ? 1u : 0u, depend ? 1u : 0u,
-                                    depend ? range.first : 0u, orbit ? range.first : 0u,
-                                    orbit ? range.last : 0u})
+  for (const std::uint32_t whole :
+       {volume_memory, samples.value_or(0), temporal ? 1u : 0u, depend ? 1u : 0u, depend ? range.first : 0u,
+        orbit ? range.first : 0u, orbit ? range.last : 0u})
     settings.push_back(std::to_string(whole));
   return {hash_of_files(files), hash_of_texts(settings), hash_of_texts(device), program_hash()};
 }
@@ -94,11 +94,10 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
   if (!part) return;
   // Frames that depend on those before are drawn from the first of the whole on, whatever the shard.
   const std::uint32_t before = frames_depend(options) ? part->first - range.first : 0;
-  write_sequence(
-      {options.output, part->first, part->last, warm_up + before,
-       sequence_key(options, film.files, film.device, range), frames_depend(options), options.resume,
-       plan.shard.count > 1},
-      common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
+  write_sequence({options.output, part->first, part->last, warm_up + before,
+                  sequence_key(options, film.files, film.device, range), frames_depend(options),
+                  options.resume, plan.shard.count > 1},
+                 common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
 }  // namespace brume::cli

@@ -184,8 +184,8 @@ void write_sequence(const SequenceSettings& settings, Outputs& outputs,
   }
   const auto is_done = [](const std::string& reason) { return reason.empty(); };
   const auto missing = count - static_cast<std::uint64_t>(std::ranges::count_if(reasons, is_done));
-  const auto end = static_cast<std::uint32_t>(
-      reasons.rend() - std::find_if_not(reasons.rbegin(), reasons.rend(), is_done));
+  const auto end = static_cast<std::uint32_t>(reasons.rend() -
+                                              std::find_if_not(reasons.rbegin(), reasons.rend(), is_done));
   if (settings.resume) print_reasons(settings.first, reasons);
   if (missing < count)
     print_on_terminal(std::to_string(count - missing) + " of " + std::to_string(count) + " frames are there");

@@ -58,10 +58,10 @@ struct SequenceSettings {
   std::filesystem::path pattern;
   std::uint32_t first = 0, last = 0;  ///< Inclusive.
   std::uint32_t warm_up = 0;          ///< Frames drawn before the first, not written; at most `first`.
-  UnitKey key;                 ///< Everything that the frames depend on, but for their numbers.
-  bool frames_depend = false;  ///< Each frame depends on those before, back to `first`.
-  bool resume = false;         ///< Skips frames that are there already.
-  bool is_shard = false;       ///< Others write the frames before and after these.
+  UnitKey key;                        ///< Everything that the frames depend on, but for their numbers.
+  bool frames_depend = false;         ///< Each frame depends on those before, back to `first`.
+  bool resume = false;                ///< Skips frames that are there already.
+  bool is_shard = false;              ///< Others write the frames before and after these.
 };
 
 /// The text of a frame that carries its key (text_of), in a PNG or an OpenEXR file.

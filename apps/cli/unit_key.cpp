@@ -88,8 +88,8 @@ void print_reasons(std::uint32_t first, const std::vector<std::string>& reasons)
     const auto end = std::find_if(begin, reasons.end(), [&](const auto& reason) { return reason != *begin; });
     const auto low = first + static_cast<std::uint64_t>(begin - reasons.begin());
     const auto high = first + static_cast<std::uint64_t>(end - reasons.begin()) - 1;
-    const std::string numbers = low == high ? " " + std::to_string(low)
-                                            : "s " + std::to_string(low) + "-" + std::to_string(high);
+    const std::string numbers =
+        low == high ? " " + std::to_string(low) : "s " + std::to_string(low) + "-" + std::to_string(high);
     if (!begin->empty()) print_note("frame" + numbers + ": " + *begin);
     begin = end;
   }

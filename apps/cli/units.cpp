@@ -128,8 +128,8 @@ Shard parse_shard(const std::string& option, const std::string& text) {
     if (number && count && *number <= *count)
       return {static_cast<std::uint32_t>(*number), static_cast<std::uint32_t>(*count)};
   }
-  throw Error(ErrorCode::usage, option + " '" + text + "': expected PART/PARTS, from 1/" +
-                                    "N to N/N, such as 3/16");
+  throw Error(ErrorCode::usage,
+              option + " '" + text + "': expected PART/PARTS, from 1/" + "N to N/N, such as 3/16");
 }
 
 std::optional<FrameRange> part_of(FrameRange range, Shard shard) {

@@ -47,9 +47,9 @@ struct Unit {
 using RunUnit = std::function<void(const Unit&, Outputs&)>;
 
 /// Runs the command once where the output has no number, otherwise for each number of the shard. The file
-/// "OUTPUT.key" beside each output says what it was made from (UnitKey, the names and hashes of the files read
-/// and written). With --resume those stay whose key, inputs and outputs are right, and the reasons for the
-/// others are printed. Throws Error, what `run` throws, and Interrupted.
+/// "OUTPUT.key" beside each output says what it was made from (UnitKey, the names and hashes of the files
+/// read and written). With --resume those stay whose key, inputs and outputs are right, and the reasons for
+/// the others are printed. Throws Error, what `run` throws, and Interrupted.
 void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
                const UnitJob& job, const RunUnit& run);
 

@@ -271,7 +271,8 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   damaged[damaged.size() / 2] ^= 1;
   folder_.write("f_3.png", damaged);
   EXPECT_EQ(drawn(whole), 3);
-  EXPECT_EQ(reasons, "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
+  EXPECT_EQ(reasons,
+            "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
@@ -343,8 +344,8 @@ TEST_F(Render, ResumesTemporalFramesExactly) {
   EXPECT_EQ(contents(folder_), expected);
 }
 
-// The frames of all shards are those of one command, whether or not they depend on those before, and their film
-// is the one that a single command encodes.
+// The frames of all shards are those of one command, whether or not they depend on those before, and their
+// film is the one that a single command encodes.
 TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
   const Arguments temporal{"--frames", "1-7", "--fps", "8", "--size", "32x18", "--temporal"};
   const Arguments orbit{"--frames", "0-4", "--fps", "8", "--size", "32x18", "--orbit", "90"};
@@ -364,8 +365,8 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
     EXPECT_EQ(run({"-o", "f_%d.png", "--resume"}), "") << "all are complete";
 
     run({"-o", "whole.mp4"});
-    const Outcome film = run_brume(folder_.path(), {"convert", "f_%d.png", "shards.mp4", "--frames",
-                                                    settings[1], "--fps", "8"});
+    const Outcome film = run_brume(
+        folder_.path(), {"convert", "f_%d.png", "shards.mp4", "--frames", settings[1], "--fps", "8"});
     EXPECT_EQ(film.exit_code, 0) << film.error;
     EXPECT_TRUE(*read_text_file(folder_.path() / "whole.mp4") ==
                 *read_text_file(folder_.path() / "shards.mp4"));

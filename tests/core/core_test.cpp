@@ -232,7 +232,8 @@ TEST(Key, TellsListsApart) {
     return hasher.digest();
   };
   // Where one value ends and the next begins counts.
-  const std::vector<std::vector<std::string>> lists{{}, {""}, {"", ""}, {"ab"}, {"a", "b"}, {"ab", ""}, {"ba"}};
+  const std::vector<std::vector<std::string>> lists{{},         {""},       {"", ""}, {"ab"},
+                                                    {"a", "b"}, {"ab", ""}, {"ba"}};
   std::set<std::string> digests;
   for (const auto& list : lists) {
     EXPECT_EQ(digest(list), digest(list));
