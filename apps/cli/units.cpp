@@ -150,7 +150,9 @@ void declare_shard(const Arguments& arguments, std::string& shard) {
 }
 
 void declare_units(const Arguments& arguments, UnitOptions& options, const std::string& numbered) {
-  arguments.add_option("--frames", options.frames, "First and last number of " + numbered).type_name("A-B");
+  arguments.add_option("--frames", options.frames, "First and last number of " + numbered)
+      .take_last()
+      .type_name("A-B");
   declare_shard(arguments, options.shard);
   arguments.add_flag("--resume", options.resume,
                      "Skip numbers whose files are complete and made from the same inputs");

@@ -131,7 +131,7 @@ void Cluster::configure(int nodes) const {
     conf << "NodeName=node" << i << " NodeHostname=" << name
          << " NodeAddr=127.0.0.1 Port=" << ports[static_cast<std::size_t>(i)]
          << " CPUs=1 RealMemory=100 State=UNKNOWN\n";
-  conf << "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n";
+  conf << "PartitionName=render Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n";
 }
 
 Cluster::Cluster(const fs::path& folder, int nodes, const std::map<int, std::string>& mounts)

@@ -60,8 +60,19 @@ TEST_F(Farm, RunsFailedShardsAgain) {
   ASSERT_EQ(run.exit_code, 0) << run.error << run.out;
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == film_alone({"--frames", "0-5", "--size", "32x18"}));
   expect_in(log(), "round 1: shard 2 on ");
-  expect_in(log(), " failed: it, its job or its node was killed\n");  // no room for the message either
+  expect_in(log(), " failed: exit code 4\n");  // there is no room for the message either
   expect_in(log(), "film.mp4 is complete after round 2\n");
+}
+
+TEST_F(Farm, CommandsOfThePageRun) {
+  int local = 0;
+  for (const auto& call : farm_calls()) {
+    if (std::find(call.begin(), call.end(), "--local") == call.end()) continue;  // slurm_test.cpp
+    const Outcome run = run_farm(folder_, quick(call, "room.toml"));
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    ++local;
+  }
+  EXPECT_GT(local, 0);
 }
 
 TEST_F(Farm, RefusesWhatCannotWork) {

@@ -1,4 +1,5 @@
 // script/farm on a cluster of four Slurm nodes, of which one is killed and one has a full disk.
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <map>
@@ -135,6 +136,16 @@ TEST_F(SlurmFarm, OneNodeIsKilledAndOneDiskIsFull) {
     EXPECT_EQ(second->last, kFrames * shard / kShards - 1);
     EXPECT_NE(second->node, "node" + std::to_string(kFull));
   }
+
+  // The commands of the page, on the nodes that remain.
+  int calls = 0;
+  for (const auto& call : farm_calls()) {
+    if (std::find(call.begin(), call.end(), "--local") != call.end()) continue;  // farm_test.cpp
+    const Outcome page = run_farm(folder_, quick(call, "room.toml"));
+    EXPECT_EQ(page.exit_code, 0) << page.error << page.out;
+    ++calls;
+  }
+  EXPECT_GT(calls, 0);
 }
 
 }  // namespace
