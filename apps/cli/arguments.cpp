@@ -332,7 +332,7 @@ bool CommandLine::parse(int argc, char** argv) {
     app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return true;
   } catch (const CLI::Success&) {
-    print_help(*command, "brume");
+    print_help(*command, app_->get_name());
     return false;
   } catch (const CLI::ParseError& error) {
     refuse(error.what(), command);
