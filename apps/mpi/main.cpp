@@ -1,11 +1,14 @@
 // brume-mpi: a picture of a volume that no single device holds. Each process has the bricks of one part
 // (volume::Parts) on its device; depths of light are summed, partial rays composited
 // (render/volume_part.hpp).
+#include <malloc.h>
 #include <mpi.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -50,7 +53,8 @@ struct Process {
 /// What a process reports, as numbers that MPI gathers.
 struct Facts {
   double load_seconds = 0, light_seconds = 0, march_seconds = 0;
-  double volume_bytes = 0, peak_bytes = 0;  ///< Bricks on the device; memory of the process.
+  /// Bricks on the device; memory of the process, once the whole is gone, and at most.
+  double volume_bytes = 0, resident_bytes = 0, peak_bytes = 0;
 };
 
 class Clock {
@@ -106,7 +110,10 @@ Subject load(const Options& options, const Process& process, cli::Outputs& outpu
   planning::FrameInput frame = planning::frame_input(scenario, *simulation, end, holes, frame_options);
   if (frame.volumes.size() != 1)
     throw Error(ErrorCode::bad_input, options.input + ": has no density to render");
+  // What refers to the scenario, which goes: there is neither smoke nor a level.
+  const shared::SmokeLook look = frame.smoke.look;
   frame.smoke = {};
+  frame.smoke.look = look;
   frame.level = {};
 
   // The part replaces the whole, which then goes.
@@ -120,6 +127,14 @@ Subject load(const Options& options, const Process& process, cli::Outputs& outpu
                       glm::dvec4(glm::dvec3(frame.view.camera.position_world), 1));
   std::vector<std::uint32_t> order = parts->order_from(eye);
   return {std::move(scenario.scene), std::move(frame), std::move(*parts), std::move(part), std::move(order)};
+}
+
+/// Memory of this process.
+double resident_bytes() {
+  ::malloc_trim(0);  // What is freed counts no more.
+  std::uint64_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
 void sum_depths(std::vector<float>& depths) {
@@ -160,12 +175,15 @@ void report(const Options& options, const Process& process, Facts own, const std
                     {"light_seconds", facts.light_seconds},
                     {"march_seconds", facts.march_seconds},
                     {"volume_bytes", static_cast<std::uint64_t>(facts.volume_bytes)},
+                    {"resident_bytes", static_cast<std::uint64_t>(facts.resident_bytes)},
                     {"peak_bytes", static_cast<std::uint64_t>(facts.peak_bytes)}});
-    char line[160];
-    std::snprintf(line, sizeof line,
-                  "process %zu: volume %.1f MiB, peak %.0f MiB, load %.2f s, light %.2f s, march %.2f s\n", i,
-                  facts.volume_bytes / (1 << 20), facts.peak_bytes / (1 << 20), facts.load_seconds,
-                  facts.light_seconds, facts.march_seconds);
+    char line[200];
+    std::snprintf(
+        line, sizeof line,
+        "process %zu: volume %.1f MiB, memory %.0f MiB, at most %.0f MiB, load %.2f s, light %.2f s, march "
+        "%.2f s\n",
+        i, facts.volume_bytes / (1 << 20), facts.resident_bytes / (1 << 20), facts.peak_bytes / (1 << 20),
+        facts.load_seconds, facts.light_seconds, facts.march_seconds);
     text += line;
   }
   if (!options.json.empty())
@@ -205,6 +223,7 @@ void render_parts(const Options& options, const Process& process, Prepared& prep
   facts.light_seconds = clock.lap();
   const render::Pixels own = prepared.renderer.march(depths);
   facts.march_seconds = clock.lap();
+  facts.resident_bytes = resident_bytes();
   facts.volume_bytes = static_cast<double>(prepared.renderer.volume_bytes());
   const render::Pixels all = composite(process, own, prepared.subject.order);
   if (process.is_first()) image::save_png(options.output, prepared.renderer.picture(all)).value_or_throw();
