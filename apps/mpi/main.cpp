@@ -287,6 +287,7 @@ int run(int argc, char** argv) {
   MPI_Bcast(&go_on, 1, MPI_INT, 0, MPI_COMM_WORLD);
   if (code != 0 || go_on == 0) return code;
   if (!process.is_first()) program.parse(argc, argv);
+  cli::set_json("brume-mpi render", options.json);
   if (process.is_first() && !options.quiet)
     set_log_callback([](LogLevel level, const std::string& line) {
       if (level == LogLevel::warning) cli::print_failure("warning: " + line);
