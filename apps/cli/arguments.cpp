@@ -259,6 +259,18 @@ bool Arguments::given(const std::string& option) const {
   return app_->count(option) > 0;
 }
 
+std::vector<std::string> Arguments::given_texts(const std::vector<std::string>& except) const {
+  std::vector<std::string> texts;
+  for (const CLI::Option* option : app_->get_options()) {
+    if (option->get_positional() || option->empty() || option->get_lnames().empty()) continue;
+    const std::string name = "--" + option->get_lnames().front();
+    if (std::find(except.begin(), except.end(), name) != except.end()) continue;
+    texts.push_back(name);
+    for (const std::string& value : option->results()) texts.push_back(value);
+  }
+  return texts;
+}
+
 void Arguments::refuse(const std::string& option, const std::string& why) const {
   if (given(option)) throw Error(ErrorCode::usage, option + ": " + why);
 }
@@ -324,7 +336,7 @@ bool CommandLine::parse(int argc, char** argv) {
     app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return true;
   } catch (const CLI::Success&) {
-    print_help(*command, "brume");
+    print_help(*command, app_->get_name());
     return false;
   } catch (const CLI::ParseError& error) {
     refuse(error.what(), command);

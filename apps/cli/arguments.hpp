@@ -56,6 +56,9 @@ class Arguments {
   bool parsed() const;
   /// Whether it gives this option, such as "--fps".
   bool given(const std::string& option) const;
+  /// All options that it gives and their values, in the order of their declarations, but for these. Without
+  /// the arguments that are no options.
+  std::vector<std::string> given_texts(const std::vector<std::string>& except) const;
   /// Throws Error (usage), "--fps: " + why, if it gives this option although it would do nothing.
   void refuse(const std::string& option, const std::string& why) const;
   std::string name() const;  ///< Of the command.

@@ -7,6 +7,7 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/units.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "grids/files.hpp"
@@ -22,6 +23,7 @@ struct BakeOptions {
   grids::CloudSettings cloud;
   std::optional<double> radius, softness;
   bool binary = false, gpu = false;
+  UnitOptions units;
 };
 
 const std::vector<std::string> kShapes{"pyroclastic", "sphere", "slab", "torus"};
@@ -135,6 +137,13 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
   print(text);
 }
 
+// What computes the numbers.
+std::vector<std::string> device_of(const BakeOptions& options) {
+  if (!options.gpu) return {};
+  const gpu::Context context(gpu::ContextOptions{options.device, false});
+  return {context.info().name, context.info().driver};
+}
+
 void add_shape_options(const Arguments& arguments, BakeOptions& options) {
   grids::CloudSettings& cloud = options.cloud;
   arguments.add_option("--edge", cloud.edge, "Voxels along each side of the cube; default 128")
@@ -205,8 +214,21 @@ Command add_bake(CommandLine& program) {
                      "Evaluate the formula on a Vulkan device: values differ by rounding");
   arguments.add_option("--device", options->device, "Device of --gpu by number or name (see brume devices)")
       .type_name("NAME");
+  declare_units(arguments, options->units,
+                "numbered clouds, such as cloud_%04d.brv; it is added to the seed");
   declare_json(arguments, options->json);
-  command.run = [options, arguments, common = command.common] { bake(*options, arguments, common->outputs); };
+  command.run = [options, arguments, common = command.common] {
+    run_units(arguments, options->units, *common,
+              {"", "-o", options->output, kind_of(options->output), device_of(*options)},
+              [&](const Unit& unit, Outputs& outputs) {
+                if (unit.number && options->shape != kShapes.front())
+                  arguments.refuse("--frames", "is for the shape pyroclastic: others have no seed");
+                BakeOptions one = *options;
+                one.output = unit.output;
+                one.cloud.seed += unit.number.value_or(0);
+                bake(one, arguments, outputs);
+              });
+  };
   return command;
 }
 

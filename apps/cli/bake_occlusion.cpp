@@ -6,6 +6,8 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/targets.hpp"
+#include "apps/cli/units.hpp"
 #include "bake/occlusion.hpp"
 #include "core/log.hpp"
 #include "scene/load.hpp"
@@ -21,6 +23,7 @@ struct OcclusionBake {
   bake::OcclusionOptions options;
   bake::OcclusionCurve curve;
   AtlasOptions atlas;
+  UnitOptions units;
 };
 
 /// Planes face up and down: a tile is one of them, seen from above.
@@ -166,9 +169,18 @@ Command add_bake_occlusion(CommandLine& program) {
   arguments.add_option("INPUT", bake->input, "Meshes (.glb, .gltf, .obj, .txt)").required().type_name("");
   declare_atlas_options(arguments, bake->atlas);
   add_bake_options(arguments, *bake);
+  declare_units(arguments, bake->units, "numbered files, such as pose_%04d.glb");
   declare_json(arguments, bake->json);
   command.run = [bake, arguments, common = command.common] {
-    bake_occlusion(*bake, arguments, common->outputs);
+    expect_suffix("-o", bake->atlas.output, {".png", ".exr"});
+    run_units(arguments, bake->units, *common,
+              {bake->input, "-o", bake->atlas.output, target_file_kind(bake->atlas.output), {}},
+              [&](const Unit& unit, Outputs& outputs) {
+                OcclusionBake one = *bake;
+                one.input = unit.input;
+                one.atlas.output = unit.output;
+                bake_occlusion(one, arguments, outputs);
+              });
   };
   return command;
 }

@@ -7,6 +7,8 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/targets.hpp"
+#include "apps/cli/units.hpp"
 #include "apps/cli/volumes.hpp"
 #include "bake/coverage.hpp"
 #include "core/log.hpp"
@@ -20,6 +22,7 @@ namespace {
 struct SliceOptions {
   std::string input, size, box, channels, json;
   AtlasOptions atlas;
+  UnitOptions units;
 };
 
 /// What goes into one channel.
@@ -235,6 +238,7 @@ Command add_bake_slices(CommandLine& program) {
       program, "bake slices", "Writes the slices of closed meshes or of a volume as tiles of an image.",
       "  brume bake slices scenes/thruster/thruster.glb -o thruster.png --channels ring:r,beam:g\n"
       "  brume bake slices smoke.vdb -o smoke.exr --preset unreal\n"
+      "  brume bake slices smoke_%04d.vdb -o slices_%04d.png --frames 0-1 --resume\n"
       "  brume bake slices room.glb -o room.png --size 64x32x64 --layout square --bits 16");
   auto options = std::make_shared<SliceOptions>();
   const Arguments& arguments = command.arguments;
@@ -259,8 +263,19 @@ Command add_bake_slices(CommandLine& program) {
           "--box", options->box,
           "Lowest and highest corner of what is baked [m]; default: all, of meshes with a voxel around")
       .type_name("POINTS");
+  declare_units(arguments, options->units, "numbered files, such as smoke_%04d.vdb");
   declare_json(arguments, options->json);
-  command.run = [options, common = command.common] { bake_slices(*options, common->outputs); };
+  command.run = [options, arguments, common = command.common] {
+    expect_suffix("-o", options->atlas.output, {".png", ".exr"});
+    run_units(arguments, options->units, *common,
+              {options->input, "-o", options->atlas.output, target_file_kind(options->atlas.output), {}},
+              [&](const Unit& unit, Outputs& outputs) {
+                SliceOptions one = *options;
+                one.input = unit.input;
+                one.atlas.output = unit.output;
+                bake_slices(one, outputs);
+              });
+  };
   return command;
 }
 

@@ -15,6 +15,7 @@
 #include "apps/cli/parse.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/tanks.hpp"
+#include "apps/cli/units.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "palettes/choice.hpp"
@@ -35,6 +36,7 @@ struct SpheresBake {
   std::uint32_t seed = 0;
   std::optional<double> time_limit;
   spheres::PackOptions options;
+  UnitOptions units;
 };
 
 /// The names of a choice, as scenes have them.
@@ -226,10 +228,18 @@ Command add_bake_spheres(CommandLine& program) {
   const Arguments& arguments = command.arguments;
   arguments.add_option("-o,--output", bake->output, "Tank to write (.spheres)").required().type_name("FILE");
   add_spheres_options(arguments, *bake);
+  declare_units(arguments, bake->units, "numbered tanks, such as tank_%04d.spheres; it is added to the seed");
   declare_json(arguments, bake->json);
   command.run = [bake, arguments, common = command.common] {
     bake->has_count = arguments.given("--count");
-    bake_spheres(*bake, arguments, common->outputs);
+    run_units(arguments, bake->units, *common, {"", "-o", bake->output, FileKind::spheres, {}},
+              [&](const Unit& unit, Outputs& outputs) {
+                if (unit.number) arguments.refuse("--time-limit", "is for a single tank");
+                SpheresBake one = *bake;
+                one.output = unit.output;
+                one.seed += unit.number.value_or(0);
+                bake_spheres(one, arguments, outputs);
+              });
   };
   return command;
 }

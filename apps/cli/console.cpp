@@ -220,6 +220,10 @@ void print_failure(const std::string& message) {
   print_to_error("brume: " + message);
 }
 
+void print_note(const std::string& line) {
+  if (!g_quiet) print_to_error("brume: " + line);
+}
+
 void print_on_terminal(const std::string& line) {
   if (shows_progress()) print_to_error(line);
 }

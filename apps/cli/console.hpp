@@ -59,6 +59,9 @@ void claim_end();
 /// Prints one line, "brume: ...", to standard error, below any progress line.
 void print_failure(const std::string& message);
 
+/// Prints one line, "brume: ...", to standard error, below any progress line, unless it is --quiet.
+void print_note(const std::string& line);
+
 /// Prints a line to standard error, below any progress line, if that is a terminal.
 void print_on_terminal(const std::string& line);
 

@@ -3,10 +3,12 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/convert_film.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/tanks.hpp"
+#include "apps/cli/units.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
@@ -20,8 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ConvertOptions {
-  std::string input, output, json;
+  std::string input, output, json, fps = "24";
   std::vector<std::string> grids;
+  UnitOptions units;
 };
 
 FileKind kind_of(const fs::path& path) {
@@ -90,40 +93,69 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
   print(text);
 }
 
+void convert_one(ConvertOptions options, const Arguments& arguments, const Unit& unit, Outputs& outputs) {
+  options.input = unit.input;
+  options.output = unit.output;
+  const std::string suffix = scene::lower_extension(options.output);
+  const bool is_volume = suffix == kVdb || suffix == kNvdb || suffix == kBrv || suffix == kJson;
+  if (is_volume || !spheres::is_tank_file(options.input)) return convert(options, outputs);
+  arguments.refuse("--grid", "is for volumes");
+  convert_tank(options.input, options.output, options.json, outputs);
+}
+
+FileKind output_kind(const fs::path& path) {
+  const std::string suffix = scene::lower_extension(path);
+  return suffix == ".obj" ? FileKind::obj : suffix == ".ply" ? FileKind::ply : kind_of(path);
+}
+
+void refuse_idle_for_film(const Arguments& arguments) {
+  for (const char* option : {"--shard", "--resume"})
+    arguments.refuse(option, "a film is a single output; remove the option");
+  for (const char* option : {"--grid", "--json"}) arguments.refuse(option, "is for volumes");
+}
+
 }  // namespace
 
 Command add_convert(CommandLine& program) {
   Command command = declare(
       program, "convert",
-      "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases and tanks, too.",
+      "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json), tanks, and numbered frames to films.",
       "  brume convert smoke.vdb smoke.brv\n"
       "  brume convert atlas.json smoke.vdb\n"
       "  brume convert smoke.vdb density.json --grid density\n"
-      "  brume convert tank.spheres tank.ply");
+      "  brume convert tank.spheres tank.ply\n"
+      "  brume convert smoke_%04d.vdb smoke_%04d.brv --frames 0-1 --resume\n"
+      "  brume convert frame_%04d.png film.mp4 --frames 0-1");
   auto options = std::make_shared<ConvertOptions>();
   const Arguments& arguments = command.arguments;
   arguments
       .add_option("INPUT", options->input,
-                  "Volume file (.vdb, .nvdb, .brv, .json of a raw array or slice atlas) or tank (.spheres)")
+                  "Volume file (.vdb, .nvdb, .brv, .json of a raw array or slice atlas), tank (.spheres), or "
+                  "frames (.png with %04d)")
       .required()
       .type_name("");
   arguments
       .add_option(
           "OUTPUT", options->output,
           "Volume file to write; a .json file describes the .raw file written beside it. Of a tank, meshes "
-          "(.obj) or points (.ply)")
+          "(.obj) or points (.ply); of frames, a film (.mp4). With %04d: one file for each of the input")
       .required()
       .type_name("");
   arguments.add_option("--grid", options->grids, "Convert only the grids of this name; repeatable")
       .take_all()
       .type_name("NAME");
+  arguments.add_option("--fps", options->fps, "Frames per second of a film; default 24").type_name("F");
+  declare_units(arguments, options->units, "numbered files, such as smoke_%04d.vdb");
   declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] {
-    const std::string suffix = scene::lower_extension(options->output);
-    const bool is_volume = suffix == kVdb || suffix == kNvdb || suffix == kBrv || suffix == kJson;
-    if (is_volume || !spheres::is_tank_file(options->input)) return convert(*options, common->outputs);
-    arguments.refuse("--grid", "is for volumes");
-    convert_tank(options->input, options->output, options->json, common->outputs);
+    if (scene::lower_extension(options->output) == ".mp4") {
+      refuse_idle_for_film(arguments);
+      return convert_film({options->input, options->output, options->units.frames, options->fps}, *common);
+    }
+    arguments.refuse("--fps", "is for a film (.mp4)");
+    run_units(arguments, options->units, *common,
+              {options->input, "OUTPUT", options->output, output_kind(options->output), {}},
+              [&](const Unit& unit, Outputs& outputs) { convert_one(*options, arguments, unit, outputs); });
   };
   return command;
 }

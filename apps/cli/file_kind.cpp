@@ -92,6 +92,8 @@ const char* name_of(FileKind kind) {
       return "description of a slice atlas";
     case FileKind::checkpoint:
       return "checkpoint";
+    case FileKind::unit_key:
+      return "key of a unit";
   }
   return "";
 }
@@ -150,6 +152,8 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
                                       start.find("brume slice atlas") != std::string_view::npos);
     case FileKind::checkpoint:
       return begins_with(start, "BRUMEREF");
+    case FileKind::unit_key:
+      return begins_with(start, "BRUMEKEY");
   }
   return false;
 }

@@ -25,7 +25,8 @@ enum class FileKind {
   frame_log,
   godot_import,
   slice_atlas,  ///< The description of one.
-  checkpoint    ///< Of a reference rendering.
+  checkpoint,   ///< Of a reference rendering.
+  unit_key      ///< What a unit of many was made from.
 };
 
 /// As messages call it: ".png file", "timeline".

@@ -70,6 +70,20 @@ void Outputs::reads(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) reads(file);
 }
 
+std::vector<fs::path> Outputs::files_read() const {
+  std::vector<fs::path> files;
+  for (const auto& [identity, file] : inputs_) files.push_back(file);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> Outputs::files_written() const {
+  std::vector<fs::path> files;
+  for (const Output& output : outputs_) files.push_back(output.file);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 void Outputs::check_place(const std::string& option, const fs::path& file, const FileIdentity& identity,
                           FileKind kind) {
   if (const auto input = inputs_.find(identity); input != inputs_.end())

@@ -40,6 +40,10 @@ class Outputs {
   /// Allows replacing files of another kind.
   void set_force(bool force) { force_ = force; }
 
+  /// The files that are declared so far, sorted.
+  std::vector<std::filesystem::path> files_read() const;
+  std::vector<std::filesystem::path> files_written() const;
+
   /// Declares files that the command reads. Throws Error (usage) if one is an output.
   void reads(const std::filesystem::path& file);
   void reads(const std::vector<std::filesystem::path>& files);

@@ -5,6 +5,7 @@
 
 #include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/unit_key.hpp"
 #include "core/progress.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/motion.hpp"
@@ -83,7 +84,7 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
 
 std::vector<std::string> texts_of(const ReferenceOptions& options) {
   const auto text = [](const auto& number) {
-    return number ? scene::shown(static_cast<double>(*number)) : std::string();
+    return number ? exact_text(static_cast<double>(*number)) : std::string();
   };
   return {text(options.noise), text(options.time_limit), text(options.max_bounces), text(options.clamp),
           options.matte ? "matte" : ""};

@@ -105,10 +105,11 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   without_limits.reference = {};  // A checkpoint knows the limits itself.
   without_limits.reference.matte = options.reference.matte;
   without_limits.samples.reset();
-  const std::vector<std::string> device{"reference", scene::shown(time)};
-  ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
-                         {plan.renderer.size_px, options.samples, plan.has_layers(),
-                          sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {})});
+  const std::vector<std::string> device{"reference", exact_text(time)};
+  ReferenceFrames frames(
+      loaded.scenario, std::move(loaded.simulation), options.reference,
+      {plan.renderer.size_px, options.samples, plan.has_layers(),
+       checkpoint_key(sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}))});
   frames.set_camera(camera_before(plan, loaded));
   write(options, plan, common, film_of(loaded, {"reference"}), [&](double seconds, std::uint32_t i) {
     if (loaded.orbit) frames.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
@@ -172,11 +173,8 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
   set_shutter(options, plan, loaded.scenario);
-  if (plan.kind == TargetKind::sequence && !plan.frames) {
-    const FrameRange range = frames_of(plan, duration_of(loaded));
-    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
-                                 range.last);
-  }
+  if (plan.kind == TargetKind::sequence && !plan.frames)
+    declare_frames(options, plan, frames_of(plan, duration_of(loaded)), common.outputs);
   common.outputs.reads(scenario::files_of(loaded.scenario));
   stop_if_interrupted();
   warn_of_times(options, plan, duration_of(loaded));

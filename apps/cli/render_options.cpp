@@ -18,8 +18,7 @@ void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outp
   const FileKind kind = target_file_kind(options.output);
   if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(options.output), kind);
   // Without --frames the timeline decides how many there are.
-  if (plan.kind == TargetKind::sequence && plan.frames)
-    outputs.writes_frames("-o", options.output, kind, plan.frames->first, plan.frames->last);
+  if (plan.kind == TargetKind::sequence && plan.frames) declare_frames(options, plan, *plan.frames, outputs);
   if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
 }
 
@@ -54,7 +53,8 @@ void refuse_idle(const Arguments& arguments, const RenderOptions& options, const
   }
   if (options.orbit == 0.0) arguments.refuse("--orbit", "0 degrees are no turn; give 360 for a full one");
   if (plan.kind != TargetKind::sequence)
-    arguments.refuse("--resume", "requires numbered frames, such as -o f_%04d.png");
+    for (const char* option : {"--resume", "--shard"})
+      arguments.refuse(option, "requires numbered frames, such as -o f_%04d.png");
   if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
   if (plan.has_layers())
     arguments.refuse("--view", "is for .png and .mp4; an .exr file has layers of its own");
@@ -141,6 +141,11 @@ void declare_view(const Arguments& arguments, RenderOptions& options) {
 
 }  // namespace
 
+void declare_frames(const RenderOptions& options, const Plan& plan, FrameRange range, Outputs& outputs) {
+  if (const auto part = part_of(range, plan.shard))
+    outputs.writes_frames("-o", options.output, target_file_kind(options.output), part->first, part->last);
+}
+
 Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs) {
   Plan plan;
   plan.kind = target_kind(options.output);
@@ -163,6 +168,7 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
+  if (!options.shard.empty()) plan.shard = parse_shard("--shard", options.shard);
   refuse_idle(arguments, options, plan);
   if (plan.kind == TargetKind::film &&
       (plan.renderer.size_px.x % 2 != 0 || plan.renderer.size_px.y % 2 != 0)) {
@@ -192,6 +198,7 @@ void declare_render(const Arguments& arguments, RenderOptions& options) {
       .type_name("A-B");
   arguments.add_flag("--resume", options.resume,
                      "Continue numbered frames: skip those that are complete and made from the same inputs");
+  declare_shard(arguments, options.shard);
   arguments.add_option("--fps", options.fps, "Frames per second, such as 23.976 or 24000/1001; default 24")
       .take_last()
       .type_name("F");

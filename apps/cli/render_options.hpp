@@ -10,6 +10,7 @@
 #include "apps/cli/reference.hpp"
 #include "apps/cli/scene_options.hpp"
 #include "apps/cli/targets.hpp"
+#include "apps/cli/units.hpp"
 #include "passes/debug_view.hpp"
 #include "render/renderer.hpp"
 #include "scenario/first_view.hpp"
@@ -18,7 +19,8 @@ namespace brume::cli {
 
 struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
-                                               view = "none", slice, fps = "24", raycast, mode = "realtime";
+                                               view = "none", slice, fps = "24", raycast, mode = "realtime",
+                                               shard;
   SceneOptions scene;
   ReferenceOptions reference;
   std::optional<double> time, orbit, shutter;
@@ -35,6 +37,7 @@ struct Plan {
   std::optional<scene::Camera> camera;
   scenario::FirstViewOptions scene;
   std::optional<FrameRange> frames;
+  Shard shard;
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;
   FrameRate rate;
@@ -47,6 +50,9 @@ void declare_render(const Arguments& arguments, RenderOptions& options);
 /// Parses the options and declares the files that are known before any is read. Throws Error (usage) for what
 /// contradicts itself or would do nothing.
 Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs);
+
+/// Declares those of the frames of a sequence that the command writes.
+void declare_frames(const RenderOptions& options, const Plan& plan, FrameRange range, Outputs& outputs);
 
 inline bool is_reference(const RenderOptions& options) {
   return options.mode == "reference";

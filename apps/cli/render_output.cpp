@@ -1,6 +1,5 @@
 #include "apps/cli/render_output.hpp"
 
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -47,40 +46,32 @@ std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
 
 }  // namespace
 
-std::uint64_t sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
-                           const std::vector<std::string>& device, const FrameRange& range) {
+UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
+                     const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice,
-               fps, raycast, mode, scene_options, reference, time, orbit, shutter, samples, temporal, resume,
-               step, light_update_fraction, resolve_error_scale, volume_memory] = options;
-
-  // Files.
-  files.insert(files.end(), {timeline, "/proc/self/exe"});
+               fps, raycast, mode, shard, scene_options, reference, time, orbit, shutter, samples, temporal,
+               resume, step, light_update_fraction, resolve_error_scale, volume_memory] = options;
+  files.push_back(timeline);
   if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
-  std::uint64_t key = 0;
-  for (const std::filesystem::path& file : files) {
-    stop_if_interrupted();
-    const auto bytes = file.empty() ? std::vector<std::byte>() : read_file(file).value_or_throw();
-    key = hash_bytes(bytes, key);
-  }
 
-  // RenderOptions and device.
-  std::vector<std::string> texts{size, march, camera, view, slice, fps, raycast, mode};
-  for (const auto& more : {device, texts_of(scene_options), texts_of(reference)})
-    texts.insert(texts.end(), more.begin(), more.end());
-  for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
-  const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
-  key = hash_values(std::span<const float>(numbers), key);
-  const std::array<double, 2> real{orbit.value_or(0), shutter.value_or(-1)};
-  key = hash_values(std::span<const double>(real), key);
-  const std::array<std::uint32_t, 7> whole{volume_memory,
-                                           samples.value_or(0),
-                                           temporal ? 1u : 0u,
-                                           frames_depend(options) ? 1u : 0u,
-                                           frames_depend(options) ? range.first : 0u,
-                                           orbit ? range.first : 0u,
-                                           orbit ? range.last : 0u};
-  return hash_values(std::span<const std::uint32_t>(whole), key);
+  std::vector<std::string> settings{size, march, camera, view, slice, fps, raycast, mode};
+  for (const auto& more : {texts_of(scene_options), texts_of(reference)})
+    settings.insert(settings.end(), more.begin(), more.end());
+  for (const double number : {double{step}, double{light_update_fraction}, double{resolve_error_scale},
+                              orbit.value_or(0), shutter.value_or(-1)})
+    settings.push_back(exact_text(number));
+  const bool depend = frames_depend(options);
+  for (const std::uint32_t whole :
+       {volume_memory, samples.value_or(0), temporal ? 1u : 0u, depend ? 1u : 0u, depend ? range.first : 0u,
+        orbit ? range.first : 0u, orbit ? range.last : 0u})
+    settings.push_back(std::to_string(whole));
+  return {hash_of_files(files), hash_of_texts(settings), hash_of_texts(device), program_hash()};
+}
+
+std::uint64_t checkpoint_key(const UnitKey& key) {
+  const std::string text = text_of(key, 0);
+  return hash_bytes(std::as_bytes(std::span(text)));
 }
 
 void write(const RenderOptions& options, const Plan& plan, CommonOptions& common, const Film& film,
@@ -99,10 +90,14 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
                [&](std::uint32_t i) { return std::get<image::Image8>(draw(plan.rate.time_of(i), i)); });
     return;
   }
-  write_sequence(
-      {options.output, range.first, range.last, warm_up, plan.renderer.size_px,
-       sequence_key(options, film.files, film.device, range), frames_depend(options), options.resume},
-      common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
+  const auto part = part_of(range, plan.shard);
+  if (!part) return;
+  // Frames that depend on those before are drawn from the first of the whole on, whatever the shard.
+  const std::uint32_t before = frames_depend(options) ? part->first - range.first : 0;
+  write_sequence({options.output, part->first, part->last, warm_up + before,
+                  sequence_key(options, film.files, film.device, range), frames_depend(options),
+                  options.resume, plan.shard.count > 1},
+                 common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
 }  // namespace brume::cli

@@ -9,6 +9,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/render_options.hpp"
+#include "apps/cli/unit_key.hpp"
 
 namespace brume::cli {
 
@@ -33,9 +34,10 @@ double picture_time(const RenderOptions& options, double duration);
 /// Times behind the end of a timeline show its end.
 void warn_of_times(const RenderOptions& options, const Plan& plan, double end);
 
-/// A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
-/// the options, the device and the program.
-std::uint64_t sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
-                           const std::vector<std::string>& device, const FrameRange& range);
+/// Everything that a frame of a sequence depends on, but for its number.
+UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
+                     const std::vector<std::string>& device, const FrameRange& range);
+/// The same for the checkpoint of a picture.
+std::uint64_t checkpoint_key(const UnitKey& key);
 
 }  // namespace brume::cli

@@ -98,9 +98,9 @@ Json render_by_paths(const TankJob& job) {
           settings.samples = samples;
           if (job.options.reference.noise) settings.noise = static_cast<float>(*job.options.reference.noise);
           reference::Render render(reference::tank_trace(model), settings);
-          const std::vector<std::string> texts{"reference", scene::shown(seconds)};
+          const std::vector<std::string> texts{"reference", exact_text(seconds)};
           add_samples(render, job.options.reference, samples,
-                      sequence_key(without_limits, job.film({}).files, texts, {}));
+                      checkpoint_key(sequence_key(without_limits, job.film({}).files, texts, {})));
           drawn += render.samples();
           if (job.plan.has_layers()) return render.layers();
           planning::View view;
@@ -125,11 +125,8 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
   if (plan.scene.tone) scenario.scene.tone = *plan.scene.tone;
   stop_if_interrupted();
   const TankJob job{options, plan, common, scenario};
-  if (plan.kind == TargetKind::sequence && !plan.frames) {
-    const FrameRange range = frames_of(plan, job.duration());
-    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
-                                 range.last);
-  }
+  if (plan.kind == TargetKind::sequence && !plan.frames)
+    declare_frames(options, plan, frames_of(plan, job.duration()), common.outputs);
   warn_of_times(options, plan, job.duration());
 
   const Json frames = is_reference(options) ? render_by_paths(job) : render_on_device(job);

@@ -1,9 +1,8 @@
 #include "apps/cli/targets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +12,6 @@
 #include "apps/cli/console.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/hash.hpp"
 #include "core/progress.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
@@ -58,40 +56,46 @@ std::optional<NamePattern> parse_name(const std::string& name) {
   return pattern;
 }
 
-// Names what the frame was made from.
-image::ImageText frame_text(std::uint64_t key, std::uint32_t frame) {
-  const std::array<std::uint64_t, 2> parts{key, frame};
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(hash_values(std::span<const std::uint64_t>(parts))));
-  return {"Brume frame", text};
+image::ImageText frame_text(const UnitKey& key, std::uint32_t frame) {
+  return {kFrameKeyword, text_of(key, frame)};
 }
 
-// Whether a PNG has a text and a size, and decodes.
-bool is_png_frame(std::span<const std::byte> bytes, const image::ImageText& text, glm::uvec2 size_px) {
-  if (image::find_png_text(bytes, text.keyword) != text.text) return false;
-  const auto image = image::decode_image(bytes, "");
-  return image && image->width == size_px.x && image->height == size_px.y;
-}
-
-bool is_exr_frame(std::span<const std::byte> bytes, const image::ImageText& text, glm::uvec2 size_px) {
+// Its text of a key; nothing: it has none or is no image.
+std::optional<std::string> found_text(std::span<const std::byte> bytes, bool is_exr) {
+  if (!is_exr) return image::find_png_text(bytes, kFrameKeyword);
   const auto parts = image::decode_exr_parts(bytes, "");
-  if (!parts || parts->size() != 1) return false;
-  const image::ExrPart& part = parts->front();
-  const bool made_from_it = std::any_of(part.texts.begin(), part.texts.end(), [&](const image::ImageText& t) {
-    return t.keyword == text.keyword && t.text == text.text;
-  });
-  return made_from_it && part.width == size_px.x && part.height == size_px.y &&
-         static_cast<bool>(image::decode_exr(bytes, ""));
+  if (!parts || parts->size() != 1) return std::nullopt;
+  for (const image::ImageText& text : parts->front().texts)
+    if (text.keyword == kFrameKeyword) return text.text;
+  return std::nullopt;
 }
 
-// Whether the file of the frame is complete and made from the same inputs.
-bool is_frame(const SequenceSettings& settings, std::uint32_t frame) {
-  const auto bytes = read_file(sequence_name(settings.pattern, frame));
-  if (!bytes) return false;
-  const image::ImageText text = frame_text(settings.key, frame);
-  return target_file_kind(settings.pattern) == FileKind::exr ? is_exr_frame(*bytes, text, settings.size_px)
-                                                             : is_png_frame(*bytes, text, settings.size_px);
+bool is_truncated(std::span<const std::byte> bytes, bool is_exr, const std::string& failure) {
+  if (is_exr) return failure.find("truncated") != std::string::npos;
+  constexpr std::string_view kEnd = "IEND\xae\x42\x60\x82";
+  return bytes.size() < kEnd.size() ||
+         std::memcmp(bytes.data() + bytes.size() - kEnd.size(), kEnd.data(), kEnd.size()) != 0;
+}
+
+// Why the file of the frame is not complete or made from other inputs; empty: it is the frame.
+std::string reason_of(const SequenceSettings& settings, std::uint32_t frame) {
+  const std::filesystem::path file = sequence_name(settings.pattern, frame);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return "missing";
+  const auto bytes = read_file(file);
+  if (!bytes) return "unreadable";
+  const bool is_exr = target_file_kind(settings.pattern) == FileKind::exr;
+  const auto text = found_text(*bytes, is_exr);
+  const std::string fault = difference(text.value_or(""), settings.key, frame);
+  if (text && !fault.empty()) return fault;
+  std::string failure;
+  if (is_exr) {
+    if (const auto image = image::decode_exr(*bytes, ""); !image) failure = image.failure().message;
+  } else {
+    if (const auto image = image::decode_image(*bytes, ""); !image) failure = image.failure().message;
+  }
+  if (!failure.empty()) return is_truncated(*bytes, is_exr, failure) ? "truncated" : "damaged";
+  return fault;
 }
 
 }  // namespace
@@ -171,15 +175,18 @@ void write_sequence(const SequenceSettings& settings, Outputs& outputs,
                     const std::function<Picture(std::uint32_t)>& draw) {
   // What is there already.
   const std::uint32_t count = settings.last - settings.first + 1;
-  std::vector<bool> done(count);
-  outputs.set_frames_depend(settings.frames_depend);
+  std::vector<std::string> reasons(count, "to do");
+  outputs.set_frames_depend(settings.frames_depend || settings.is_shard);
   for (std::uint32_t i = 0; settings.resume && i < count; ++i) {
     stop_if_interrupted();
-    done[i] = is_frame(settings, settings.first + i);
-    if (done[i]) outputs.frame_done(settings.first + i);
+    reasons[i] = reason_of(settings, settings.first + i);
+    if (reasons[i].empty()) outputs.frame_done(settings.first + i);
   }
-  const auto missing = static_cast<std::uint64_t>(std::count(done.begin(), done.end(), false));
-  const auto end = static_cast<std::uint32_t>(done.rend() - std::find(done.rbegin(), done.rend(), false));
+  const auto is_done = [](const std::string& reason) { return reason.empty(); };
+  const auto missing = count - static_cast<std::uint64_t>(std::ranges::count_if(reasons, is_done));
+  const auto end = static_cast<std::uint32_t>(reasons.rend() -
+                                              std::find_if_not(reasons.rbegin(), reasons.rend(), is_done));
+  if (settings.resume) print_reasons(settings.first, reasons);
   if (missing < count)
     print_on_terminal(std::to_string(count - missing) + " of " + std::to_string(count) + " frames are there");
 
@@ -193,9 +200,10 @@ void write_sequence(const SequenceSettings& settings, Outputs& outputs,
   for (std::uint32_t i = 0; i < end; ++i) {
     stop_if_interrupted();
     const std::uint32_t frame = settings.first + i;
-    if (done[i] && !settings.frames_depend) continue;
+    const bool done = is_done(reasons[i]);
+    if (done && !settings.frames_depend) continue;
     const Picture picture = draw(frame);
-    if (done[i]) continue;
+    if (done) continue;
     save_picture(sequence_name(settings.pattern, frame), picture, frame_text(settings.key, frame));
     outputs.frame_done(frame);
     progress.advance();

@@ -10,6 +10,7 @@
 
 #include "apps/cli/number.hpp"
 #include "apps/cli/outputs.hpp"
+#include "apps/cli/unit_key.hpp"
 #include "image/image.hpp"
 
 namespace brume::cli {
@@ -57,15 +58,18 @@ struct SequenceSettings {
   std::filesystem::path pattern;
   std::uint32_t first = 0, last = 0;  ///< Inclusive.
   std::uint32_t warm_up = 0;          ///< Frames drawn before the first, not written; at most `first`.
-  glm::uvec2 size_px{0};
-  std::uint64_t key = 0;       ///< Hash of everything that the frames depend on, but for their numbers.
-  bool frames_depend = false;  ///< Each frame depends on those before, back to `first`.
-  bool resume = false;         ///< Skips frames that are there already.
+  UnitKey key;                        ///< Everything that the frames depend on, but for their numbers.
+  bool frames_depend = false;         ///< Each frame depends on those before, back to `first`.
+  bool resume = false;                ///< Skips frames that are there already.
+  bool is_shard = false;              ///< Others write the frames before and after these.
 };
 
-/// Draws the frames and writes each as a file, with progress. A frame carries the hash of key and number as
-/// its text "Brume frame". With `resume` those with the right hash and size that decode without an error
-/// are skipped; all others are written again. The result is the same byte for byte. Throws as write_film
+/// The text of a frame that carries its key (text_of), in a PNG or an OpenEXR file.
+inline constexpr const char* kFrameKeyword = "Brume frame";
+
+/// Draws the frames and writes each as a file, with progress. A frame carries its key. With `resume` those of
+/// the right key that decode without an error are skipped; all others are written again, and the reasons are
+/// printed. The result is the same byte for byte. Throws as write_film
 /// does: the frames that were finished stay, and `outputs` knows them.
 void write_sequence(const SequenceSettings& settings, Outputs& outputs,
                     const std::function<Picture(std::uint32_t)>& draw);

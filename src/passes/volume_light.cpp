@@ -18,7 +18,8 @@ gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std
   info.format = format;
   info.size = {edge * side_by_side, edge, edge * count};
   info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   return gpu::Image(context, info);
 }
 
@@ -48,17 +49,23 @@ bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32
   return true;
 }
 
-void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
-                             const planning::VolumeLightPlan& plan) {
+void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
+                                    const planning::VolumeLightPlan& plan) {
   if (!plan.update || plan.sweeps.empty()) return;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   recorder.upload(sweeps_, 0, std::as_bytes(std::span(plan.sweeps)));
   const std::uint32_t is_alone = plan.is_alone ? 1 : 0;
   const shared::VolumeLightParams sun{plan.sun_edge, 0, 1, plan.sun, is_alone};
-  const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, is_alone};
   const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, is_alone};
-  record_sweeps(recorder, in, sun, sun_depths_, count);
-  record_sweeps(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
+  record_sweep(recorder, in, sun, sun_depths_, count);
+  record_sweep(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
+}
+
+void VolumeLightPass::record_light(gpu::Recorder& recorder, const Inputs& in,
+                                   const planning::VolumeLightPlan& plan) {
+  if (!plan.update || plan.sweeps.empty()) return;
+  const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
+  const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, plan.is_alone ? 1u : 0u};
   const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.casters & kLightMedia);
   recorder.bind(light_pipeline,
                 {
@@ -89,9 +96,9 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
   recorder.dispatch_threads(light_pipeline, plan.edge, plan.edge, plan.edge * count);
 }
 
-void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
-                                    const shared::VolumeLightParams& params, const gpu::Image& depths,
-                                    std::uint32_t sweeps) {
+void VolumeLightPass::record_sweep(gpu::Recorder& recorder, const Inputs& in,
+                                   const shared::VolumeLightParams& params, const gpu::Image& depths,
+                                   std::uint32_t sweeps) {
   const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.casters & kSweepMedia);
   recorder.bind(pipeline,
                 {

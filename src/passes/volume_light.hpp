@@ -29,15 +29,19 @@ class VolumeLightPass {
   /// Makes room for the light of a plan. True when the light of earlier frames is lost. Outside of a
   /// recording, once the device has finished previous ones. Throws resource_limit.
   bool reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters);
-  /// Where the plan updates.
-  void record(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
+  // Where the plan updates:
+  /// The optical depths along the sun and the axes.
+  void record_sweeps(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
+  /// The cubes of light, from these depths.
+  void record_light(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
   /// The cubes of all volumes in view.
   const gpu::Image& light() const { return light_; }
   const gpu::Image& sun_depths() const { return sun_depths_; }
+  const gpu::Image& sky_depths() const { return sky_depths_; }
 
  private:
-  void record_sweeps(gpu::Recorder& recorder, const Inputs& in, const shared::VolumeLightParams& params,
-                     const gpu::Image& depths, std::uint32_t sweeps);
+  void record_sweep(gpu::Recorder& recorder, const Inputs& in, const shared::VolumeLightParams& params,
+                    const gpu::Image& depths, std::uint32_t sweeps);
 
   gpu::Context& context_;
   gpu::Sampler linear_, compare_;

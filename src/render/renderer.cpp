@@ -237,6 +237,22 @@ void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int p
   if (part == 2) record_image(recorder, plan, in);
 }
 
+void Renderer::record_sweeps(gpu::Recorder& recorder, const FramePlan& plan) {
+  const FrameResources in = resources(plan);
+  record_until_sweeps(recorder, plan, in, nullptr);
+  scope(recorder, "sweeps", [&] { smoke_.record_volume_sweeps(recorder, plan, in); });
+}
+
+void Renderer::record_rays(gpu::Recorder& recorder, const FramePlan& plan) {
+  const FrameResources in = resources(plan);
+  scope(recorder, "volume_light", [&] { smoke_.record_volume_light(recorder, plan, in); });
+  record_media(recorder, plan, in);
+}
+
+void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan) {
+  record_image(recorder, plan, resources(plan));
+}
+
 void Renderer::record_media_over(gpu::Recorder& recorder, const FramePlan& plan,
                                  const HostSurfaces& surfaces) {
   const FrameResources in = resources(plan);
@@ -255,6 +271,15 @@ void Renderer::record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, c
 /// What later frames rely on, too: everything that the plan's history counts as updated.
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                             const HostSurfaces* host) {
+  record_until_sweeps(recorder, plan, in, host);
+  scope(recorder, "volume_light", [&] {
+    smoke_.record_volume_sweeps(recorder, plan, in);
+    smoke_.record_volume_light(recorder, plan, in);
+  });
+}
+
+void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                                   const HostSurfaces* host) {
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
   scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
@@ -266,7 +291,6 @@ void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, cons
           {smoke_.resources(), smoke_.holes().cells, smoke_.noise(), smoke_.lit_volumes()});
     });
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
-  scope(recorder, "volume_light", [&] { smoke_.record_volume_light(recorder, plan, in); });
 }
 
 void Renderer::record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

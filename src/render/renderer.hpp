@@ -73,6 +73,11 @@ class Renderer {
   /// omitted: then the targets hold nothing of use, and the next frame does not continue a film.
   void record_part(gpu::Recorder& recorder, const FramePlan& plan, int part);
   static constexpr int kParts = 3;
+  /// The same frame of a part of a volume, of which other renderers have the others (VolumePartRenderer):
+  /// first the optical depths of its light, then its light and rays, then the picture.
+  void record_sweeps(gpu::Recorder& recorder, const FramePlan& plan);
+  void record_rays(gpu::Recorder& recorder, const FramePlan& plan);
+  void record_picture(gpu::Recorder& recorder, const FramePlan& plan);
   /// Records the media of the last plan in front of a host's surfaces: media(). Where
   /// RendererOptions::media_alone.
   void record_media_over(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& surfaces);
@@ -120,6 +125,8 @@ class Renderer {
   void record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host);
   void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                     const HostSurfaces* host);
+  void record_until_sweeps(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                           const HostSurfaces* host);
   void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);

@@ -162,14 +162,26 @@ void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, co
   }
 }
 
-void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& plan,
-                                     const FrameResources& in) {
+template <typename Record>
+void SmokeFrame::with_volume_light_inputs(const FramePlan& plan, const FrameResources& in, Record record) {
   const passes::VolumeResources volumes = volume_upload_.lit_resources();
   const passes::LevelLight level = in.scene.level();
-  volume_light_pass_.record(recorder,
-                            {in.frame, plan.media.casters, in.scene.resources(), in.scene.shadows(), level,
-                             resources(), holes(), volumes},
-                            plan.volume_light);
+  record(passes::VolumeLightPass::Inputs{in.frame, plan.media.casters, in.scene.resources(),
+                                         in.scene.shadows(), level, resources(), holes(), volumes});
+}
+
+void SmokeFrame::record_volume_sweeps(gpu::Recorder& recorder, const FramePlan& plan,
+                                      const FrameResources& in) {
+  with_volume_light_inputs(plan, in, [&](const auto& inputs) {
+    volume_light_pass_.record_sweeps(recorder, inputs, plan.volume_light);
+  });
+}
+
+void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& plan,
+                                     const FrameResources& in) {
+  with_volume_light_inputs(plan, in, [&](const auto& inputs) {
+    volume_light_pass_.record_light(recorder, inputs, plan.volume_light);
+  });
 }
 
 SmokeFrame::March SmokeFrame::march_of(const FrameResources& in) const {

@@ -82,6 +82,9 @@ class SmokeFrame {
   void record_density(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   /// The smoke's shadows on surfaces, and the light in it.
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The light in the volumes: their sweeps, then the rest.
+  void record_volume_sweeps(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                            const FrameResources& in);
   void record_volume_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
                            const FrameResources& in);
   /// The rays of pixels or of tiles.
@@ -100,6 +103,8 @@ class SmokeFrame {
   const passes::SmokeResources& resources() const { return smoke_upload_.resources(); }
   /// The volumes as light is found in them.
   passes::VolumeResources lit_volumes() const { return volume_upload_.lit_resources(); }
+  /// What the light in the volumes is found from.
+  const passes::VolumeLightPass& volume_light() const { return volume_light_pass_; }
   /// The tile of its noise, from the first frame with smoke on.
   const gpu::Image& noise() const { return noise_; }
   const passes::HoleResources& holes() const { return hole_clusters_.resources(); }
@@ -119,6 +124,9 @@ class SmokeFrame {
   };
   void make_noise();
   void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// Calls `record` with what the light in the volumes is found from.
+  template <typename Record>
+  void with_volume_light_inputs(const planning::FramePlan& plan, const FrameResources& in, Record record);
   passes::SmokeLightPass::Inputs light_inputs(const planning::FramePlan& plan,
                                               const FrameResources& in) const;
   March march_of(const FrameResources& in) const;

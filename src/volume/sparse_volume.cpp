@@ -133,6 +133,11 @@ void SparseVolume::set_bounds(glm::vec3 low, glm::vec3 high) {
   bounds_max_ = high;
 }
 
+void SparseVolume::set_extent(const SparseVolume& whole) {
+  set_bounds(whole.layout().bounds_min, whole.layout().bounds_max);
+  extent_.assign(whole.boxes().begin(), whole.boxes().end());
+}
+
 void SparseVolume::end_update() {
   BRUME_ASSERT(updating_, "no update has begun");
   layout_.bounds_min = bounds_min_;
@@ -155,7 +160,8 @@ void SparseVolume::end_update() {
 void SparseVolume::find_boxes() {
   if (structure_changed_ && pages_.root_changed()) node_boxes_ = pages_.groups(kMaxBoxes);
   constexpr int kNodeVoxels = shared::kNodeBricks * shared::kBrickVoxels;
-  boxes_.clear();
+  boxes_ = extent_;
+  if (!extent_.empty()) return;
   for (const Box<int>& nodes : node_boxes_)
     boxes_.push_back(intersection({glm::vec3(kNodeVoxels * nodes.low), glm::vec3(kNodeVoxels * nodes.high)},
                                   Box<float>{layout_.bounds_min, layout_.bounds_max}));

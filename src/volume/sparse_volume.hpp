@@ -82,6 +82,8 @@ class SparseVolume {
   void mark_dirty(ChannelId channel, std::uint32_t slot);
   /// Where anything can be [voxel space]: layout().bounds_min and bounds_max, from the end of the update on.
   void set_bounds(glm::vec3 low, glm::vec3 high);
+  /// Bounds and boxes are those of another volume, from the end of the update on: this one is a part of it.
+  void set_extent(const SparseVolume& whole);
   /// Publishes layout, dirty slots and revision. The atlas grows to slot_count() bricks and never shrinks.
   void end_update();
 
@@ -190,6 +192,7 @@ class SparseVolume {
   glm::vec3 bounds_min_{0}, bounds_max_{0};
   std::vector<Box<int>> node_boxes_;
   std::vector<Box<float>> boxes_;
+  std::vector<Box<float>> extent_;  ///< Boxes of what this is a part of; empty: of nothing.
   PageTable pages_;
   std::vector<Slot> slots_;
   std::set<std::uint32_t> free_slots_;  // those of slots_ that no brick has

@@ -37,6 +37,9 @@ void make_quick(Arguments& call) {
     });
     if (film) call.insert(call.end(), {"--frames", "0-1"});
   }
+  const bool numbered =
+      std::ranges::any_of(call, [](const std::string& word) { return word.find("%04d") != word.npos; });
+  if (numbered && (call[0] == "convert" || call[0] == "bake")) call.insert(call.end(), {"--frames", "0-1"});
   if (is_atlas_bake(call) && call[1] == "occlusion") {
     const auto rays = std::find(call.begin(), call.end(), "--rays");
     if (rays == call.end())
@@ -82,6 +85,10 @@ Documents::Documents() {
 }
 
 void Documents::provide(const std::string& word) const {
+  if (const std::size_t number = word.find("%04d"); number != std::string::npos) {
+    for (const char* digits : {"0000", "0001"}) provide(std::string(word).replace(number, 4, digits));
+    return;
+  }
   const std::filesystem::path path = folder_.path() / word;
   if (std::filesystem::path(word).is_absolute() || std::filesystem::exists(path)) return;
   std::filesystem::create_directories(path.parent_path());

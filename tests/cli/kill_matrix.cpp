@@ -31,6 +31,7 @@ std::string old_file(const fs::path& name) {
   if (extension == ".exr") return "\x76\x2f\x31\x01old";
   if (extension == ".brv") return "BRUMEBRVold";
   if (extension == ".spheres") return "BRUMESPHold";
+  if (extension == ".key") return "BRUMEKEY old";
   if (extension == ".mp4")
     return "\0\0\0\x08"
            "ftypold"s;
@@ -67,6 +68,9 @@ std::vector<WritingCommand> writing_commands() {
       {{"bake", "occlusion", "room.obj", "-o", "out/a.png", "--size", "8x8x8", "--rays", "16", "--separate"}},
       {{"bake", "spheres", "-o", "out/a.spheres", "--size", "50x50x50", "--count", "500", "--radius", "1-5",
         "--json", "out/a.json"}},
+      {{"bake", "spheres", "-o", "out/t_%d.spheres", "--size", "50x50x50", "--count", "500", "--radius",
+        "1-5", "--frames", "1-3"},
+       true},
       {{"info", "room.obj", "--json", "out/a.json"}},
       {{"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2", "--json", "out/a.json"}},
       {{"palettes", "sea", "-o", "out/a.png", "--json", "out/a.json"}},

@@ -240,7 +240,7 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
   const Outcome run = render(again, interrupt);
   ASSERT_EQ(run.exit_code, 6) << run.error;
   const std::size_t there = folder_.files().size() - 2;
-  EXPECT_EQ(run.error, "brume: interrupted; " + std::to_string(there) +
+  EXPECT_EQ(run.error, "brume: frames 4-9: missing\nbrume: interrupted; " + std::to_string(there) +
                            " of 8 frames written; continue with --resume or --frames " +
                            std::to_string(2 + there) + "-9\n");
 
@@ -253,9 +253,11 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
 
 TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-3", "--size", "32x18", "--resume", "--json", "-"};
+  std::string reasons;
   const auto drawn = [&](const Arguments& arguments) {
     const Outcome run = render(arguments);
     EXPECT_EQ(run.exit_code, 0) << run.error;
+    reasons = run.error;
     return nlohmann::json::parse(run.out)["frames"].get<int>();
   };
   EXPECT_EQ(drawn(whole), 4);
@@ -269,16 +271,20 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   damaged[damaged.size() / 2] ^= 1;
   folder_.write("f_3.png", damaged);
   EXPECT_EQ(drawn(whole), 3);
+  EXPECT_EQ(reasons,
+            "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
   Arguments other = whole;
   other.insert(other.end(), {"--step", "2"});
   EXPECT_EQ(drawn(other), 4);
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings\n");
   EXPECT_EQ(drawn(whole), 4);
   EXPECT_EQ(contents(folder_), expected);
   folder_.write("room.obj", room_obj() + "# changed\n");
   EXPECT_EQ(drawn(whole), 4);
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs\n");
   EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
 }
 
@@ -336,6 +342,65 @@ TEST_F(Render, ResumesTemporalFramesExactly) {
   again.push_back("--resume");
   ASSERT_EQ(render(again).exit_code, 0);
   EXPECT_EQ(contents(folder_), expected);
+}
+
+// The frames of all shards are those of one command, whether or not they depend on those before, and their
+// film is the one that a single command encodes.
+TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
+  const Arguments temporal{"--frames", "1-7", "--fps", "8", "--size", "32x18", "--temporal"};
+  const Arguments orbit{"--frames", "0-4", "--fps", "8", "--size", "32x18", "--orbit", "90"};
+  for (const Arguments& settings : {temporal, orbit}) {
+    const auto run = [&](Arguments arguments) {
+      arguments.insert(arguments.end(), settings.begin(), settings.end());
+      const Outcome outcome = render(arguments);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+      return outcome.error;
+    };
+    run({"-o", "f_%d.png"});
+    const auto expected = contents(folder_);
+    for (const auto& [name, bytes] : expected)
+      if (name.starts_with("f_")) std::filesystem::remove(folder_.path() / name);
+    for (const char* shard : {"3/3", "1/3", "2/3"}) run({"-o", "f_%d.png", "--shard", shard});
+    EXPECT_EQ(contents(folder_), expected);
+    EXPECT_EQ(run({"-o", "f_%d.png", "--resume"}), "") << "all are complete";
+
+    run({"-o", "whole.mp4"});
+    const Outcome film = run_brume(
+        folder_.path(), {"convert", "f_%d.png", "shards.mp4", "--frames", settings[1], "--fps", "8"});
+    EXPECT_EQ(film.exit_code, 0) << film.error;
+    EXPECT_TRUE(*read_text_file(folder_.path() / "whole.mp4") ==
+                *read_text_file(folder_.path() / "shards.mp4"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      if (entry.path().extension() != ".obj" && entry.path().extension() != ".toml")
+        std::filesystem::remove(entry.path());
+  }
+}
+
+TEST_F(Render, AFilmIsMadeOfTheFramesOfOneCommand) {
+  const Arguments whole{"-o", "f_%d.png", "--frames", "0-2", "--size", "32x18"};
+  ASSERT_EQ(render(whole).exit_code, 0);
+  Arguments other{"-o", "f_%d.png", "--frames", "1-1", "--size", "32x18", "--step", "2"};
+  ASSERT_EQ(render(other).exit_code, 0);
+  const Arguments film{"convert", "f_%d.png", "film.mp4", "--frames", "0-2"};
+  expect_failure(folder_, film, 3, {"f_1.png", "of other settings than f_0.png", "--resume"});
+  other[5] = "16x18";
+  ASSERT_EQ(render(other).exit_code, 0);
+  expect_failure(folder_, film, 3, {"f_1.png", "of another size than f_0.png"});
+  std::filesystem::remove(folder_.path() / "f_1.png");
+  expect_failure(folder_, film, 3, {"f_1.png"});
+  ASSERT_EQ(render({"-o", "f_%d.png", "--frames", "0-2", "--size", "32x18", "--resume"}).exit_code, 0);
+  EXPECT_EQ(run_brume(folder_.path(), film).exit_code, 0);
+  expect_failure(folder_, {"convert", "f_0.png", "film.mp4", "--frames", "0-2"}, 2, {"f_%04d.png"});
+  expect_failure(folder_, {"convert", "f_%d.png", "film.mp4"}, 2, {"--frames"});
+  expect_failure(folder_, {"convert", "f_%d.png", "film.mp4", "--frames", "0-2", "--shard", "1/2"}, 2,
+                 {"--shard"});
+}
+
+TEST_F(Render, ShardsAreOfNumberedFrames) {
+  for (const char* shard : {"0/2", "3/2", "1", "1/", "/2", "1.5/2", "1/0", "a/b", "1/2000000"})
+    expect_failure(folder_, {"render", "room.toml", "-o", "f_%d.png", "--shard", shard}, 2,
+                   {"--shard", shard, "3/16"});
+  expect_failure(folder_, {"render", "room.toml", "-o", "a.mp4", "--shard", "1/2"}, 2, {"numbered frames"});
 }
 
 TEST_F(Render, FilmOnAFullDisk) {

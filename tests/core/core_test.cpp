@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/checked.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/key.hpp"
 #include "core/progress.hpp"
 #include "core/similar.hpp"
 #include "core/tasks.hpp"
@@ -221,6 +223,39 @@ TEST(Hash, DependsOnBytesAndSeed) {
   const std::vector<std::uint32_t> a{1, 2, 3}, b{1, 2, 4};
   EXPECT_NE(hash_values<std::uint32_t>(a), hash_values<std::uint32_t>(b));
   EXPECT_NE(hash_values<std::uint32_t>(a), hash_values<std::uint32_t>(a, 1));
+}
+
+TEST(Key, TellsListsApart) {
+  const auto digest = [](const std::vector<std::string>& values) {
+    KeyHasher hasher;
+    for (const std::string& value : values) hasher.add(value);
+    return hasher.digest();
+  };
+  // Where one value ends and the next begins counts.
+  const std::vector<std::vector<std::string>> lists{{},         {""},       {"", ""}, {"ab"},
+                                                    {"a", "b"}, {"ab", ""}, {"ba"}};
+  std::set<std::string> digests;
+  for (const auto& list : lists) {
+    EXPECT_EQ(digest(list), digest(list));
+    EXPECT_EQ(digest(list).size(), 32u);
+    digests.insert(digest(list));
+  }
+  EXPECT_EQ(digests.size(), lists.size());
+}
+
+TEST_F(FileTest, KeysOfFilesAreThoseOfTheirContents) {
+  // Longer than one part, and no multiple of it.
+  std::string text(3'000'001, 'a');
+  text.back() = 'b';
+  ASSERT_TRUE(write_file_atomic(folder_ / "a", text));
+  KeyHasher of_text, of_file, missing;
+  of_text.add(text);
+  std::size_t parts = 0;
+  ASSERT_TRUE(of_file.add_file(folder_ / "a", [&] { ++parts; }));
+  EXPECT_EQ(of_file.digest(), of_text.digest());
+  EXPECT_GT(parts, 1u);
+  EXPECT_FALSE(missing.add_file(folder_ / "b"));
+  EXPECT_FALSE(missing.add_file(folder_));
 }
 
 }  // namespace

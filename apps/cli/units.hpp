@@ -1,0 +1,56 @@
+// Commands on many numbered files, each of which is a unit of work: --frames, --shard and --resume.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/parse.hpp"
+
+namespace brume::cli {
+
+/// Part `number` of `count`, from 1.
+struct Shard {
+  std::uint32_t number = 1, count = 1;
+};
+/// "3/16". Throws Error (usage).
+Shard parse_shard(const std::string& option, const std::string& text);
+/// The units of a shard, which are neighbours: the shards of a range are disjoint, cover it, and differ by at
+/// most one unit. Nothing where there are fewer units than shards.
+std::optional<FrameRange> part_of(FrameRange range, Shard shard);
+
+void declare_shard(const Arguments& arguments, std::string& shard);
+
+struct UnitOptions {
+  std::string frames, shard;
+  bool resume = false;
+};
+/// Declares --frames, --shard and --resume. `numbered` is what requires them: "a numbered OUTPUT, such as
+/// smoke_%04d.brv".
+void declare_units(const Arguments& arguments, UnitOptions& options, const std::string& numbered);
+
+/// What a command does many times.
+struct UnitJob {
+  std::string input;          ///< With %d or %04d if the output has one; empty: none.
+  std::string output_option;  ///< "-o", or "OUTPUT" for an argument.
+  std::string output;
+  FileKind kind = FileKind::json;   ///< Of the output.
+  std::vector<std::string> device;  ///< Names of what computes it.
+};
+struct Unit {
+  std::optional<std::uint32_t> number;  ///< Nothing: it is the only one.
+  std::string input, output;
+};
+using RunUnit = std::function<void(const Unit&, Outputs&)>;
+
+/// Runs the command once where the output has no number, otherwise for each number of the shard. The file
+/// "OUTPUT.key" beside each output says what it was made from (UnitKey, the names and hashes of the files
+/// read and written). With --resume those stay whose key, inputs and outputs are right, and the reasons for
+/// the others are printed. Throws Error, what `run` throws, and Interrupted.
+void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
+               const UnitJob& job, const RunUnit& run);
+
+}  // namespace brume::cli

@@ -1,0 +1,162 @@
+// Bakes and conversions of many numbered files: --frames, --shard and --resume.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Arguments = std::vector<std::string>;
+using Files = std::map<std::string, std::string>;
+
+class Units : public testing::Test {
+ protected:
+  Outcome run(Arguments arguments, const Arguments& more = {}) const {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_brume(folder_.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return outcome;
+  }
+  /// The files whose names begin so.
+  Files files(const std::string& start) const {
+    Files files;
+    for (const std::string& name : folder_.files())
+      if (name.starts_with(start)) files[name] = read_text_file(folder_.path() / name).value_or_throw();
+    return files;
+  }
+  void remove(const std::string& start) const {
+    for (const auto& [name, bytes] : files(start)) fs::remove(folder_.path() / name);
+  }
+  /// Clouds cloud_1.brv to cloud_3.brv.
+  void make_clouds() const {
+    run({"bake", "pyroclastic", "-o", "cloud_%d.brv", "--edge", "16", "--frames", "1-3"});
+  }
+
+  const Arguments tanks_{"bake", "spheres",  "-o",  "tank_%02d.spheres", "--size", "20x20x20", "--count",
+                         "20",   "--radius", "1-3", "--frames",          "3-7"};
+  const Arguments slices_{"bake", "slices", "cloud_%d.brv", "-o", "s_%d.png", "--frames", "1-3"};
+  WorkFolder folder_;
+};
+
+// The shards cover all units, each once, and differ by at most one unit.
+TEST_F(Units, OfAllShardsAreThoseOfTheWhole) {
+  run(tanks_);
+  const Files whole = files("tank_");
+  ASSERT_EQ(whole.size(), 10u) << "five tanks and their keys";
+  EXPECT_NE(whole.at("tank_03.spheres"), whole.at("tank_04.spheres")) << "each has a seed of its own";
+  for (const int count : {2, 3, 7}) {
+    remove("tank_");
+    std::size_t before = 0;
+    for (int number = count; number >= 1; --number) {
+      run(tanks_, {"--shard", std::to_string(number) + "/" + std::to_string(count)});
+      const std::size_t now = files("tank_").size() / 2, units = now - before;
+      EXPECT_GE(units, static_cast<std::size_t>(5 / count));
+      EXPECT_LE(units, static_cast<std::size_t>((5 + count - 1) / count));
+      before = now;
+    }
+    EXPECT_EQ(before, 5u);
+    EXPECT_EQ(files("tank_"), whole) << count;
+  }
+}
+
+TEST_F(Units, AnAdditionToTheSeedNumbersThem) {
+  run(tanks_);
+  Arguments one(tanks_.begin(), tanks_.end() - 2);
+  one[3] = "one.spheres";
+  run(one, {"--seed", "5"});
+  EXPECT_EQ(*read_text_file(folder_.path() / "one.spheres"), files("tank_").at("tank_05.spheres"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "one.spheres.key"));
+}
+
+TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
+  make_clouds();
+  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frames 1-3: missing\n");
+  const Files whole = files("s_");
+  ASSERT_EQ(whole.size(), 9u) << "an image, a description and a key each";
+  const Outcome nothing = run(slices_, {"--resume"});
+  EXPECT_EQ(nothing.out + nothing.error, "");
+
+  // Every file of a unit counts.
+  const auto check = [&](const std::string& reasons) {
+    EXPECT_EQ(run(slices_, {"--resume"}).error, reasons);
+    EXPECT_EQ(files("s_"), whole);
+    EXPECT_EQ(run(slices_, {"--resume"}).error, "");
+  };
+  fs::remove(folder_.path() / "s_1.json");
+  folder_.write("s_2.json", whole.at("s_1.json"));
+  folder_.write("s_3.png", whole.at("s_3.png").substr(0, 40));
+  check("brume: frame 1: missing\nbrume: frames 2-3: damaged\n");
+  fs::remove(folder_.path() / "s_2.png.key");
+  folder_.write("s_3.png.key", whole.at("s_1.png.key"));
+  check("brume: frame 2: without a key\nbrume: frame 3: of another number\n");
+  folder_.write("s_1.png.key", whole.at("s_1.png.key").substr(0, 30));
+  folder_.write("s_3.png.key", "BRUMEKEY");
+  check("brume: frame 1: of other settings, another program\nbrume: frame 3: without a key\n");
+
+  // Inputs by their contents, not by their times.
+  const Files clouds = files("cloud_");
+  folder_.write("cloud_1.brv", clouds.at("cloud_1.brv"));
+  check("");
+  folder_.write("cloud_2.brv", clouds.at("cloud_1.brv"));
+  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frame 2: of other inputs\n");
+  EXPECT_EQ(files("s_").at("s_2.png"), whole.at("s_1.png"));
+  folder_.write("cloud_2.brv", clouds.at("cloud_2.brv"));
+  check("brume: frame 2: of other inputs\n");
+  EXPECT_EQ(run(slices_, {"--resume", "--padding", "1"}).error, "brume: frames 1-3: of other settings\n");
+}
+
+TEST_F(Units, ConversionsOfASequence) {
+  make_clouds();
+  const Arguments convert{"convert", "cloud_%d.brv", "c_%02d.nvdb", "--frames", "1-3"};
+  run(convert, {"--shard", "1/2"});
+  EXPECT_EQ(run(convert, {"--resume"}).error, "brume: frames 2-3: missing\n");
+  run({"convert", "cloud_2.brv", "alone.nvdb"});
+  EXPECT_EQ(files("c_").at("c_02.nvdb"), files("alone").at("alone.nvdb"));
+  EXPECT_EQ(files("c_").size(), 6u);
+}
+
+TEST_F(Units, OcclusionOfPoses) {
+  for (const char* name : {"pose_0.obj", "pose_1.obj"}) folder_.write(name, room_obj());
+  run({"bake", "occlusion", "pose_%d.obj", "-o", "ao_%d.png", "--size", "4x4x4", "--rays", "2", "--frames",
+       "0-1"});
+  const Files made = files("ao_");
+  ASSERT_EQ(made.size(), 6u);
+  EXPECT_EQ(made.at("ao_0.png"), made.at("ao_1.png"));
+}
+
+TEST_F(Units, AFailureNamesItsUnitAndKeepsTheOthers) {
+  make_clouds();
+  fs::remove(folder_.path() / "cloud_2.brv");
+  const Outcome stopped = run_brume(folder_.path(), slices_);
+  EXPECT_EQ(stopped.exit_code, 6);
+  EXPECT_NE(stopped.error.find("cloud_2.brv: cannot open"), std::string::npos) << stopped.error;
+  EXPECT_NE(stopped.error.find("1 of 3 frames written; continue with --resume\n"), std::string::npos)
+      << stopped.error;
+  make_clouds();
+  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frames 2-3: missing\n");
+}
+
+TEST_F(Units, RefusesWhatIsNotNumbered) {
+  make_clouds();
+  const auto refuse = [&](const Arguments& arguments, const std::vector<std::string>& parts) {
+    expect_failure(folder_, arguments, 2, parts);
+  };
+  refuse({"convert", "cloud_1.brv", "c_%d.vdb", "--frames", "1-3"}, {"c_%d.vdb", "INPUT"});
+  refuse({"convert", "cloud_%d.brv", "c_%d.vdb"}, {"--frames"});
+  refuse({"convert", "cloud_1.brv", "c.vdb", "--shard", "1/2"}, {"--shard", "c", "number"});
+  refuse({"convert", "cloud_1.brv", "c.vdb", "--resume"}, {"--resume"});
+  refuse({"convert", "cloud_%d.brv", "cloud_%d.brv", "--frames", "1-3"}, {"is the input"});
+  refuse({"bake", "sphere", "-o", "ball_%d.brv", "--frames", "0-1"}, {"pyroclastic"});
+  refuse({"bake", "spheres", "-o", "t_%d.spheres", "--frames", "0-1", "--time-limit", "1"}, {"--time-limit"});
+  refuse({"bake", "spheres", "-o", "t_%d.spheres", "--frames", "0-1", "--json", "r.json"}, {"--json"});
+  refuse({"bake", "slices", "cloud_%d.brv", "-o", "s_%d.png", "--frames", "1-2", "--shard", "0/2"}, {"0/2"});
+}
+
+}  // namespace
+}  // namespace brume::cli

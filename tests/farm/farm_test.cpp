@@ -1,0 +1,97 @@
+// script/farm without Slurm: the same job script, by several processes.
+#include <fstream>
+
+#include "tests/farm/farm_scene.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Farm : public testing::Test {
+ protected:
+  Farm() { write_scene(folder_, 1); }
+  Outcome farm(std::vector<std::string> more, const std::string& build = BRUME_BUILD_DIR) const {
+    more.insert(more.begin(), {"room.toml", "out", "--local", "2", "--shards", "3"});
+    return run_farm(folder_, more, build);
+  }
+  std::string log() const { return text_of(folder_, "out/farm.log"); }
+  /// The film that one command makes.
+  std::string film_alone(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"render", "room.toml", "-o", "alone.mp4"});
+    const Outcome run = run_brume(folder_.path(), more);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return text_of(folder_, "alone.mp4");
+  }
+  WorkFolder folder_;
+};
+
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
+TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
+  const std::string alone = film_alone({"--fps", "12", "--size", "32x18"});
+  const std::vector<std::string> options{"--fps", "12", "--", "--size", "32x18"};
+  const Outcome first = farm(options);
+  ASSERT_EQ(first.exit_code, 0) << first.error;
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == alone);
+  expect_in(log(), "room.toml: frames 0-11 in 3 shards");
+
+  fs::remove(folder_.path() / "out/frames/000004.png");
+  fs::resize_file(folder_.path() / "out/frames/000009.png", 100);
+  fs::remove(folder_.path() / "out/film.mp4");
+  const Outcome second = farm(options);
+  ASSERT_EQ(second.exit_code, 0) << second.error;
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == alone);
+  expect_in(log(), ": frame 4: missing\n");
+  expect_in(log(), ": frame 9: truncated\n");
+}
+
+// A program whose first call for the second shard meets a full disk.
+TEST_F(Farm, RunsFailedShardsAgain) {
+  fs::create_directory(folder_.path() / "bin");
+  std::ofstream(folder_.path() / "bin/brume")
+      << "#!/bin/sh\ncase \"$*\" in\n*'--shard 2/3') if mkdir " << folder_.path().string()
+      << "/failed 2> /dev/null; then ulimit -f 0; fi ;;\nesac\nexec " BRUME_BUILD_DIR "/brume \"$@\"\n";
+  fs::permissions(folder_.path() / "bin/brume", fs::perms::owner_all);
+  const std::string build = (folder_.path() / "bin").string();
+  const Outcome run = farm({"--frames", "0-5", "--", "--size", "32x18"}, build);
+  ASSERT_EQ(run.exit_code, 0) << run.error << run.out;
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == film_alone({"--frames", "0-5", "--size", "32x18"}));
+  expect_in(log(), "round 1: shard 2 on ");
+  expect_in(log(), " failed: exit code 4\n");  // there is no room for the message either
+  expect_in(log(), "film.mp4 is complete after round 2\n");
+}
+
+TEST_F(Farm, CommandsOfThePageRun) {
+  int local = 0;
+  for (const auto& call : farm_calls()) {
+    if (std::find(call.begin(), call.end(), "--local") == call.end()) continue;  // slurm_test.cpp
+    const Outcome run = run_farm(folder_, quick(call, "room.toml"));
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    ++local;
+  }
+  EXPECT_GT(local, 0);
+}
+
+TEST_F(Farm, RefusesWhatCannotWork) {
+  const auto refuse = [&](const std::vector<std::string>& arguments, int code, const std::string& part) {
+    const Outcome run = run_farm(folder_, arguments);
+    EXPECT_EQ(run.exit_code, code) << run.error;
+    expect_in(run.error, part);
+  };
+  refuse({"room.toml"}, 2, "TIMELINE FOLDER");
+  refuse({"room.toml", "out", "--shards", "0"}, 2, "--shards 0");
+  refuse({"room.toml", "out", "--shards"}, 2, "--shards expects a value");
+  refuse({"room.toml", "out", "--size", "32x18"}, 2, "after --");
+  refuse({"none.toml", "out", "--local", "1"}, 3, "none.toml");
+  refuse({"room.toml", "50%d", "--local", "1"}, 2, "percent");
+  EXPECT_EQ(farm({"--frames", "0-3", "--", "--size", "1x"}).exit_code, 2);
+  const Outcome odd = farm({"--frames", "0-1", "--retries", "0", "--", "--size", "33x18"});
+  EXPECT_EQ(odd.exit_code, 2) << odd.error;
+  expect_in(log(), "no film: ");
+}
+
+}  // namespace
+}  // namespace brume::cli

@@ -1,0 +1,65 @@
+// brume-mpi by several processes on this machine, and the picture of one brume render.
+#include <nlohmann/json.hpp>
+
+#include "tests/farm/farm_scene.hpp"
+
+namespace brume::cli {
+namespace {
+
+class Mpi : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "mpirun is not installed";
+    const Outcome made =
+        run_brume(folder_.path(), {"bake", "pyroclastic", "--edge", "48", "-o", "cloud.brv"});
+    ASSERT_EQ(made.exit_code, 0) << made.error;
+  }
+  Outcome run(const std::string& processes, std::vector<std::string> arguments) const {
+    RunOptions options;
+    options.program = "/usr/bin/env";
+    options.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
+    arguments.insert(arguments.begin(), {"mpirun", "--oversubscribe", "-n", processes, BRUME_MPI_PROGRAM});
+    return run_brume(folder_.path(), arguments, options);
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Mpi, ProcessesMakeThePictureOfOne) {
+  const Outcome whole =
+      run_brume(folder_.path(), {"render", "cloud.brv", "-o", "whole.png", "--size", "64x48"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.error;
+  const Outcome parts =
+      run("3", {"render", "cloud.brv", "-o", "parts.png", "--size", "64x48", "--json", "facts.json"});
+  ASSERT_EQ(parts.exit_code, 0) << parts.error;
+  const Outcome diff = run_brume(folder_.path(), {"diff", "whole.png", "parts.png", "--json", "-"});
+  EXPECT_LE(nlohmann::json::parse(diff.out)["max"].get<double>(), 1.0) << "of 255";
+
+  // Each holds about a third of the bricks.
+  const auto processes = nlohmann::json::parse(text_of(folder_, "facts.json"))["processes"];
+  ASSERT_EQ(processes.size(), 3u);
+  std::uint64_t sum = 0, most = 0;
+  for (const auto& process : processes) {
+    const auto bytes = process["volume_bytes"].get<std::uint64_t>();
+    sum += bytes;
+    most = std::max(most, bytes);
+  }
+  EXPECT_GT(sum, 0u);
+  EXPECT_LT(most, sum / 2);
+}
+
+TEST_F(Mpi, FailuresHaveTheirCodes) {
+  const auto fails = [&](const std::vector<std::string>& arguments, int code, const std::string& part) {
+    const Outcome failed = run("2", arguments);
+    EXPECT_EQ(failed.exit_code, code) << failed.error;
+    const std::size_t at = failed.error.find(part);
+    EXPECT_NE(at, std::string::npos) << failed.error;
+    EXPECT_EQ(failed.error.find(part, at + 1), std::string::npos) << "once: " << failed.error;
+  };
+  fails({"render", "none.brv", "-o", "a.png"}, 3, "brume: none.brv");
+  fails({"render", "cloud.brv", "-o", "a.jpg"}, 2, "brume: -o a.jpg");
+  fails({"render", "cloud.brv", "-o", "cloud.brv.png", "--size", "0x1"}, 2, "brume: --size");
+  fails({"render", "cloud.brv"}, 2, "expected -o");
+}
+
+}  // namespace
+}  // namespace brume::cli
