@@ -115,9 +115,9 @@ class BrowserTest(Case):
         self.make(self.save(sound()), self.save(sound(device="other"), "b.json"))
         style = (ROOT / "bench/page/style.css").read_text()
         light, dark = style.split("@media (prefers-color-scheme: dark)")
-        for width, is_dark in ((1200, False), (390, True)):
+        for width, height, is_dark in ((1200, 2400, False), (390, 1200, True)):
             path = self.folder / f"{width}.png"
-            self.assertEqual(browser.screenshot(self.page, path, width, 3600, is_dark), [])
+            self.assertEqual(browser.screenshot(self.page, path, width, height, is_dark), [])
             found = browser.colours(path)
             for name in ("back", "card", "s0", "s1"):
                 wanted = [re.search(rf"--{name}: #(\w+);", part)[1] for part in (light, dark)]
