@@ -49,10 +49,11 @@ typedef struct brume_device_params {
   VkPhysicalDevice physical_device;                  ///< Of `device`.
   VkDevice device;                                   ///< With brume_vulkan_features().
   uint32_t queue_family;                             ///< Of the command buffers, with graphics and compute.
-  /// The host's own allocation of the device's memory, both or neither; null: vkAllocateMemory and
-  /// vkFreeMemory. Called within functions of the device and its renderers, on their thread; neither may call
-  /// Brume. `allocate_memory` returns memory of info's size and type that nothing else uses or maps.
-  void* memory_user;  ///< For both.
+  /// Of the host's own allocation of the device's memory, by both functions or neither; null:
+  /// vkAllocateMemory and vkFreeMemory. Called within functions of the device and its renderers, on their
+  /// thread; neither may call Brume.
+  void* memory_user;
+  /// Returns memory of info's size and type that nothing else uses or maps.
   VkResult (*allocate_memory)(void* memory_user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
   /// Frees what `allocate_memory` returned.
   void (*free_memory)(void* memory_user, VkDeviceMemory memory, VkDeviceSize size);
@@ -178,7 +179,7 @@ typedef struct brume_volume_params {
   /// Names of grids of numbers: what is dense, and what glows. Null: the first of the usual names; an empty
   /// name of `heat` is that, too.
   const char* density;
-  const char* heat;
+  const char* heat;   ///< Of the grid that glows.
   const char* color;  ///< Of the grid of colours that multiply the albedo; null: the same.
   float frame_rate;   ///< Of a sequence [1/s], [0.001, 1000].
   uint32_t repeat;    ///< brume_repeat, of a sequence.
@@ -329,13 +330,13 @@ typedef struct brume_frame_params {
   uint32_t bounces;
   /// Lights of this frame, shadowed by voxels: muzzle flashes, moving lights. At most 64; no suns.
   const brume_light* lights;
-  size_t light_count;  ///< Of `lights`.
+  size_t light_count;                 ///< Of `lights`.
   const brume_shown_volume* volumes;  ///< At most 32; they may overlap each other and the smoke.
-  size_t volume_count;
+  size_t volume_count;                ///< Of `volumes`.
   /// Lights for brume_renderer_shadows, by their number: those of the renderer, then those of the frame.
   uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
   uint32_t shadow_light_count;  ///< [0, BRUME_MAX_SHADOW_LIGHTS].
-  brume_quality quality;
+  brume_quality quality;        ///< What the frame may save.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {

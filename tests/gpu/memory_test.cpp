@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/error.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::gpu {
@@ -52,6 +53,82 @@ TEST_F(GpuTest, LargeRangesHaveDedicatedMemory) {
   memory.free(small);
   memory.free(large);
   memory.free(next);
+}
+
+TEST_F(GpuTest, TheLimitOfMemoryCountsWhatIsInUseOnTheDevice) {
+  Memory memory(context().vk(), context().info().handle, context().device());
+  const auto allocate = [&](VkDeviceSize bytes, MemoryUse use = MemoryUse::device) {
+    return memory.allocate({bytes, 16, ~0u}, use, false);
+  };
+  memory.set_limit(4096);
+  const auto first = allocate(3072);
+  EXPECT_THROW(allocate(1025), Error);
+  allocate(1 << 20, MemoryUse::upload);  // of the CPU
+  const auto second = allocate(1024);
+  EXPECT_EQ(memory.device_bytes(), 4096u);
+  EXPECT_THROW(allocate(1), Error);
+  // What frames in flight still use does not count; it is freed once.
+  memory.retire(first);
+  memory.retire(first);
+  EXPECT_EQ(memory.device_bytes(), 1024u);
+  const auto third = allocate(3072);
+  memory.free(first);
+  EXPECT_EQ(memory.device_bytes(), 4096u);
+  {
+    const Memory::Unlimited replaced(memory);
+    memory.free(allocate(1 << 20));
+  }
+  EXPECT_THROW(allocate(1 << 20), Error);
+  // A limit below what is in use refuses, and takes nothing away.
+  memory.set_limit(0);
+  EXPECT_EQ(memory.device_bytes(), 4096u);
+  EXPECT_THROW(allocate(1), Error);
+  memory.set_limit(Memory::kNoLimit);
+  memory.free(allocate(1 << 20));
+  memory.free(second);
+  memory.free(third);
+  EXPECT_EQ(memory.device_bytes(), 0u);
+}
+
+/// A host's memory, which fails once.
+struct CountingHost {
+  const Context* context = nullptr;
+  int allocated = 0, freed = 0, fails_at = 0;
+  VkDeviceSize bytes = 0;
+
+  static VkResult allocate(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) {
+    auto& own = *static_cast<CountingHost*>(user);
+    if (++own.allocated == own.fails_at) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    own.bytes += info->allocationSize;
+    return own.context->vk().AllocateMemory(own.context->device(), info, nullptr, memory);
+  }
+  static void free(void* user, VkDeviceMemory memory, VkDeviceSize size) {
+    auto& own = *static_cast<CountingHost*>(user);
+    ++own.freed;
+    own.bytes -= size;
+    own.context->vk().FreeMemory(own.context->device(), memory, nullptr);
+  }
+};
+
+TEST_F(GpuTest, MemoryComesFromTheHostWhereItSaysHow) {
+  CountingHost host{&context()};
+  host.fails_at = 2;
+  {
+    Memory memory(context().vk(), context().info().handle, context().device(),
+                  {.block_bytes = 1 << 16,
+                   .dedicated_bytes = 1 << 15,
+                   .callbacks = {&host, CountingHost::allocate, CountingHost::free}});
+    const auto small = memory.allocate({100, 16, ~0u}, MemoryUse::device, false);
+    EXPECT_THROW(memory.allocate({1 << 20, 16, ~0u}, MemoryUse::device, false), Error);
+    const auto large = memory.allocate({1 << 20, 16, ~0u}, MemoryUse::device, false);
+    EXPECT_EQ(host.bytes, memory.allocated_bytes());
+    EXPECT_EQ(host.bytes, (1u << 20) + (1u << 16));
+    memory.free(large);
+    memory.free(small);
+    EXPECT_EQ(host.bytes, 1u << 16) << "one shared block is kept";
+  }
+  EXPECT_EQ(host.bytes, 0u);
+  EXPECT_EQ(host.freed, host.allocated - 1);
 }
 
 // What reads a texel or a word before it is written then gives another result each time.
