@@ -234,7 +234,7 @@ class ClaimsTest(unittest.TestCase):
             self.assertEqual(self.readme.count(claim["text"]), 1, claim["text"])
 
     def test_figures_are_those_of_their_texts(self):
-        words = {"a tenth of a second": 100, "1.3 million": 1.3}
+        words = {"a tenth of a second": 100}
         for claim in CLAIMS:
             if "case" in claim:
                 self.assertNotIn("by", claim)
@@ -243,8 +243,7 @@ class ClaimsTest(unittest.TestCase):
             if "value" in claim:
                 said = words.get(claim["figure"]) or float(re.search(r"[\d.]+", claim["figure"])[0])
                 self.assertEqual(claim["value"], said)
-            parts = claim["figure"].removesuffix(" fit").split()
-            self.assertTrue(all(part in claim["text"] for part in parts), claim["figure"])
+            self.assertIn(claim["figure"], claim["text"])
 
     # A new figure of the README that nothing measures shows here.
     def test_no_figure_of_the_readme_is_left_out(self):
