@@ -49,7 +49,8 @@ class Page:
 <body>
 <header>
 <h1>Brume benchmarks</h1>
-<p class="soft">Medians of <code>brume bench</code>. Bars are medians; the thin line spans all repetitions.</p>
+<p class="soft">Results of <code>brume bench</code>. Bars are medians; the thin line spans all repetitions, and ends in an
+arrow where it leaves the plot.</p>
 </header>
 <main>
 {self.machines()}
@@ -106,10 +107,10 @@ class Page:
             return f'{begin} class="missing">not measured here<small>{escaped(reason)}</small></td>'
         m = file.measurements[claim["case"]]
         unit = claim["unit"] if "detail" in claim else m.unit
-        small = "" if "detail" in claim else f"{number(m.min)} to {number(m.max)}, {m.repetitions} repetitions"
+        small = [] if "detail" in claim else [f"{number(m.min)} to {number(m.max)}, {m.repetitions} repetitions"]
         if "value" in claim and claim["unit"] == unit:
-            small += f"; {number(value / claim['value'])} times the README's figure"
-        return f"{begin}>{escaped(f'{number(value)} {unit}')}<small>{escaped(small)}</small></td>"
+            small.append(f"{number(value / claim['value'])} times the README's figure")
+        return f"{begin}>{escaped(f'{number(value)} {unit}')}<small>{escaped('; '.join(small))}</small></td>"
 
     def claimed(self):
         heads = "".join(f'<th scope="col" role="columnheader">{self.letter(i)}'
