@@ -49,8 +49,8 @@ class Page:
 <body>
 <header>
 <h1>Brume benchmarks</h1>
-<p class="soft">Results of <code>brume bench</code>. Bars are medians; the thin line spans all repetitions, and ends in an
-arrow where it leaves the plot.</p>
+<p class="soft">Results of <code>brume bench</code>. Bars are medians; the thin line spans all repetitions, and ends
+in an arrow where it leaves the plot.</p>
 </header>
 <main>
 {self.machines()}
