@@ -79,6 +79,7 @@ std::vector<Case> all_cases() {
   for (Case& one : volume_cases()) cases.push_back(std::move(one));
   for (Case& one : sight_cases()) cases.push_back(std::move(one));
   for (Case& one : sim_cases()) cases.push_back(std::move(one));
+  for (Case& one : wire_cases()) cases.push_back(std::move(one));
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
   for (Case& one : cloud_cases()) cases.push_back(std::move(one));
   for (Case& one : particle_cases()) cases.push_back(std::move(one));
