@@ -62,4 +62,8 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool) const {
   return name + wrapped(option->get_description(), kColumn, help_width());
 }
 
+bool takes_value(const CLI::Option& option) {
+  return option.get_items_expected_max() > 0;
+}
+
 }  // namespace brume::cli

@@ -18,4 +18,7 @@ class HelpFormatter : public CLI::Formatter {
 /// "-o,--output FILE" of an option.
 std::string shown_name(const CLI::Option& option);
 
+/// Whether an option is followed by a value.
+bool takes_value(const CLI::Option& option);
+
 }  // namespace brume::cli

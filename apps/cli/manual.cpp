@@ -197,10 +197,6 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
-}
-
 bool takes_file(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return takes_value(option) &&

@@ -32,7 +32,6 @@ std::vector<const CLI::Option*> options_of(const CLI::App& command);
 std::vector<std::string> choices_of(const CLI::Option& option);
 /// "-o" and "--output".
 std::vector<std::string> names_of(const CLI::Option& option);
-bool takes_value(const CLI::Option& option);
 /// Whether its value is the name of a file or folder.
 bool takes_file(const CLI::Option& option);
 
