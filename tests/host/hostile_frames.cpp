@@ -95,6 +95,8 @@ void HostileFrames::device() {
     if (checked("brume_device_create", result, out.untouched())) devices_.push_back(out.value());
   }
   read<std::uint64_t>("brume_device_memory", devices_, brume_device_memory);
+  const std::uint64_t limit = chance(0.5) ? UINT64_MAX : static_cast<std::uint64_t>(below(100)) << 20;
+  checked("brume_device_set_memory_limit", brume_device_set_memory_limit(handle(devices_), limit), true);
   // The first one stays: the renderers' frames are of it.
   const bool is_last = devices_.size() > 1;
   brume_device* one = is_last ? devices_.back() : wrong_handle<brume_device>();
@@ -164,6 +166,10 @@ void HostileFrames::renderer_read() {
   };
   read_image("brume_renderer_smoke", brume_renderer_smoke);
   read_image("brume_renderer_shadows", brume_renderer_shadows);
+  auto level = output<std::uint32_t>(), dims_less = output<std::uint32_t>();
+  const brume_result result =
+      brume_renderer_coarseness(handle(renderers_), level.pointer(), dims_less.pointer());
+  checked("brume_renderer_coarseness", result, level.untouched() && dims_less.untouched());
   read_list("brume_renderer_timings", renderers_, brume_renderer_timings);
 }
 
