@@ -122,7 +122,7 @@ class InstallTest(unittest.TestCase):
     def test_installed_package_works(self):
         with work_folder() as folder:
             prefix = Path(folder) / "usr"
-            for component in ("python", "Unspecified"):
+            for component in ("python", "program"):
                 subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix, "--component", component], check=True,
                                capture_output=True)
             packages = prefix / "lib/python3/dist-packages"
