@@ -57,6 +57,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.prepare_all = params.prepare_all != 0;
   options.smoke.temporal = params.temporal != 0;
   options.smoke.reserved_bricks = kReservedBricks;
+  options.smoke.memory_follows_view = true;
   options.media_alone = true;
   const std::scoped_lock lock(on.data->mutex);
   create(renderer, on.settings, on.data, scene_of(params), atlas_of(call, params.masks), options);

@@ -19,6 +19,11 @@ std::vector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& ta
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
   if (!volume) return lights;
+  if (target.holds_all_smoke) {
+    plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
+    plan.smoke = volume;
+    return lights;
+  }
   // Indirect light comes from all of it.
   plan.visibility =
       history.resident->update({.volume = *volume,
@@ -103,7 +108,7 @@ void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
       {plan.smoke, input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
        plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light ||
-           history.resident->shows_other_smoke(),
+           (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
        input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version});
 }
 

@@ -31,6 +31,9 @@ struct PlanTarget {
   /// The atlas of the smoke, and how much of it the device may hold (ResidentSmoke::Request).
   glm::ivec3 atlas_bricks{0};
   std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
+  /// The device holds all smoke, in the slots of the volume: the picture is the same to the bit whatever
+  /// frames there were before.
+  bool holds_all_smoke = false;
 };
 
 struct FramePlan {

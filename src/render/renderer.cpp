@@ -79,6 +79,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
                                    : Targets(context, options.size_px)),
       smoke_(context, stream, scene_, options.size_px, options.smoke),
       smoke_budget_(options.smoke.reserved_bricks),
+      memory_follows_view_(options.smoke.memory_follows_view),
       shading_displays_(context.info().kind != "cpu" && !options.antialias),
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -123,7 +124,8 @@ planning::PlanTarget Renderer::plan_target() const {
           glm::uvec2(smoke_.shadows().atlas.info().size),
           slices_ ? slices_->textures() : std::span<const shared::SliceTexture>(),
           smoke_budget_.atlas_bricks(),
-          smoke_budget_.most_bricks()};
+          smoke_budget_.most_bricks(),
+          holds_all_smoke()};
 }
 
 void Renderer::invalidate() {
@@ -134,8 +136,9 @@ void Renderer::invalidate() {
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
-  if (smoke_budget_.begin_frame(context_.memory(), bricks_of(smoke_.atlas_bricks()),
-                                history_.resident->wanted_count())) {
+  const std::uint32_t room = bricks_of(smoke_.atlas_bricks());
+  const std::uint32_t wanted = holds_all_smoke() ? room : history_.resident->wanted_count();
+  if (smoke_budget_.begin_frame(context_.memory(), room, wanted)) {
     smoke_.trim(smoke_budget_.atlas_bricks());
     invalidate();
   }

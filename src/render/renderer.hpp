@@ -104,15 +104,16 @@ class Renderer {
   const gpu::Image* occlusion() const { return occlusion_; }
   /// How coarse the smoke of the last frame is for want of memory: its voxels are 2^level voxels of the
   /// simulation wide.
-  int smoke_level() const { return history_.resident->level(); }
+  int smoke_level() const { return holds_all_smoke() ? 0 : history_.resident->level(); }
   /// Whether smoke out of view dims less light than it should, for want of memory.
-  bool is_smoke_missing() const { return history_.resident->is_missing(); }
+  bool is_smoke_missing() const { return !holds_all_smoke() && history_.resident->is_missing(); }
   /// Whether volumes of the last frame have bricks that are still to be uploaded.
   bool streams_volumes() const { return !history_.volume_streaming.complete(); }
   /// What of the light in the smoke the last frame updated.
   const planning::SmokeLightPlan& light_plan() const { return history_.smoke_light.last_plan(); }
 
  private:
+  bool holds_all_smoke() const { return !memory_follows_view_ && smoke_budget_.is_unlimited(); }
   planning::PlanTarget plan_target() const;
   void upload_volumes(const FrameInput& input);
   void upload_slices(const FrameInput& input);
@@ -140,6 +141,7 @@ class Renderer {
   Targets targets_;
   SmokeFrame smoke_;
   SmokeBudget smoke_budget_;
+  const bool memory_follows_view_;
   std::optional<passes::SurfaceImport> surface_import_;  ///< Where RendererOptions::media_alone, and else:
   std::optional<passes::ShadePass> shade_pass_;
   const bool shading_displays_;

@@ -25,6 +25,10 @@ constexpr VkDeviceSize kBrickBytes = 40 * shared::kTexelsPerBrick;
 
 SmokeBudget::SmokeBudget(std::uint32_t reserved) : reserved_(reserved), most_(ResidentSmoke::kUnlimited) {}
 
+bool SmokeBudget::is_unlimited() const {
+  return most_ == ResidentSmoke::kUnlimited;
+}
+
 bool SmokeBudget::begin_frame(const gpu::Memory& memory, std::uint32_t room, std::uint32_t wanted) {
   atlas_ = volume::grown_atlas({}, room);
   const VkDeviceSize limit = memory.limit(), held = memory.device_bytes();
@@ -47,7 +51,7 @@ bool SmokeBudget::begin_frame(const gpu::Memory& memory, std::uint32_t room, std
   // There may be room for twice as much.
   const bool has_more = limit > limit_;
   limit_ = limit;
-  if (most_ == ResidentSmoke::kUnlimited || (!has_more && frames_ < kFramesToWait)) return false;
+  if (is_unlimited() || (!has_more && frames_ < kFramesToWait)) return false;
   const VkDeviceSize needed = 2 * std::max<VkDeviceSize>(most_, room) * kBrickBytes;
   if (held >= limit || limit - held < needed) return false;
   frames_ = has_more ? kFramesToWait : 0;

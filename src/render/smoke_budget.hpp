@@ -24,6 +24,7 @@ class SmokeBudget {
   bool reduce(std::uint32_t room);
 
   std::uint32_t most_bricks() const { return most_; }
+  bool is_unlimited() const;
   /// Whether a frame takes no more than what is reserved, which no limit refuses.
   bool is_reserve() const { return most_ <= reserved_; }
   /// Of the atlas that a frame begins with, after begin_frame and reduce.

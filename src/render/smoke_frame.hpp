@@ -29,6 +29,9 @@ struct SmokeFrameOptions {
   bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
   const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
   bool record_entries = false;              ///< See MarchPass::Options: into march_counters().
+  /// The device holds the smoke that is in view, not all of it. Pictures then depend on the frames before by
+  /// the rounding of places in the atlas.
+  bool memory_follows_view = false;
   /// Bricks of smoke that there is always memory for, as of volume::grown_atlas.
   std::uint32_t reserved_bricks = 64;
 };
