@@ -131,7 +131,8 @@
   X(85, IndirectParams) \
   X(86, AntialiasParams) \
   X(87, SurfaceImportParams) \
-  X(88, MediaLayerParams)
+  X(88, MediaLayerParams) \
+  X(89, SurfaceShadowParams)
 // clang-format on
 
 #endif
