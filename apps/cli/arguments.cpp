@@ -5,7 +5,6 @@
 
 #include "apps/cli/console.hpp"
 #include "apps/cli/help.hpp"
-#include "apps/cli/manual.hpp"
 #include "apps/cli/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
@@ -320,10 +319,6 @@ bool CommandLine::parse(int argc, char** argv) {
   }
   if (words[0] == "--version" || words[0] == "-V") {
     print(app_->version() + "\n");
-    return false;
-  }
-  if (words.size() == 2 && words[0] == "--write-manual") {  // called by the build
-    write_manual(*app_, words[1]);
     return false;
   }
 
