@@ -281,6 +281,7 @@ std::string Arguments::name() const {
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
   app_->formatter(std::make_shared<HelpFormatter>());
+  app_->require_subcommand(0, 1);  // In `brume bench sim`, sim is a value.
   app_->set_version_flag("-V,--version", version, "Print the version and how the program was built");
   app_->set_help_flag("-h,--help", "Print this help; brume COMMAND --help prints that of a command");
 }
