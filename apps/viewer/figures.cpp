@@ -31,7 +31,7 @@ std::uint64_t statm_bytes(int field) {
 void Figures::add(FrameFigures frame) {
   for (const auto& pass : frame.passes)
     if (std::find(pass_names_.begin(), pass_names_.end(), pass.name) == pass_names_.end())
-      pass_names_.push_back(pass.name);
+      pass_names_.emplace_back(pass.name);
   frames_.push_back(std::move(frame));
   if (frames_.size() > kHistory) frames_.pop_front();
   ++count_;

@@ -67,7 +67,7 @@ void lay_out_times(const Figures& figures) {
         static_cast<std::size_t>(std::find(names.begin(), names.end(), pass.name) - names.begin());
     ImGui::TableNextColumn();
     const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(pass_colour(index));
-    ImGui::TextColored(colour, "%s", pass.name.c_str());
+    ImGui::TextColored(colour, "%.*s", static_cast<int>(pass.name.size()), pass.name.data());
     ImGui::TableNextColumn();
     ImGui::Text("%7.2f  ", pass.milliseconds);
   }

@@ -1,5 +1,6 @@
 #include "gpu/context.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.hpp"
@@ -123,9 +124,19 @@ void Context::destroy(const Retired& handles) noexcept {
 
 void Context::retire(const Retired& handles) noexcept {
   const std::scoped_lock lock(retired_mutex_);
-  if (frame_ <= completed_) return destroy(handles);
+  if (frame_ <= completed_) {
+    expected_ -= owns_device() ? 0 : 1;
+    return destroy(handles);
+  }
   memory_->retire(handles.range);
   retired_.push_back({frame_, handles});
+}
+
+void Context::expect_retirement() {
+  if (owns_device()) return;
+  const std::scoped_lock lock(retired_mutex_);
+  if (retired_.capacity() < expected_ + 1) retired_.reserve(2 * (expected_ + 1));
+  ++expected_;
 }
 
 void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
@@ -134,8 +145,11 @@ void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
   const std::scoped_lock lock(retired_mutex_);
   frame_ = frame;
   completed_ = completed;
-  for (; !retired_.empty() && retired_.front().frame <= completed; retired_.pop_front())
-    destroy(retired_.front().handles);
+  const auto end =
+      std::ranges::find_if(retired_, [&](const RetiredFrame& retired) { return retired.frame > completed; });
+  for (auto retired = retired_.begin(); retired != end; ++retired) destroy(retired->handles);
+  expected_ -= static_cast<std::size_t>(end - retired_.begin());
+  retired_.erase(retired_.begin(), end);
 }
 
 void Context::submit(VkCommandBuffer commands, const WindowSemaphores& window) {

@@ -1,7 +1,6 @@
 // The Vulkan device that everything runs on: our own, or a host application's.
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -92,6 +91,8 @@ class Context {
   /// Destroys handles once the device has completed the frames that were begun before: at once on a device of
   /// our own, whose programs wait before they destroy.
   void retire(const Retired& handles) noexcept;
+  /// Before something is created that `retire` takes: makes room, so that `retire` cannot fail.
+  void expect_retirement();
   /// A host begins to record a frame; the device has completed all frames up to `completed`. Frames rise.
   void begin_frame(std::uint64_t frame, std::uint64_t completed);
 
@@ -131,7 +132,8 @@ class Context {
   };
   std::mutex retired_mutex_;
   std::uint64_t frame_ = 0, completed_ = 0;
-  std::deque<RetiredFrame> retired_;  // frames rising
+  std::vector<RetiredFrame> retired_;  // frames rising
+  std::size_t expected_ = 0;           // that may be retired
 };
 
 }  // namespace brume::gpu

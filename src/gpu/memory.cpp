@@ -14,36 +14,44 @@ VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
 
-/// Allocates an aligned range from the first hole that fits it.
-std::optional<VkDeviceSize> take(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize size,
-                                 VkDeviceSize alignment) {
+using Holes = std::vector<Memory::MemoryBlock::Hole>;
+
+/// Allocates an aligned range from the first hole that fits it; there is room for one more hole.
+std::optional<VkDeviceSize> take(Holes& holes, VkDeviceSize size, VkDeviceSize alignment) {
   for (auto hole = holes.begin(); hole != holes.end(); ++hole) {
     const auto [begin, length] = *hole;
-    const VkDeviceSize offset = align_up(begin, alignment);
-    if (offset + size > begin + length) continue;
-    holes.erase(hole);
-    if (offset > begin) holes[begin] = offset - begin;
-    if (offset + size < begin + length) holes[offset + size] = begin + length - offset - size;
+    const VkDeviceSize offset = align_up(begin, alignment), end = offset + size;
+    if (end > begin + length) continue;
+    const Memory::MemoryBlock::Hole before{begin, offset - begin}, after{end, begin + length - end};
+    if (before.size > 0 && after.size > 0) {
+      *hole = before;
+      holes.insert(hole + 1, after);
+    } else if (before.size > 0 || after.size > 0) {
+      *hole = before.size > 0 ? before : after;
+    } else {
+      holes.erase(hole);
+    }
     return offset;
   }
   return std::nullopt;
 }
 
-/// Frees a range, merging it with adjacent holes.
-void give(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize offset, VkDeviceSize size) {
-  auto next = holes.lower_bound(offset);
-  if (next != holes.end() && offset + size == next->first) {
-    size += next->second;
-    next = holes.erase(next);
+/// Frees a range, merging it with adjacent holes; there is room for one more hole.
+void give(Holes& holes, VkDeviceSize offset, VkDeviceSize size) noexcept {
+  const auto next = std::ranges::lower_bound(holes, offset, {}, &Memory::MemoryBlock::Hole::offset);
+  const bool joins_next = next != holes.end() && offset + size == next->offset;
+  const bool joins_previous =
+      next != holes.begin() && std::prev(next)->offset + std::prev(next)->size == offset;
+  if (joins_previous) {
+    std::prev(next)->size += size;
+    if (!joins_next) return;
+    std::prev(next)->size += next->size;
+    holes.erase(next);
+  } else if (joins_next) {
+    *next = {offset, size + next->size};
+  } else {
+    holes.insert(next, {offset, size});
   }
-  if (next != holes.begin()) {
-    const auto previous = std::prev(next);
-    if (previous->first + previous->second == offset) {
-      previous->second += size;
-      return;
-    }
-  }
-  holes[offset] = size;
 }
 
 // What an allocation needs and what there is, for its failure.
@@ -98,26 +106,34 @@ std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
 }
 
 Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUse use, bool tiled) {
-  MemoryBlock block;
-  block.size = size;
-  block.type = type;
-  block.tiled = tiled;
-  block.for_device = use == MemoryUse::device;
-  block.holes[0] = size;
-  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
-  const VkMemoryHeap& heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex];
-  check(allocate_block(info, block.memory), allocation_text(size, bytes_in_use_, heap).c_str());
-  const bool is_visible =
-      (properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-  if (!block.for_device || (options_.fill && is_visible)) {
-    void* pointer = nullptr;
-    const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);
-    if (result != VK_SUCCESS) free_block(block);
-    check(result, "vkMapMemory");
-    block.mapped = static_cast<std::byte*>(pointer);
+  MemoryBlock& block = blocks_.emplace_back();
+  try {
+    block.size = size;
+    block.type = type;
+    block.tiled = tiled;
+    block.for_device = use == MemoryUse::device;
+    block.holes.reserve(2);
+    block.retired.reserve(1);
+    block.holes.push_back({0, size});
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+    const VkMemoryHeap& heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex];
+    const VkResult allocated = allocate_block(info, block.memory);
+    if (allocated != VK_SUCCESS) check(allocated, allocation_text(size, bytes_in_use_, heap).c_str());
+    const bool is_visible =
+        (properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+    if (!block.for_device || (options_.fill && is_visible)) {
+      void* pointer = nullptr;
+      const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);
+      if (result != VK_SUCCESS) free_block(block);
+      check(result, "vkMapMemory");
+      block.mapped = static_cast<std::byte*>(pointer);
+    }
+  } catch (...) {
+    blocks_.pop_back();
+    throw;
   }
   allocated_bytes_ += size;
-  return blocks_.emplace_back(std::move(block));
+  return block;
 }
 
 Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled) {
@@ -129,8 +145,11 @@ Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use,
                 std::to_string(needs.size) + " bytes besides the " + std::to_string(device_bytes_) +
                     " in use are more than the host's limit of " + std::to_string(limit_));
   const auto range_in = [&](MemoryBlock& block) -> std::optional<Range> {
+    block.holes.reserve(block.ranges + 2);
+    block.retired.reserve(block.ranges + 1);
     const auto offset = take(block.holes, needs.size, needs.alignment);
     if (!offset) return std::nullopt;
+    ++block.ranges;
     bytes_in_use_ += needs.size;
     if (block.for_device) device_bytes_ += needs.size;
     const Range range{&block, block.memory, *offset, needs.size,
@@ -166,7 +185,8 @@ void Memory::free(const Range& range) noexcept {
   const std::lock_guard lock(mutex_);
   MemoryBlock& block = *range.block;
   bytes_in_use_ -= range.size;
-  if (block.for_device && !block.retired.erase(range.offset)) device_bytes_ -= range.size;
+  if (block.for_device && std::erase(block.retired, range.offset) == 0) device_bytes_ -= range.size;
+  --block.ranges;
   give(block.holes, range.offset, range.size);
   if (!block.is_empty()) return;
   // One shared block of a kind is retained for reuse.
@@ -183,7 +203,10 @@ void Memory::free(const Range& range) noexcept {
 void Memory::retire(const Range& range) noexcept {
   if (!range.block || !range.block->for_device) return;
   const std::lock_guard lock(mutex_);
-  if (range.block->retired.insert(range.offset).second) device_bytes_ -= range.size;
+  std::vector<VkDeviceSize>& retired = range.block->retired;
+  if (std::ranges::find(retired, range.offset) != retired.end()) return;
+  retired.push_back(range.offset);
+  device_bytes_ -= range.size;
 }
 
 VkDeviceSize Memory::bytes_in_use() const {

@@ -4,9 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <list>
-#include <map>
 #include <mutex>
-#include <set>
 #include <vector>
 
 #include "gpu/functions.hpp"
@@ -109,10 +107,15 @@ struct Memory::MemoryBlock {
   std::uint32_t type = 0;
   bool tiled = false, for_device = false;
   std::byte* mapped = nullptr;
-  std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, never adjacent
-  std::set<VkDeviceSize> retired;              // offsets of ranges that are to be freed
+  struct Hole {
+    VkDeviceSize offset = 0, size = 0;
+  };
+  // With room for what each range may leave, so that nothing is allocated when it is freed.
+  std::vector<Hole> holes;            // rising, never adjacent
+  std::vector<VkDeviceSize> retired;  // offsets of ranges that are to be freed
+  std::size_t ranges = 0;             // that are not freed
 
-  bool is_empty() const { return holes.size() == 1 && holes.begin()->second == size; }
+  bool is_empty() const { return ranges == 0; }
 };
 
 }  // namespace brume::gpu

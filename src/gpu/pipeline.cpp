@@ -95,6 +95,8 @@ Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderSta
       bind_point_(bind_point),
       stages_(stages),
       interface_(interface_of(shaders_)) {
+  context.expect_retirement();
+  context.pipelines().reserve(context.pipelines().size() + 1);
   const std::uint32_t push_bytes = interface_.push_bytes;
   BRUME_ASSERT(push_bytes <= 128, std::to_string(push_bytes));
   std::vector<VkDescriptorSetLayoutBinding> entries;
@@ -135,6 +137,7 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
   for (ShaderCode& shader : shaders)
     if (std::string_view(shader.name) == code.name) shader = code;
   VkPipeline made = VK_NULL_HANDLE;
+  context_.expect_retirement();
   const VkResult result = make(shaders, &made);
   if (result != VK_SUCCESS)
     return Failure{ErrorCode::bad_input,

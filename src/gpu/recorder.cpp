@@ -60,7 +60,14 @@ VkDescriptorPool make_descriptor_pool(Context& context) {
 }  // namespace
 
 FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
-  descriptors_.push_back(make_descriptor_pool(context));
+  add_descriptors();
+}
+
+VkDescriptorPool FrameSlot::add_descriptors() {
+  context_.expect_retirement();
+  descriptors_.reserve(descriptors_.size() + 1);
+  descriptors_.push_back(make_descriptor_pool(context_));
+  return descriptors_.back();
 }
 
 FrameSlot::~FrameSlot() {
@@ -161,10 +168,9 @@ VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout) {
   info.descriptorSetCount = 1;
   info.pSetLayouts = &layout;
   for (;; ++slot_.descriptors_index_) {
-    std::vector<VkDescriptorPool>& pools = slot_.descriptors_;
+    const std::vector<VkDescriptorPool>& pools = slot_.descriptors_;
     const bool is_new = slot_.descriptors_index_ == pools.size();
-    if (is_new) pools.push_back(make_descriptor_pool(context_));
-    info.descriptorPool = pools[slot_.descriptors_index_];
+    info.descriptorPool = is_new ? slot_.add_descriptors() : pools[slot_.descriptors_index_];
     VkDescriptorSet set = VK_NULL_HANDLE;
     const VkResult result = context_.vk().AllocateDescriptorSets(context_.device(), &info, &set);
     const bool is_full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;

@@ -76,6 +76,8 @@ class FrameSlot {
 
  private:
   friend class Recorder;
+  VkDescriptorPool add_descriptors();
+
   Context& context_;
   // Filled in order, as staging is.
   std::vector<VkDescriptorPool> descriptors_;

@@ -12,6 +12,7 @@ namespace brume::gpu {
 Buffer::Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use)
     : context_(&context), size_(bytes) {
   BRUME_ASSERT(bytes > 0, "a buffer of no bytes");
+  context.expect_retirement();
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
@@ -84,6 +85,7 @@ VkImageViewCreateInfo view_info(const Image& image, VkImageViewType type, std::u
 }  // namespace
 
 Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), info_(wanted) {
+  context.expect_retirement();
   // The image.
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -145,6 +147,7 @@ VkImageAspectFlags Image::aspect() const {
 }
 
 LayerView::LayerView(Context& context, const Image& image, std::uint32_t layer) : context_(&context) {
+  context.expect_retirement();
   const auto info = view_info(image, VK_IMAGE_VIEW_TYPE_2D, layer, 1);
   check(context.vk().CreateImageView(context.device(), &info, nullptr, &handle_), "vkCreateImageView");
 }
@@ -157,6 +160,7 @@ LayerView::~LayerView() {
 }
 
 Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context) {
+  context.expect_retirement();
   VkSamplerCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
   info.magFilter = info.minFilter = wanted.filter;

@@ -6,6 +6,7 @@
 namespace brume::gpu {
 
 Timings::Timings(Context& context) : context_(context) {
+  context.expect_retirement();
   VkQueryPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;

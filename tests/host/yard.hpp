@@ -23,15 +23,19 @@ struct Counted<VkResult(VKAPI_PTR*)(Arguments...)> {
   }
 };
 
-#define BRUME_WAITING_FUNCTIONS(X)                                                                           \
-  X(QueueSubmit)                                                                                             \
-  X(QueueSubmit2)                                                                                            \
-  X(QueueWaitIdle)                                                                                           \
-  X(DeviceWaitIdle) X(WaitForFences) X(WaitSemaphores) X(QueueBindSparse) X(CreateDevice) X(CreateSemaphore) \
-      X(CreateFence) X(CreateCommandPool)
+#define BRUME_WAITING_FUNCTIONS(X)                                                                        \
+  X(QueueSubmit)                                                                                          \
+  X(QueueSubmit2)                                                                                         \
+  X(QueueWaitIdle)                                                                                        \
+  X(DeviceWaitIdle)                                                                                       \
+  X(WaitForFences) X(WaitSemaphores) X(QueueBindSparse) X(CreateDevice) X(CreateSemaphore) X(CreateFence) \
+      X(CreateCommandPool)
 
 inline PFN_vkGetInstanceProcAddr g_real_instance_proc_addr = nullptr;
 inline PFN_vkGetDeviceProcAddr g_real_device_proc_addr = nullptr;
+
+/// Takes the place of more functions of the device; null: of none.
+inline PFN_vkVoidFunction (*g_replace)(const char* name, PFN_vkVoidFunction real) = nullptr;
 
 inline PFN_vkVoidFunction counted(const char* name, PFN_vkVoidFunction real) {
 #define X(function)                             \
@@ -39,7 +43,7 @@ inline PFN_vkVoidFunction counted(const char* name, PFN_vkVoidFunction real) {
     return reinterpret_cast<PFN_vkVoidFunction>(&Counted<PFN_vk##function>::call);
   BRUME_WAITING_FUNCTIONS(X)
 #undef X
-  return real;
+  return g_replace ? g_replace(name, real) : real;
 }
 inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_device_proc_addr(VkDevice device, const char* name) {
   return counted(name, g_real_device_proc_addr(device, name));
@@ -132,14 +136,19 @@ class YardTest : public testing::Test {
     on.allocate_memory = HostMemory::allocate;
     on.free_memory = HostMemory::free;
     ASSERT_OK(brume_device_create(context_.get(), &on, &device_));
-    brume_renderer_params renderer = brume_renderer_defaults();
-    const brume_light light{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
-    renderer.lights = &light;
-    renderer.light_count = 1;
-    renderer.temporal = 1;
-    renderer.march_scale = march_scale;
-    ASSERT_OK(brume_renderer_create(device_, &renderer, &renderer_));
+    ASSERT_OK(create_renderer(march_scale));
     resize(0);
+  }
+  brume_result create_renderer(std::uint32_t march_scale) {
+    brume_renderer_params params = brume_renderer_defaults();
+    const brume_light light{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
+    params.width = kSizes[0].x;
+    params.height = kSizes[0].y;
+    params.lights = &light;
+    params.light_count = 1;
+    params.temporal = 1;
+    params.march_scale = march_scale;
+    return brume_renderer_create(device_, &params, &renderer_);
   }
   void resize(std::size_t i) {
     host_.wait();

@@ -1,0 +1,187 @@
+// A frame like those before allocates nothing, on the heap or on the device; and every allocation of others
+// may fail.
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+#include "tests/host/heap.hpp"
+#include "tests/host/yard.hpp"
+
+namespace brume::host {
+namespace {
+
+#ifdef BRUME_EVERY_FAULT
+constexpr int kFaults = 300;
+#else
+constexpr int kFaults = 8;
+#endif
+
+/// Without the validation layers, which allocate with every command.
+class HeapTest : public YardTest {
+ protected:
+  static constexpr int kCycle = 16;  // frames in which the camera turns there and back
+
+  HeapTest() : YardTest(false) {}
+
+  static double thread_milliseconds() {
+    std::timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  }
+
+  /// After two cycles of the camera the third allocates nothing.
+  void expect_steady(std::uint32_t first_tick, const std::function<void(brume_frame_params&)>& add) {
+    int allocations = 0, of_device = 0;
+    std::vector<double> milliseconds;
+    for (int i = 0; i < 3 * kCycle; ++i) {
+      const std::uint32_t tick = first_tick + static_cast<std::uint32_t>(i / 4);
+      advance(tick);
+      const float turn = 0.02f * static_cast<float>(std::abs(i % kCycle - kCycle / 2));
+      draw({4, 1.5f, 1}, {std::sin(turn), -0.1f, std::cos(turn)}, first_tick / 64.0 + i / 256.0,
+           [&](brume_frame_params& params) {
+             add(params);
+             const int before = memory_.allocations;
+             Heap::allocations = 0;
+             Heap::counts = true;
+             const double begin = thread_milliseconds();
+             const brume_result result = brume_renderer_record(renderer_, field_, &params);
+             Heap::counts = false;
+             milliseconds.push_back(thread_milliseconds() - begin);
+             EXPECT_OK(result);
+             if (i < 2 * kCycle) return;
+             allocations += Heap::allocations;
+             of_device += memory_.allocations - before;
+           });
+      ASSERT_FALSE(HasFailure());
+    }
+    const auto third = milliseconds.end() - kCycle;
+    std::nth_element(third, third + kCycle / 2, milliseconds.end());
+    std::printf("%.3f ms of processor time to record a frame\n", third[kCycle / 2]);
+    EXPECT_EQ(allocations, 0);
+    EXPECT_EQ(of_device, 0);
+  }
+};
+
+TEST_F(HeapTest, SteadyFramesOfOneSmoke) {
+  make({48, 20, 48}, 0.25f);
+  smoke(1, {4, 0.6f, 5}, 2500, 6400);
+  expect_steady(300, [](brume_frame_params&) {});
+}
+
+TEST_F(HeapTest, SteadyFramesOfManySmokesAtHalfResolution) {
+  make({80, 16, 80}, 0.25f, 2);
+  for (int i = 0; i < 64; ++i)
+    smoke(1, {1.25f + 2.5f * static_cast<float>(i % 8), 0.6f, 1.25f + 2.5f * static_cast<float>(i / 8)}, 250,
+          6400);
+  expect_steady(300, [](brume_frame_params&) {});
+}
+
+TEST_F(HeapTest, SteadyFramesOfHolesLightsShadowsAndBounces) {
+  make({48, 20, 48}, 0.25f);
+  smoke(1, {4, 0.6f, 5}, 2500, 6400);
+  brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 250);
+  shot.u.shot.origin = position_of(sim::position_from_metres({4, 1, 1}));
+  shot.u.shot.toward = position_of(sim::position_from_metres({4, 1, 9}));
+  shot.u.shot.radius = 300;
+  shot.u.shot.stay_open_ms = 20'000;
+  append(shot);
+  const brume_light torch{BRUME_LIGHT_SPOT, {3, 1, 3}, {0, 0, 1}, {0.5f, 0.4f, 0.3f}, 0.2f, 0.6f};
+  expect_steady(300, [&](brume_frame_params& params) {
+    params.lights = &torch;
+    params.light_count = 1;
+    params.shadow_lights[1] = 1;
+    params.shadow_light_count = 2;
+    params.bounces = 2;
+    params.quality.light_update_fraction = 0.25f;
+    params.quality.bounce_update_fraction = 0.125f;
+  });
+}
+
+/// A function of the driver whose own allocations are not counted: it does not expect that they fail.
+template <typename Function>
+struct Uncounted;
+template <typename... Arguments>
+struct Uncounted<VkResult(VKAPI_PTR*)(Arguments...)> {
+  static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
+  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+    const bool counts = std::exchange(Heap::counts, false);
+    const VkResult result = real(arguments...);
+    Heap::counts = counts;
+    return result;
+  }
+};
+
+PFN_vkVoidFunction uncounted(const char* name, PFN_vkVoidFunction real) {
+#define X(function)                                                                  \
+  if (std::string_view(name) == "vk" #function) {                                    \
+    Uncounted<PFN_vk##function>::real = reinterpret_cast<PFN_vk##function>(real);    \
+    return reinterpret_cast<PFN_vkVoidFunction>(&Uncounted<PFN_vk##function>::call); \
+  }
+  X(CreateComputePipelines)
+  X(CreateGraphicsPipelines)
+#undef X
+      return real;
+}
+
+class HeapFaultTest : public HeapTest {
+ protected:
+  HeapFaultTest() { g_replace = uncounted; }
+  ~HeapFaultTest() override { g_replace = nullptr; }
+
+  /// Calls `call` while allocations are counted.
+  template <typename Call>
+  static brume_result counted_call(Call call) {
+    Heap::counts = true;
+    const brume_result result = call();
+    Heap::counts = false;
+    return result;
+  }
+  /// A new renderer and its first frames, until all of them worked. Returns how often one failed.
+  int draw_all() {
+    host_.wait();
+    EXPECT_OK(brume_renderer_destroy(renderer_));
+    renderer_ = nullptr;
+    int failures = 0;
+    const auto expect_memory = [&](brume_result result) {
+      if (result == BRUME_OK) return;
+      ++failures;
+      EXPECT_EQ(result, BRUME_ERROR_MEMORY) << brume_last_error();
+      EXPECT_STRNE(brume_last_error(), "");
+    };
+    while (!renderer_ && failures < 2) expect_memory(counted_call([&] { return create_renderer(2); }));
+    for (int frame = 0; frame < 3; ++frame)
+      for (brume_result result = BRUME_ERROR_MEMORY; result != BRUME_OK && failures < 2;)
+        draw({4 + 0.5f * static_cast<float>(frame), 1.5f, 1}, {0, -0.1f, 1}, 5,
+             [&](brume_frame_params& params) {
+               result = counted_call([&] { return brume_renderer_record(renderer_, field_, &params); });
+               expect_memory(result);
+             });
+    return failures;
+  }
+};
+
+TEST_F(HeapFaultTest, EveryAllocationMayFail) {
+  make({48, 20, 48}, 0.25f);
+  smoke(1, {4, 0.6f, 5}, 1000, 6400);
+  advance(300);
+  Heap::fails_at = 0;
+  Heap::allocations = 0;
+  EXPECT_EQ(draw_all(), 0);
+  const int allocations = Heap::allocations;
+  ASSERT_GT(allocations, 100);
+  const VkDeviceSize bytes = memory_.bytes;
+  for (int i = 0; i < kFaults; ++i) {
+    // Spread over all of them, the first among them.
+    const int fails_at = 1 + static_cast<int>(std::int64_t{i} * (allocations - 1) / kFaults);
+    SCOPED_TRACE("allocation " + std::to_string(fails_at) + " of " + std::to_string(allocations));
+    Heap::allocations = 0;
+    Heap::fails_at = fails_at;
+    EXPECT_EQ(draw_all(), 1);
+    Heap::fails_at = 0;
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_LE(memory_.bytes, bytes + (64u << 20));
+}
+
+}  // namespace
+}  // namespace brume::host
