@@ -62,12 +62,12 @@ std::vector<std::uint32_t> connected_cells(const CellGrid& grid, std::uint32_t f
 
 /// Whether most rays from some cells meet surfaces from behind.
 bool are_inside_of_objects(const CellGrid& grid, std::span<const std::uint32_t> cells,
-                           const Surfaces& surfaces) {
+                           const LevelSurfaces& surfaces) {
   std::size_t rays = 0, backs = 0;
   for (const std::uint32_t cell : cells)
     for (std::uint32_t r = 0; r < shared::kProbeRays; ++r, ++rays) {
       const glm::vec3 direction = shared::probe_direction(r, shared::probe_phase(grid.at(cell)));
-      const std::optional<Surfaces::Place> place = surfaces.place({grid.centre(cell), direction});
+      const std::optional<LevelSurfaces::Place> place = surfaces.place({grid.centre(cell), direction});
       backs += place && !place->is_front;
     }
   return 2 * backs > rays;
@@ -75,7 +75,7 @@ bool are_inside_of_objects(const CellGrid& grid, std::span<const std::uint32_t> 
 
 /// Makes the hollows of closed objects solid: of thick walls, for instance, beside which they would count as
 /// dark air.
-void close_hollows(CellGrid& grid, const Surfaces& surfaces) {
+void close_hollows(CellGrid& grid, const LevelSurfaces& surfaces) {
   std::vector<bool> found(grid.count());
   for (std::uint32_t cell = 0; cell < grid.count(); ++cell) {
     if (found[cell] || !grid.is_free(grid.at(cell))) continue;
@@ -92,7 +92,7 @@ struct PatchSum {
   shared::SurfacePatch sum{};
   float hits = 0;
 
-  void add(const Surfaces& surfaces, const Ray& ray) {
+  void add(const LevelSurfaces& surfaces, const Ray& ray) {
     const std::optional<SurfaceHit> hit = surfaces.hit(ray);
     if (!hit) return;
     sum.position_world += hit->position;
@@ -104,7 +104,7 @@ struct PatchSum {
 };
 
 /// The piece of surface that a cell sees in a neighbour.
-shared::SurfacePatch patch_of(const Surfaces& surfaces, glm::vec3 centre_world, std::uint32_t face,
+shared::SurfacePatch patch_of(const LevelSurfaces& surfaces, glm::vec3 centre_world, std::uint32_t face,
                               float cell) {
   const glm::vec3 forward = shared::cube_forward(face), up = shared::cube_up(face),
                   right = shared::cube_right(face);
@@ -136,7 +136,7 @@ class PatchFinder {
 
   /// The patch that is most like the place: of the free cell before it where that has one, else of the
   /// neighbours. kNoPatch: there is none nearby.
-  std::uint32_t operator()(const Surfaces::Place& place) const {
+  std::uint32_t operator()(const LevelSurfaces::Place& place) const {
     const shared::IndirectLayout& layout = grid_.layout();
     const glm::vec3 before = (place.position - layout.origin_world) / layout.cell_size + 0.5f * place.normal;
     const glm::ivec3 middle(glm::floor(before));
@@ -153,7 +153,7 @@ class PatchFinder {
     float unlikeness = 1e30f;
   };
 
-  void add_cell(glm::ivec3 cell, const Surfaces::Place& place, Best& best) const {
+  void add_cell(glm::ivec3 cell, const LevelSurfaces::Place& place, Best& best) const {
     if (!grid_.is_free(cell)) return;
     for (const std::uint32_t i : cells_[grid_.index(cell)]) {
       if (i == kNoPatch) continue;
@@ -171,7 +171,7 @@ class PatchFinder {
 };
 
 /// The patches between free cells and solid ones, and which each cell has.
-std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfaces, LightCells& level) {
+std::vector<CellPatches> add_patches(const CellGrid& grid, const LevelSurfaces& surfaces, LightCells& level) {
   struct Face {
     std::uint32_t cell, face;
   };
@@ -197,12 +197,12 @@ std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfa
 
 /// The first patch that a ray meets, and how far away, in cells. What has no patch lets it pass: it is not
 /// voxelized, as what smoke passes through.
-std::uint32_t trace(const Surfaces& surfaces, const PatchFinder& patch_at, Ray ray, float cell_size) {
+std::uint32_t trace(const LevelSurfaces& surfaces, const PatchFinder& patch_at, Ray ray, float cell_size) {
   constexpr int kMostSurfaces = 16;
   constexpr float kBehind = 1e-3f;  // of a surface, its next one [m]
   const glm::vec3 from = ray.origin;
   for (int i = 0; i < kMostSurfaces; ++i) {
-    const std::optional<Surfaces::Place> place = surfaces.place(ray);
+    const std::optional<LevelSurfaces::Place> place = surfaces.place(ray);
     if (!place) break;
     if (const std::uint32_t patch = patch_at(*place); patch != kNoPatch)
       return shared::pack_hit(patch, glm::distance(place->position, from) / cell_size);
@@ -212,7 +212,7 @@ std::uint32_t trace(const Surfaces& surfaces, const PatchFinder& patch_at, Ray r
 }
 
 /// What the rays of each probe meet.
-std::vector<std::uint32_t> trace_probes(const CellGrid& grid, const Surfaces& surfaces,
+std::vector<std::uint32_t> trace_probes(const CellGrid& grid, const LevelSurfaces& surfaces,
                                         std::span<const std::uint32_t> probes, const PatchFinder& patch_at) {
   std::vector<std::uint32_t> hits(probes.size() * shared::kProbeRays);
   parallel_for(probes.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -229,7 +229,7 @@ std::vector<std::uint32_t> trace_probes(const CellGrid& grid, const Surfaces& su
 
 }  // namespace
 
-LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces) {
+LightCells make_light_cells(const voxel::BitGrid& grid, const LevelSurfaces& surfaces) {
   const int edge = voxel::coarse_edge(grid.size(), kMaxLightCells, kMaxLightCellsPerAxis);
   LightCells level;
   level.layout.origin_world = grid.layout().origin_world;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planning/frame_input.hpp"
-#include "reference/surfaces.hpp"
+#include "reference/level_surfaces.hpp"
 #include "shared/indirect_light.h"
 
 namespace brume::reference {
@@ -28,6 +28,6 @@ struct LightCells {
 /// probes meet the surfaces themselves, not the cells, so that gaps narrower than a voxel let light through,
 /// and pass what is not voxelized.
 /// The same for any number of threads.
-LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces);
+LightCells make_light_cells(const voxel::BitGrid& grid, const LevelSurfaces& surfaces);
 
 }  // namespace brume::reference

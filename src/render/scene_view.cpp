@@ -47,7 +47,7 @@ void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
   if (indirect.bounces == 0) return;
   if (indirect.level_changed) {
-    const reference::Surfaces surfaces(*source_, {&plan.input.level, 1});
+    const reference::LevelSurfaces surfaces(*source_, plan.input.level);
     light_cells_ = reference::make_light_cells(*plan.input.level.voxels.grid, surfaces);
   }
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
 #include <set>
 
 #include "core/tasks.hpp"
+#include "reference/surfaces.hpp"
 #include "tests/render/boxes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -51,7 +54,7 @@ Made cells_of(const scene::Scene& scene) {
   voxel::BitGrid grid =
       voxel::voxelize(triangles, {glm::ivec3(22), 0.25f, glm::vec3(-2.7f)}).value_or_throw();
   const planning::LevelState level;
-  const Surfaces surfaces(scene, {&level, 1});
+  const LevelSurfaces surfaces(scene, level);
   LightCells cells = make_light_cells(grid, surfaces);
   return {std::move(grid), std::move(cells)};
 }
@@ -64,6 +67,56 @@ bool is_inside(const glm::vec3& p) {
 glm::vec3 centre_of(const LightCells& cells, std::uint32_t index) {
   return cells.layout.origin_world +
          (glm::vec3(shared::cell_at(cells.layout, index)) + 0.5f) * cells.layout.cell_size;
+}
+
+// Two trees: that of the path tracer, and that of the level. Rays start off all surfaces; those that meet one
+// within 1e-3 of its edge may miss it in one of them.
+TEST(LevelSurfacesTest, AreThoseOfThePathTracer) {
+  scene::Scene scene = room(0.1f);
+  scene::Mesh& pillar = scene.meshes.emplace_back();
+  render::add_box(pillar, {0, -1, 0}, {0.5f, 1, 0.7f});
+  const glm::mat4 mirrored(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 1, 0.2f, 0), glm::vec4(0, 0, 1, 0),
+                           glm::vec4(-0.3f, 0, 0.1f, 1));
+  scene.objects.push_back({"pillar", 1, 1, mirrored, true});
+  // Cut out: none of it counts.
+  scene.meshes.push_back(pillar);
+  for (scene::Vertex& vertex : scene.meshes.back().vertices) vertex.color.a = 0.25f;
+  scene.objects.push_back({"leaves", 2, 2, glm::translate(glm::mat4(1), {1, 0, 0}), true});
+  scene.materials.resize(3);
+  scene.materials[1].emission = {1, 2, 3};
+  scene.materials[2].alpha_cutoff = 0.5f;
+
+  const planning::LevelState level;
+  const Surfaces traced(scene, {&level, 1});
+  const LevelSurfaces surfaces(scene, level);
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<float> anywhere(-1.9f, 1.9f);
+  const auto point = [&] {
+    const float x = anywhere(engine), y = anywhere(engine);
+    return glm::vec3(x, y, anywhere(engine));
+  };
+  std::size_t differing = 0, pillars = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const glm::vec3 from = point();
+    const Ray ray{from, glm::normalize(point() - from)};
+    const auto expected = traced.hit(ray), hit = surfaces.hit(ray);
+    const auto place = surfaces.place(ray);
+    ASSERT_EQ(hit.has_value(), place.has_value());
+    if (expected.has_value() != hit.has_value() || (hit && expected->part != hit->part)) {
+      ++differing;
+      continue;
+    }
+    if (!hit) continue;
+    pillars += hit->part == 1;
+    EXPECT_NE(hit->part, 2u);
+    EXPECT_LT(glm::distance(hit->position, expected->position), 1e-4f);
+    EXPECT_LT(glm::distance(place->position, expected->position), 1e-4f);
+    EXPECT_LT(glm::distance(place->normal, expected->geometric_normal), 1e-5f);
+    EXPECT_LT(glm::distance(hit->reflection.albedo, expected->reflection.albedo), 1e-6f);
+    EXPECT_EQ(hit->emission, expected->emission);
+  }
+  EXPECT_LT(differing, 20u);
+  EXPECT_GT(pillars, 1000u);
 }
 
 // Free voxels are free cells, but not those between the two sides of a wall.

@@ -1,0 +1,182 @@
+#include "reference/surface_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reference/motion.hpp"
+#include "scene/color.hpp"
+
+namespace brume::reference {
+namespace {
+
+const std::array<float, 256>& linear_values() {
+  static const std::array<float, 256> values = [] {
+    std::array<float, 256> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = static_cast<float>(scene::linear_from_srgb(static_cast<double>(i) / 255));
+    return all;
+  }();
+  return values;
+}
+
+/// Bilinear, repeated; each texel's colours linear if `srgb`.
+glm::vec4 image_at(const image::Image8& image, const glm::vec2& uv, bool srgb) {
+  const auto wrapped = [](float at, std::uint32_t size) {
+    const float scaled = (at - std::floor(at)) * static_cast<float>(size) - 0.5f;
+    const float low = std::floor(scaled);
+    const auto first = static_cast<std::uint32_t>((static_cast<std::int64_t>(low) + size) % size);
+    return std::tuple(first, first + 1 == size ? 0u : first + 1, scaled - low);
+  };
+  const auto [x0, x1, fx] = wrapped(uv.x, image.width);
+  const auto [y0, y1, fy] = wrapped(uv.y, image.height);
+  const auto texel = [&](std::uint32_t x, std::uint32_t y) {
+    const std::uint8_t* const p = image.rgba.data() + std::size_t{4} * (std::size_t{y} * image.width + x);
+    const auto& linear = linear_values();
+    if (srgb) return glm::vec4(linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) / 255);
+    return glm::vec4(p[0], p[1], p[2], p[3]) / 255.0f;
+  };
+  return glm::mix(glm::mix(texel(x0, y0), texel(x1, y0), fx), glm::mix(texel(x0, y1), texel(x1, y1), fx), fy);
+}
+
+/// The vertices of a triangle, interpolated at barycentric coordinates u and v.
+template <typename Member>
+auto interpolated(const scene::Mesh& mesh, std::uint32_t triangle, const glm::vec2& at, Member member) {
+  const auto vertex = [&](std::uint32_t corner) -> const auto& {
+    return mesh.vertices[mesh.indices[std::size_t{3} * triangle + corner]].*member;
+  };
+  return (1 - at.x - at.y) * vertex(0) + at.x * vertex(1) + at.y * vertex(2);
+}
+
+const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
+  if (index == scene::kNone || scene.images[index].pixels.rgba.empty()) return nullptr;
+  return &scene.images[index].pixels;
+}
+
+}  // namespace
+
+SurfaceParts::SurfaceParts(const scene::Scene& scene, std::span<const planning::LevelState> levels,
+                           bool matte)
+    : scene_(scene), matte_(matte) {
+  const planning::LevelState& level = levels.front();
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+    if (!std::ranges::binary_search(level.hidden_objects, i))
+      add(scene.objects[i], {scene.objects[i].world_from_mesh});
+  for (std::size_t i = 0; i < level.moved.size(); ++i) {
+    std::vector<glm::mat4> poses;
+    for (const planning::LevelState& later : levels)
+      if (i < later.moved.size() && later.moved[i].object == level.moved[i].object)
+        poses.push_back(later.moved[i].world_from_mesh);
+    add(scene.objects[level.moved[i].object], std::move(poses));
+  }
+  if (scene.grenade)
+    for (const glm::mat4& world_from_mesh : level.grenades)
+      add(*scene.grenade, {world_from_mesh * scene.grenade->world_from_mesh});
+}
+
+void SurfaceParts::add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh) {
+  if (object.mesh == scene::kNone || scene_.meshes[object.mesh].indices.empty()) return;
+  static const scene::Material kPlain;
+  auto part = std::make_unique<Part>();
+  part->scene = &scene_;
+  part->mesh = &scene_.meshes[object.mesh];
+  part->material = object.material == scene::kNone ? &kPlain : &scene_.materials[object.material];
+  // What rests while the shutter is open has one place.
+  if (std::ranges::all_of(world_from_mesh,
+                          [&](const glm::mat4& pose) { return pose == world_from_mesh.front(); }))
+    world_from_mesh.resize(1);
+  part->world_from_mesh = std::move(world_from_mesh);
+  part->handedness = glm::determinant(glm::mat3(part->world_from_mesh.front())) < 0 ? -1.0f : 1.0f;
+  for (const glm::mat4& pose : part->world_from_mesh) {
+    std::vector<glm::vec3>& corners = part->corners_world.emplace_back();
+    corners.reserve(part->mesh->vertices.size());
+    for (const scene::Vertex& vertex : part->mesh->vertices)
+      corners.emplace_back(pose * glm::vec4(vertex.position, 1));
+  }
+  add_emitters(*part);
+  parts_.push_back(std::move(part));
+}
+
+void SurfaceParts::add_emitters(Part& part) {
+  // Rays alone find emitters that move.
+  if (part.material->emission == glm::vec3(0) || part.corners_world.size() > 1) return;
+  part.first_emitter = static_cast<std::uint32_t>(emitters_.size());
+  const std::vector<std::uint32_t>& indices = part.mesh->indices;
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    const glm::vec3 a = part.corners_world.front()[indices[i]],
+                    u = part.corners_world.front()[indices[i + 1]] - a,
+                    v = part.corners_world.front()[indices[i + 2]] - a;
+    emitters_.push_back({a, u, v, part.material->emission, 0.5f * glm::length(glm::cross(u, v))});
+  }
+}
+
+std::optional<std::uint32_t> SurfaceParts::emitter_of(const SurfaceHit& hit) const {
+  const std::uint32_t first = parts_[hit.part]->first_emitter;
+  if (first == scene::kNone) return std::nullopt;
+  return first + hit.triangle;
+}
+
+bool SurfaceParts::Part::is_cut_out(std::uint32_t triangle, const glm::vec2& at) const {
+  float alpha = interpolated(*mesh, triangle, at, &scene::Vertex::color).a;
+  if (const image::Image8* image = image_of(*scene, material->base_color_image))
+    alpha *= image_at(*image, interpolated(*mesh, triangle, at, &scene::Vertex::uv), true).a;
+  return alpha < material->alpha_cutoff;
+}
+
+void SurfaceParts::shade(const glm::vec2& at, const Ray& ray, SurfaceHit& hit) const {
+  const Part& part = *parts_[hit.part];
+  const std::uint32_t triangle = hit.triangle;
+  // Place, at the ray's time. Barycentric coordinates are closer to the triangle than the ray's end.
+  const auto corner = [&](std::uint32_t i) {
+    const std::uint32_t vertex = part.mesh->indices[std::size_t{3} * triangle + i];
+    std::array<glm::vec3, kMostSteps> steps;
+    for (std::size_t step = 0; step < part.corners_world.size(); ++step)
+      steps[step] = part.corners_world[step][vertex];
+    return at_time(std::span<const glm::vec3>(steps.data(), part.corners_world.size()), ray.time);
+  };
+  const glm::vec3 a = corner(0), u = corner(1) - a, v = corner(2) - a;
+  hit.position = a + at.x * u + at.y * v;
+  const glm::vec3 across = glm::cross(u, v) * part.handedness;
+  const float length = glm::length(across);
+  // Counter-clockwise seen from outside.
+  const bool front = glm::dot(across, ray.direction) < 0;
+  hit.geometric_normal = length > 0 ? across / length : -ray.direction;
+  if (!front) hit.geometric_normal = -hit.geometric_normal;
+
+  // Material, as shaders/gbuffer.frag.
+  const scene::Material& material = *part.material;
+  const glm::vec2 uv = interpolated(*part.mesh, triangle, at, &scene::Vertex::uv);
+  glm::vec3 base(interpolated(*part.mesh, triangle, at, &scene::Vertex::color));
+  if (const image::Image8* image = image_of(scene_, material.base_color_image))
+    base *= glm::vec3(image_at(*image, uv, true));
+  glm::vec2 rough_metal(1);
+  if (const image::Image8* image = image_of(scene_, material.roughness_image)) {
+    const glm::vec4 texel = image_at(*image, uv, false);
+    rough_metal = {texel.g, texel.b};
+  }
+  hit.reflection.albedo = glm::clamp(base * material.base_color, 0.0f, 1.0f);
+  hit.reflection.roughness = std::clamp(material.roughness * rough_metal.x, 0.0f, 1.0f);
+  hit.reflection.metallic = std::clamp(material.metallic * rough_metal.y, 0.0f, 1.0f);
+  if (matte_) hit.reflection.highlight = hit.reflection.metallic = 0;
+  hit.emission = material.emission;
+
+  // Normal. The cofactor matrix transforms normals correctly under any scale, mirroring included.
+  const glm::mat3 linear(at_time<glm::mat4>(part.world_from_mesh, ray.time));
+  const glm::mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                           glm::cross(linear[0], linear[1]));
+  glm::vec3 n = part.handedness * (cofactor * interpolated(*part.mesh, triangle, at, &scene::Vertex::normal));
+  n = glm::dot(n, n) > 0 ? glm::normalize(n) : hit.geometric_normal;
+  if (const image::Image8* image = image_of(scene_, material.normal_image)) {
+    const glm::vec4 stored = interpolated(*part.mesh, triangle, at, &scene::Vertex::tangent);
+    const glm::vec3 along = linear * glm::vec3(stored), t = along - n * glm::dot(n, along);
+    if (glm::dot(t, t) > 1e-12f) {
+      const glm::vec3 mapped = glm::vec3(image_at(*image, uv, false)) * 2.0f - 1.0f,
+                      tangent = glm::normalize(t);
+      n = glm::normalize(mapped.x * tangent + mapped.y * stored.w * part.handedness * glm::cross(n, tangent) +
+                         mapped.z * n);
+    }
+  }
+  hit.reflection.normal = front ? n : -n;
+}
+
+}  // namespace brume::reference
