@@ -111,7 +111,7 @@ class BoxRay {
       to = min4(far, to);
     }
     to *= kRounding;
-    return (from <= to) & (from <= end) ? from : splat(kNever);
+    return ((from <= to) & (from <= end)) ? from : splat(kNever);
   }
 
  private:
