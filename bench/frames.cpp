@@ -33,7 +33,7 @@ FrameCost RepeatedFrame::draw() {
     recorder.read_back(renderer_.smoke().march_counters(), counter_, sizeof(std::uint32_t));
   });
   if (renderer_.is_antialiased()) input_.view.continues = true;
-  for (const auto& scope : runner_.timings()) cost.passes[scope.name] = scope.milliseconds;
+  for (const auto& scope : runner_.timings()) cost.passes[std::string(scope.name)] = scope.milliseconds;
   return cost;
 }
 

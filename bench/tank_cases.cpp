@@ -97,7 +97,7 @@ Result<std::vector<Measurement>> light_case(Bench& bench, float opacity, scene::
   Measurement m =
       time_pass(bench, runner, name, {"tank_light_map", "tank_light"},
                 [&](gpu::Recorder& recorder) { pass.record(recorder, volume, light, glm::vec3(0)); });
-  for (const auto& scope : runner.timings()) m.details[scope.name] = scope.milliseconds;
+  for (const auto& scope : runner.timings()) m.details[std::string(scope.name)] = scope.milliseconds;
   return std::vector{m};
 }
 
@@ -143,7 +143,7 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
   Measurement m = time_pass(bench, runner, picture.name, {"tank"},
                             [&](gpu::Recorder& recorder) { renderer.record_samples(recorder, 1); });
   m.details = {{"width", double(size.x)}, {"height", double(size.y)}};
-  for (const auto& scope : runner.timings()) m.details[scope.name] = scope.milliseconds;
+  for (const auto& scope : runner.timings()) m.details[std::string(scope.name)] = scope.milliseconds;
   return std::vector{m};
 }
 

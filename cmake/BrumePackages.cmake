@@ -90,8 +90,7 @@ brume_package(blender graphics "volumetric smoke in Blender (add-on)"
 set(CPACK_DEBIAN_BLENDER_PACKAGE_DEPENDS "blender, brume ${exact}")
 set(CPACK_DEBIAN_BLENDER_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_BLENDER_PACKAGE_CONTROL_EXTRA ${brume_package_files}/blender/prerm)
-# Not as "brume": Debian's Blender finds modules of the system first, such as that of python3-brume.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/integrations/blender/brume/
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/integrations/blender/brume_blender/
         DESTINATION share/blender/scripts/addons/brume_blender COMPONENT blender EXCLUDE_FROM_ALL
         FILES_MATCHING PATTERN "*.py" PATTERN "*.toml" PATTERN __pycache__ EXCLUDE)
 

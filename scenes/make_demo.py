@@ -158,7 +158,8 @@ def main():
         if args.camera:
             eye, target, fov = args.camera.split()
             camera = tuple(map(float, eye.split(","))), tuple(map(float, target.split(","))), float(fov)
-        preview.draw(scene, images, MATERIALS, LIGHTS, camera, args.preview, smoke_of_timeline() if args.smoke else None)
+        smoke = smoke_of_timeline() if args.smoke else None
+        preview.draw(scene, images, MATERIALS, LIGHTS, camera, args.preview, smoke)
     return 0
 
 

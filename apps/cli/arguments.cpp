@@ -5,7 +5,6 @@
 
 #include "apps/cli/console.hpp"
 #include "apps/cli/help.hpp"
-#include "apps/cli/manual.hpp"
 #include "apps/cli/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
@@ -282,6 +281,7 @@ std::string Arguments::name() const {
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
   app_->formatter(std::make_shared<HelpFormatter>());
+  app_->require_subcommand(0, 1);  // In `brume bench sim`, sim is a value.
   app_->set_version_flag("-V,--version", version, "Print the version and how the program was built");
   app_->set_help_flag("-h,--help", "Print this help; brume COMMAND --help prints that of a command");
 }
@@ -320,10 +320,6 @@ bool CommandLine::parse(int argc, char** argv) {
   }
   if (words[0] == "--version" || words[0] == "-V") {
     print(app_->version() + "\n");
-    return false;
-  }
-  if (words.size() == 2 && words[0] == "--write-manual") {  // called by the build
-    write_manual(*app_, words[1]);
     return false;
   }
 

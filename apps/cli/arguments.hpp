@@ -81,6 +81,9 @@ class CommandLine {
   /// meant.
   bool parse(int argc, char** argv);
 
+  /// All declarations, for write_manual.
+  const CLI::App& declarations() const { return *app_; }
+
  private:
   std::unique_ptr<CLI::App> app_;
 };

@@ -15,6 +15,9 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
 };
 
+/// Between the words of an option's choices in the name of its validator.
+inline constexpr char kChoiceSeparator = '|';
+
 /// "-o,--output FILE" of an option.
 std::string shown_name(const CLI::Option& option);
 

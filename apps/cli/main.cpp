@@ -9,6 +9,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/data_files.hpp"
+#include "apps/cli/manual.hpp"
 #include "core/error.hpp"
 #include "core/tasks.hpp"
 #include "scene/load.hpp"
@@ -109,6 +110,10 @@ int parse_and_run(int argc, char** argv) {
   const std::string json = value_of(argc, argv, "--json");
   set_json(argc > 1 ? argv[1] : "", json);
   try {
+    if (argc == 3 && std::string(argv[1]) == "--write-manual") {  // called by the build
+      write_manual(program.declarations(), argv[2]);
+      return 0;
+    }
     if (!program.parse(argc, argv)) {
       finish_output();
       return 0;

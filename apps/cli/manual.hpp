@@ -21,9 +21,6 @@ std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
 std::string fish_completion(const CLI::App& program);
 
-/// Between the words of an option's choices in the name of its validator.
-inline constexpr char kChoiceSeparator = '|';
-
 /// In the order in which they are declared.
 std::vector<const CLI::App*> commands_of(const CLI::App& program);
 /// Those that --help shows, without arguments by position.

@@ -69,7 +69,7 @@ Json render_on_device(const TankJob& job) {
           return picture;
         });
   Json passes = Json::object();
-  for (const auto& scope : pictures.timings()) passes.set(scope.name, scope.milliseconds);
+  for (const auto& scope : pictures.timings()) passes.set(std::string(scope.name), scope.milliseconds);
   return {{"device", context.info().name},
           {"driver", context.info().driver},
           {"samples_per_pixel", pictures.samples()},

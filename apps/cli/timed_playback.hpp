@@ -23,7 +23,7 @@ class TimedPlayback {
   }
   Json statistics() const {
     Json passes = Json::object();
-    for (const auto& scope : playback_.timings()) passes.set(scope.name, scope.milliseconds);
+    for (const auto& scope : playback_.timings()) passes.set(std::string(scope.name), scope.milliseconds);
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / std::max(frames_, 1)},
             {"cpu_seconds_per_frame", cpu_seconds_ / std::max(frames_, 1)},

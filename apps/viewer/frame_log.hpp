@@ -32,7 +32,9 @@ struct FrameLine {
 
 class FrameLog {
  public:
-  /// Writes the header line. An empty path disables the log. Throws bad_input if the file cannot be written.
+  FrameLog() = default;  ///< Writes nothing.
+  /// Replaces the file by one with the header line; writes nothing for an empty path. Throws bad_input if the
+  /// file cannot be written.
   explicit FrameLog(const std::filesystem::path& path);
 
   /// Adds a line with the frame number (from 1) and the memory of the process. Throws resource_limit if the

@@ -202,7 +202,7 @@ void lay_out_tank_figures(const TankState& state, const TankStatus& status) {
               status.spheres);
   const glm::vec3 size = state.size();
   ImGui::Text("tank: %.2f x %.2f x %.2f m", double{size.x}, double{size.y}, double{size.z});
-  for (const auto& scope : status.timings) ImGui::Text("%s: %.2f ms", scope.name.c_str(), scope.milliseconds);
+  for (const auto& scope : status.timings) ImGui::Text("%.*s: %.2f ms", static_cast<int>(scope.name.size()), scope.name.data(), scope.milliseconds);
 }
 
 }  // namespace

@@ -44,12 +44,12 @@ class TankViewer {
         plays_(play),
         window_(options.size_px, "Brume - " + options.level_name, KeyMap::tank),
         ui_(window_),
-        log_(options.frame_log),
         shaders_(options.shaders) {
     choices_.panels = options.panels;
     choices_.overlay = options.overlay;
     choices_.vertical_sync = options.vertical_sync;
     make_screen();
+    log_ = FrameLog(options.frame_log);  // An earlier file remains until there is something to write.
     if (options_.say) options_.say("loading " + options_.level_name + "...");
     begin_job("loading or packing spheres", make);
   }

@@ -57,10 +57,10 @@ class Viewer {
         window_(options.size_px, "Brume - " + options.level_name),
         ui_(window_),
         quality_(options.frames_per_second),
-        log_(options.frame_log),
         shaders_(options.shaders) {
     make_screen();
     begin(load, play);
+    log_ = FrameLog(options.frame_log);  // An earlier file remains until there is something to write.
   }
 
   ViewerReport run() {

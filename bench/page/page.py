@@ -14,8 +14,9 @@ TITLES = {
     "wire": "Packets", "march": "March", "frame": "Frames", "indirect_light": "Indirect light",
     "light_cache": "Light that is kept", "holes": "Holes", "holes_around": "Holes from all around",
     "volumes": "Volumes", "particles": "Particles", "decals": "Decals", "tank": "Tanks of spheres",
-    "lens": "Points of a lens", "scaling": "Scaling"}
-BETTER = {"ms": "shorter is better", "ns": "shorter is better", "us": "shorter is better", "M/s": "longer is better"}
+    "lens": "Points of a lens", "scaling": "Scaling", "peers": "Beside other renderers"}
+BETTER = {"ms": "shorter is better", "ns": "shorter is better", "us": "shorter is better", "M/s": "longer is better",
+          "times": "shorter is better"}
 
 
 class Page:
@@ -78,8 +79,8 @@ in an arrow where it leaves the plot.</p>
         return f'<h2>{heading}</h2>\n<div class="grid-of">{"".join(cards)}</div>'
 
     def missing(self, i):
-        """The claims that brume bench can measure and this file lacks."""
-        return [c for c in self.claims if "case" in c and self.value_of(c, i) is None]
+        """The claims that this file lacks."""
+        return [claim for claim in self.claims if self.value_of(claim, i) is None]
 
     def value_of(self, claim, i):
         m = self.files[i].measurements.get(claim["case"])
@@ -87,23 +88,21 @@ in an arrow where it leaves the plot.</p>
 
     def notes(self):
         out = []
-        measurable = sum("case" in claim for claim in self.claims)
         for i in range(len(self.files)):
             lacking = self.missing(i)
             if lacking:
                 cases = ", ".join(f'<code>{escaped(claim["case"])}</code>' for claim in lacking)
-                out.append(f'<div class="note" role="note"><p>{self.letter(i)}{len(lacking)} of the {measurable} '
-                           f'figures that <code>brume bench</code> measures are missing: {cases}.</p></div>')
+                out.append(f'<div class="note" role="note"><p>{self.letter(i)}{len(lacking)} of the '
+                           f'{len(self.claims)} figures of the README are missing: {cases}. '
+                           f'<code>script/bench-claims</code> measures all.</p></div>')
         return "".join(out)
 
     def cell(self, claim, i):
         begin = f'<td role="cell" data-label="{escaped(self.label(i))}"'
-        if "by" in claim:
-            return f'{begin} class="missing">by <code>{escaped(claim["by"])}</code></td>'
         value, file = self.value_of(claim, i), self.files[i]
         if value is None:
             case = claim.get("run", claim["case"])
-            reason = file.reason_without(case) or f"run brume bench {case}"
+            reason = file.reason_without(case) or f"run {claim.get('by', 'brume bench ' + case)}"
             return f'{begin} class="missing">not measured here<small>{escaped(reason)}</small></td>'
         m = file.measurements[claim["case"]]
         unit = claim["unit"] if "detail" in claim else m.unit
@@ -120,7 +119,7 @@ in an arrow where it leaves the plot.</p>
         for claim in self.claims:
             on = f'<small>{escaped(claim["on"])}</small>' if claim["on"] else ""
             cells = "".join(self.cell(claim, i) for i in range(len(self.files)))
-            case = f'<small><code>{escaped(claim["case"])}</code></small>' if "case" in claim else ""
+            case = f'<small><code>{escaped(claim["case"])}</code></small>'
             rows.append(f'<tr role="row"><th scope="row" role="rowheader">{escaped(claim["what"])}{case}</th>'
                         f'<td role="cell" data-label="README">{escaped(claim["figure"])}{on}</td>{cells}</tr>')
         return f"""<h2 id="claims">What the README claims</h2>

@@ -119,5 +119,5 @@ def claims():
     - what: a title, text: a passage of README.md, figure: its part that says how much, on: the machine it is of,
     - case: the name of the result, detail: of a secondary one, run: what brume bench calls the case, if otherwise,
     - value and unit: the figure as a number, where it is one,
-    - by: what measures it instead, where brume bench does not."""
+    - by: the script that adds the case to those of brume bench, where one does (peers.py)."""
     return json.loads(CLAIMS.read_text(encoding="utf-8"))

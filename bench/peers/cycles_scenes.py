@@ -234,8 +234,8 @@ def main():
         spec = json.load(stream)
     bpy.ops.preferences.addon_install(filepath=spec["addon"])
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.preferences.addon_enable(module="brume")
-    bpy.context.preferences.addons["brume"].preferences.program = spec["brume"]
+    bpy.ops.preferences.addon_enable(module="brume_blender")
+    bpy.context.preferences.addons["brume_blender"].preferences.program = spec["brume"]
     surfaces = Surfaces()
     medium = SCENES[spec["scene"]](spec, surfaces)
     camera(spec)

@@ -13,8 +13,8 @@
 // Frames      Each has a number of the host, which rises. The host says up to which frame the device has
 //             completed all commands; any number of frames may be in flight. What a frame uses is destroyed
 //             after that.
-// Failures    After an error of brume_renderer_record the command buffer is valid, and may be submitted or
-//             dropped; the next frame uploads everything again.
+// Failures    After an error of brume_renderer_record nothing was added to the command buffer; the next frame
+//             uploads everything again.
 // Images      Of the host: in the layout that the struct names, before and after. Writes to them must be
 //             visible to the stages that the struct names, and later accesses of the host wait for these
 //             stages.

@@ -51,8 +51,8 @@ Box<T> united(const Box<T>& a, const Box<T>& b) {
 
 /// Joins boxes until there are at most `most`, first the two whose union gains the least volume. The time
 /// grows with the cube of their number.
-template <typename T>
-void join_nearest(std::vector<Box<T>>& boxes, std::size_t most) {
+template <typename T, typename Memory>
+void join_nearest(std::vector<Box<T>, Memory>& boxes, std::size_t most) {
   const auto volume = [](const Box<T>& box) {
     const glm::dvec3 size(box.high - box.low);
     return size.x * size.y * size.z;

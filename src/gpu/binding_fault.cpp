@@ -17,8 +17,9 @@ std::string binding_fault(const ShaderInterface& interface, std::span<const Boun
   for (const ShaderInterface::Binding& binding : interface.bindings) {
     const auto binds = [&](const BoundResource& bound) { return bound.at.number == binding.number; };
     const auto count = std::count_if(resources.begin(), resources.end(), binds);
-    const std::string what = "binding " + std::to_string(binding.number) + ", a " + name_of(binding.type);
-    if (count != 1) return what + (count == 0 ? ", has no resource" : ", has more than one resource");
+    if (count != 1)
+      return "binding " + std::to_string(binding.number) + ", a " + name_of(binding.type) +
+             (count == 0 ? ", has no resource" : ", has more than one resource");
   }
   return {};
 }

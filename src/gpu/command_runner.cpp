@@ -32,8 +32,9 @@ void CommandRunner::start(const std::function<void(Recorder&)>& record, const Wi
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   check(vk.BeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
   {
-    Recorder recorder(context_, slot_, commands_);
+    Recorder recorder(context_, slot_);
     record(recorder);
+    recorder.record(commands_);
   }
   check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
   context_.submit(commands_, window);

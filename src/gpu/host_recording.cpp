@@ -14,7 +14,7 @@ HostRecording::Slot& HostRecording::free_slot(std::uint64_t completed) {
     if (!free || slot.frame < free->frame) free = &slot;
     if (!newest || slot.frame > newest->frame) newest = &slot;
   }
-  if (newest && newest->frame > 0) timings_ = newest->resources.timings().read_available();
+  if (newest && newest->frame > 0) newest->resources.timings().read_available(timings_);
   return free ? *free : slots_.emplace_back(context_);
 }
 
@@ -22,11 +22,13 @@ void HostRecording::begin(VkCommandBuffer commands, std::uint64_t frame, std::ui
   BRUME_ASSERT(!recorder_, "a frame within another one");
   context_.begin_frame(frame, completed);
   Slot& slot = free_slot(completed);
-  recorder_.emplace(context_, slot.resources, commands);
+  recorder_.emplace(context_, slot.resources);
+  commands_ = commands;
   slot.frame = frame;
 }
 
 void HostRecording::end() {
+  recorder_->record(commands_);
   recorder_.reset();
 }
 

@@ -18,17 +18,19 @@ class HostRecording : public CommandStream {
   HostRecording(const HostRecording&) = delete;
   HostRecording& operator=(const HostRecording&) = delete;
 
-  /// Begins to record a frame into `commands`, which are in the recording state. The device has completed the
+  /// Begins to collect a frame for `commands`, which are in the recording state. The device has completed the
   /// commands of all frames up to `completed`; those after it may be in flight, as many as there are. Frames
   /// rise, and their commands are submitted in that order to one queue, or not at all together with all that
   /// follow.
   void begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed);
-  /// Ends the frame: the commands are valid, also after a failure, and belong to the host again.
+  /// Ends the frame: records its commands, which belong to the host again.
   void end();
+  /// Ends the frame after a failure: nothing of it is recorded.
+  void discard() { recorder_.reset(); }
 
   /// Between begin and end.
   Recorder& recorder() { return *recorder_; }
-  /// Records at once, between begin and end.
+  /// Collects at once, between begin and end.
   void run(const std::function<void(Recorder&)>& record) override;
 
   /// GPU times of the newest frame that the device had completed when the present one began; empty: of none.
@@ -43,7 +45,8 @@ class HostRecording : public CommandStream {
   Slot& free_slot(std::uint64_t completed);
 
   Context& context_;
-  std::list<Slot> slots_;  // as many as frames were in flight, and one
+  std::list<Slot> slots_;                      // as many as frames were in flight, and one
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the frame
   std::optional<Recorder> recorder_;
   std::vector<Timings::Scope> timings_;
 };

@@ -67,8 +67,15 @@ FrameSlot::~FrameSlot() {
   for (const VkDescriptorPool pool : descriptors_) context_.retire({.descriptors = pool});
 }
 
-Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
-    : context_(context), slot_(slot), commands_(commands) {
+Recorder::Recorder(Context& context, FrameSlot& slot)
+    : context_(context),
+      slot_(slot),
+      list_(slot.memory_),
+      buffer_barriers_(&slot.memory_),
+      image_barriers_(&slot.memory_),
+      transfers_(&slot.memory_),
+      dispatches_(&slot.memory_) {
+  slot.memory_.reset();
   for (const VkDescriptorPool pool : slot.descriptors_)
     check(context.vk().ResetDescriptorPool(context.device(), pool, 0), "vkResetDescriptorPool");
   slot.descriptors_index_ = 0;
@@ -81,7 +88,7 @@ Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
   }
   slot.staging_index_ = 0;
   slot.staging_used_ = 0;
-  slot.timings_.reset(commands);
+  slot.timings_.reset(list_);
 }
 
 void Recorder::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
@@ -135,13 +142,15 @@ void Recorder::use(const Binding& binding, VkPipelineStageFlags2 stages) {
 
 void Recorder::flush_barriers() {
   if (buffer_barriers_.empty() && image_barriers_.empty()) return;
+  const auto buffers = list_.kept(std::span<const VkBufferMemoryBarrier2>(buffer_barriers_));
+  const auto images = list_.kept(std::span<const VkImageMemoryBarrier2>(image_barriers_));
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffer_barriers_.size());
-  info.pBufferMemoryBarriers = buffer_barriers_.data();
-  info.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
-  info.pImageMemoryBarriers = image_barriers_.data();
-  context_.vk().CmdPipelineBarrier2(commands_, &info);
+  info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size());
+  info.pBufferMemoryBarriers = buffers.data();
+  info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
+  info.pImageMemoryBarriers = images.data();
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) { vk.CmdPipelineBarrier2(commands, &info); });
   buffer_barriers_.clear();
   image_barriers_.clear();
 }
@@ -169,9 +178,10 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bo
   const std::string fault = binding_fault(pipeline.interface(), resources);
   BRUME_ASSERT(fault.empty(), std::string(pipeline.shaders().front().name) + ": " + fault);
   const VkDescriptorSet set = allocate_set(pipeline.set_layout());
-  std::vector<VkDescriptorBufferInfo> buffers(resources.size());
-  std::vector<VkDescriptorImageInfo> images(resources.size());
-  std::vector<VkWriteDescriptorSet> writes;
+  FrameVector<VkDescriptorBufferInfo> buffers(resources.size(), &memory());
+  FrameVector<VkDescriptorImageInfo> images(resources.size(), &memory());
+  FrameVector<VkWriteDescriptorSet> writes(&memory());
+  writes.reserve(resources.size());
   std::uint32_t i = 0;
   for (const auto& [at, binding] : resources) {
     VkWriteDescriptorSet write{};
@@ -199,7 +209,7 @@ void Recorder::bind(const Pipeline& pipeline, BoundResources resources, std::spa
   for (const BoundResource& bound : resources) use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   const VkDescriptorSet set = write_set(pipeline, resources);
   if (concurrently_) {
-    dispatches_.push_back({&pipeline, set, {bytes.begin(), bytes.end()}, {}});
+    dispatches_.push_back({&pipeline, set, list_.kept(bytes), {}});
     return;
   }
   flush_barriers();
@@ -212,9 +222,13 @@ void Recorder::bind_for_draws(const Pipeline& pipeline, BoundResources resources
 }
 
 void Recorder::bind_set(const Pipeline& pipeline, VkDescriptorSet set) {
-  context_.vk().CmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
-  context_.vk().CmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0,
-                                      nullptr);
+  const VkPipelineBindPoint point = pipeline.bind_point();
+  const VkPipeline handle = pipeline.handle();
+  const VkPipelineLayout layout = pipeline.layout();
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdBindPipeline(commands, point, handle);
+    vk.CmdBindDescriptorSets(commands, point, layout, 0, 1, &set, 0, nullptr);
+  });
 }
 
 void Recorder::prepare_for_draws(std::initializer_list<Binding> bindings) {
@@ -229,8 +243,12 @@ void Recorder::prepare_indices(const Buffer& indices) {
 
 void Recorder::push(const Pipeline& pipeline, std::span<const std::byte> bytes) {
   BRUME_ASSERT(bytes.size() == pipeline.interface().push_bytes, std::to_string(bytes.size()));
-  context_.vk().CmdPushConstants(commands_, pipeline.layout(), pipeline.stages(), 0,
-                                 static_cast<std::uint32_t>(bytes.size()), bytes.data());
+  const VkPipelineLayout layout = pipeline.layout();
+  const VkShaderStageFlags stages = pipeline.stages();
+  const std::span<const std::byte> kept = list_.kept(bytes);
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdPushConstants(commands, layout, stages, 0, static_cast<std::uint32_t>(kept.size()), kept.data());
+  });
 }
 
 void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y,
@@ -241,19 +259,27 @@ void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x
   if (concurrently_)
     dispatches_.back().groups = groups;
   else
-    context_.vk().CmdDispatch(commands_, groups[0], groups[1], groups[2]);
+    add_dispatch(groups);
 }
 
-void Recorder::concurrently(const std::function<void()>& record) {
+void Recorder::add_dispatch(const std::array<std::uint32_t, 3>& groups) {
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdDispatch(commands, groups[0], groups[1], groups[2]);
+  });
+}
+
+void Recorder::begin_concurrent() {
   BRUME_ASSERT(!concurrently_, "dispatches inside of others");
   concurrently_ = true;
-  record();
+}
+
+void Recorder::end_concurrent() {
   concurrently_ = false;
   flush_barriers();
   for (const Dispatch& dispatch : dispatches_) {
     bind_set(*dispatch.pipeline, dispatch.set);
     if (!dispatch.push.empty()) push(*dispatch.pipeline, dispatch.push);
-    context_.vk().CmdDispatch(commands_, dispatch.groups[0], dispatch.groups[1], dispatch.groups[2]);
+    add_dispatch(dispatch.groups);
   }
   dispatches_.clear();
 }
@@ -261,7 +287,9 @@ void Recorder::concurrently(const std::function<void()>& record) {
 void Recorder::dispatch_indirect(const Buffer& groups) {
   use(groups, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   flush_barriers();
-  context_.vk().CmdDispatchIndirect(commands_, groups.handle(), 0);
+  const VkBuffer buffer = groups.handle();
+  list_.add(
+      [=](const Functions& vk, VkCommandBuffer commands) { vk.CmdDispatchIndirect(commands, buffer, 0); });
 }
 
 void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {
@@ -276,17 +304,19 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   };
 
   // Attachments and their barriers.
-  std::vector<VkRenderingAttachmentInfo> colours;
-  for (std::size_t i = 0; i < attachments.colours.size(); ++i) {
-    const Image* image = attachments.colours[i];
+  std::array<VkRenderingAttachmentInfo, std::tuple_size_v<decltype(attachments.colours)>> colours;
+  std::uint32_t colour_count = 0;
+  for (const Image* image : attachments.colours) {
+    if (!image) break;
+    const std::uint32_t i = colour_count++;
     const bool keep = (attachments.keep >> i & 1u) != 0;
     use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
         VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | (keep ? VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT : 0),
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    colours.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                 keep                    ? VK_ATTACHMENT_LOAD_OP_LOAD
-                                 : attachments.overwrite ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
-                                                         : VK_ATTACHMENT_LOAD_OP_CLEAR));
+    colours[i] = attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            keep                    ? VK_ATTACHMENT_LOAD_OP_LOAD
+                            : attachments.overwrite ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
+                                                    : VK_ATTACHMENT_LOAD_OP_CLEAR);
   }
   VkRenderingAttachmentInfo depth{};
   if (attachments.depth) {
@@ -301,52 +331,67 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   flush_barriers();
 
   // Rendering, with the whole area as viewport and scissor.
-  VkRenderingInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea.extent = {size_px.x, size_px.y};
-  info.layerCount = 1;
-  info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
-  info.pColorAttachments = colours.data();
-  info.pDepthAttachment = attachments.depth ? &depth : nullptr;
-  const Functions& vk = context_.vk();
-  vk.CmdBeginRendering(commands_, &info);
-  rendering_ = true;
-  const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
-  vk.CmdSetViewport(commands_, 0, 1, &viewport);
-  vk.CmdSetScissor(commands_, 0, 1, &info.renderArea);
+  const bool has_depth = attachments.depth != nullptr;
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+    VkRenderingInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    info.renderArea.extent = {size_px.x, size_px.y};
+    info.layerCount = 1;
+    info.colorAttachmentCount = colour_count;
+    info.pColorAttachments = colours.data();
+    info.pDepthAttachment = has_depth ? &depth : nullptr;
+    vk.CmdBeginRendering(commands, &info);
+    const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
+    vk.CmdSetViewport(commands, 0, 1, &viewport);
+    vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
+  });
   set_culling(false);
 }
 
 void Recorder::end_rendering() {
-  context_.vk().CmdEndRendering(commands_);
-  rendering_ = false;
+  list_.add([](const Functions& vk, VkCommandBuffer commands) { vk.CmdEndRendering(commands); });
 }
 
-void Recorder::complete() {
-  if (rendering_) end_rendering();
-  concurrently_ = false;
-  dispatches_.clear();
+void Recorder::begin_scope(const char* name) {
+  flush_transfers();
+  slot_.timings_.begin(list_, name);
+}
+
+void Recorder::end_scope() {
+  flush_transfers();
+  slot_.timings_.end(list_);
+}
+
+void Recorder::record(VkCommandBuffer commands) {
   flush_transfers();
   flush_barriers();
+  list_.record(context_.vk(), commands);
+  slot_.timings_.set_recorded();
 }
 
 void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
                             std::int32_t first_vertex) {
-  context_.vk().CmdBindIndexBuffer(commands_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-  context_.vk().CmdDrawIndexed(commands_, count, 1, first, first_vertex, 0);
+  const VkBuffer buffer = indices.handle();
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdBindIndexBuffer(commands, buffer, 0, VK_INDEX_TYPE_UINT32);
+    vk.CmdDrawIndexed(commands, count, 1, first, first_vertex, 0);
+  });
 }
 
 void Recorder::draw(std::uint32_t vertex_count) {
-  context_.vk().CmdDraw(commands_, vertex_count, 1, 0, 0);
+  list_.add(
+      [=](const Functions& vk, VkCommandBuffer commands) { vk.CmdDraw(commands, vertex_count, 1, 0, 0); });
 }
 
 void Recorder::set_culling(bool back_faces) {
-  context_.vk().CmdSetCullMode(commands_, back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+  const VkCullModeFlags mode = back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+  list_.add([=](const Functions& vk, VkCommandBuffer commands) { vk.CmdSetCullMode(commands, mode); });
 }
 
 void Recorder::set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px) {
   const VkRect2D rectangle{{offset_px.x, offset_px.y}, {size_px.x, size_px.y}};
-  context_.vk().CmdSetScissor(commands_, 0, 1, &rectangle);
+  list_.add(
+      [=](const Functions& vk, VkCommandBuffer commands) { vk.CmdSetScissor(commands, 0, 1, &rectangle); });
 }
 
 }  // namespace brume::gpu

@@ -1,4 +1,4 @@
-// Records commands into a command buffer and derives the barriers between them.
+// Collects the commands of a recording and derives the barriers between them.
 #pragma once
 
 #include <array>
@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/frame_memory.hpp"
+#include "gpu/command_list.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
@@ -83,14 +85,14 @@ class FrameSlot {
   std::uint32_t spare_frames_ = 0;  // in a row that left the last staging buffer empty
   VkDeviceSize staging_used_ = 0;
   Timings timings_;
+  FrameMemory memory_;  // of a recording
 };
 
 class Recorder {
  public:
-  /// `commands` is in the recording state and remains so. `slot` must not be in use by the device.
-  Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
-  /// Records what is left to record: before that, the commands must not end.
-  ~Recorder() { complete(); }
+  /// `slot` must not be in use by the device.
+  Recorder(Context& context, FrameSlot& slot);
+  ~Recorder() = default;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -106,7 +108,12 @@ class Recorder {
                         std::uint32_t z = 1);
   /// Dispatches without dependencies on each other, which `record` binds and dispatches: the barriers of all
   /// come before the first. `record` neither uploads nor dispatches indirectly.
-  void concurrently(const std::function<void()>& record);
+  template <typename Record>
+  void concurrently(Record&& record) {
+    begin_concurrent();
+    record();
+    end_concurrent();
+  }
   /// Dispatches the number of workgroups in the first three words of `groups`
   /// (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
   void dispatch_indirect(const Buffer& groups);
@@ -137,7 +144,7 @@ class Recorder {
   void make_mip_levels(const Image& image);
 
   struct Attachments {
-    std::vector<const Image*> colours;
+    std::array<const Image*, 4> colours{};  ///< Null after the last one.
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
     std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
@@ -159,22 +166,19 @@ class Recorder {
   /// Binds inside a rendering, where no barrier is possible: prepare_for_draws comes first.
   void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
 
-  void begin_scope(const char* name) {
-    flush_transfers();
-    slot_.timings_.begin(commands_, name);
-  }
-  void end_scope() {
-    flush_transfers();
-    slot_.timings_.end(commands_);
-  }
+  void begin_scope(const char* name);
+  void end_scope();
 
-  /// Records what is left to record, and ends a rendering that a failure left: the commands are valid then,
-  /// whatever was recorded.
-  void complete();
+  /// Records all that was collected into `commands`, which are in the recording state and remain so. The last
+  /// call; without it nothing is recorded at all.
+  void record(VkCommandBuffer commands);
 
-  VkCommandBuffer commands() const { return commands_; }
+  /// For what is in use no longer than this recorder.
+  FrameMemory& memory() { return slot_.memory_; }
 
  private:
+  void begin_concurrent();
+  void end_concurrent();
   struct Staged {
     const Buffer* buffer;
     VkDeviceSize offset;
@@ -188,6 +192,9 @@ class Recorder {
   void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
   void use(const Binding& binding, VkPipelineStageFlags2 stages);
   void flush_barriers();
+  void add_blit(const Image& from, VkImage to, VkImageLayout layout, const VkImageBlit& blit,
+                VkFilter filter);
+  void add_dispatch(const std::array<std::uint32_t, 3>& groups);
 
   /// A write to a buffer that is yet to be recorded: a copy from `from`, where also `bytes` are, or without
   /// it a fill.
@@ -204,18 +211,18 @@ class Recorder {
   struct Dispatch {
     const Pipeline* pipeline;
     VkDescriptorSet set;
-    std::vector<std::byte> push;
+    std::span<const std::byte> push;
     std::array<std::uint32_t, 3> groups;
   };
 
   Context& context_;
   FrameSlot& slot_;
-  VkCommandBuffer commands_;
-  std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
-  std::vector<VkImageMemoryBarrier2> image_barriers_;
-  std::vector<Transfer> transfers_;
-  std::vector<Dispatch> dispatches_;
-  bool concurrently_ = false, rendering_ = false;
+  CommandList list_;
+  FrameVector<VkBufferMemoryBarrier2> buffer_barriers_;
+  FrameVector<VkImageMemoryBarrier2> image_barriers_;
+  FrameVector<Transfer> transfers_;
+  FrameVector<Dispatch> dispatches_;
+  bool concurrently_ = false;
 };
 
 /// Measures the GPU time of the commands recorded during its lifetime.

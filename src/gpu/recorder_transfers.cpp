@@ -74,23 +74,29 @@ void Recorder::add_transfer(const Buffer& to, const Transfer& transfer) {
 void Recorder::flush_transfers() {
   if (transfers_.empty()) return;
   flush_barriers();
-  std::vector<VkBufferCopy> regions;
+  FrameVector<VkBufferCopy> regions(&memory());
   for (std::size_t i = 0; i < transfers_.size(); ++i) {
-    const Transfer& one = transfers_[i];
+    const Transfer one = transfers_[i];
     if (!one.from) {
-      context_.vk().CmdFillBuffer(commands_, one.to, one.region.dstOffset, one.region.size, one.value);
+      list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+        vk.CmdFillBuffer(commands, one.to, one.region.dstOffset, one.region.size, one.value);
+      });
       continue;
     }
     if (is_inline(one.region)) {
-      context_.vk().CmdUpdateBuffer(commands_, one.to, one.region.dstOffset, one.region.size, one.bytes);
+      list_.add([=](const Functions& vk, VkCommandBuffer commands) {
+        vk.CmdUpdateBuffer(commands, one.to, one.region.dstOffset, one.region.size, one.bytes);
+      });
       continue;
     }
     regions.push_back(one.region);
     const bool continues = i + 1 < transfers_.size() && transfers_[i + 1].from == one.from &&
                            transfers_[i + 1].to == one.to && !is_inline(transfers_[i + 1].region);
     if (continues) continue;
-    context_.vk().CmdCopyBuffer(commands_, one.from, one.to, static_cast<std::uint32_t>(regions.size()),
-                                regions.data());
+    list_.add([one, copied = list_.kept(std::span<const VkBufferCopy>(regions))](const Functions& vk,
+                                                                                 VkCommandBuffer commands) {
+      vk.CmdCopyBuffer(commands, one.from, one.to, static_cast<std::uint32_t>(copied.size()), copied.data());
+    });
     regions.clear();
   }
   transfers_.clear();
@@ -103,13 +109,16 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
   flush_barriers();
 
   // One copy command per staging buffer.
-  std::vector<VkBufferImageCopy> copies;
+  FrameVector<VkBufferImageCopy> copies(&memory());
   const Buffer* source = nullptr;
   const auto flush_copies = [&] {
     if (!source || copies.empty()) return;
-    context_.vk().CmdCopyBufferToImage(commands_, source->handle(), image.handle(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                       static_cast<std::uint32_t>(copies.size()), copies.data());
+    list_.add([from = source->handle(), to = image.handle(),
+               copied = list_.kept(std::span<const VkBufferImageCopy>(copies))](const Functions& vk,
+                                                                                VkCommandBuffer commands) {
+      vk.CmdCopyBufferToImage(commands, from, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                              static_cast<std::uint32_t>(copied.size()), copied.data());
+    });
     copies.clear();
   };
   for (const Region& region : regions) {
@@ -135,7 +144,9 @@ void Recorder::clear(const Image& image, VkClearColorValue value) {
   flush_barriers();
   const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                                     VK_REMAINING_ARRAY_LAYERS};
-  context_.vk().CmdClearColorImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &all);
+  list_.add([to = image.handle(), value, all](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdClearColorImage(commands, to, VK_IMAGE_LAYOUT_GENERAL, &value, 1, &all);
+  });
 }
 
 void Recorder::read_back(const Image& image, const Buffer& buffer) {
@@ -147,7 +158,10 @@ void Recorder::read_back(const Image& image, const Buffer& buffer) {
   VkBufferImageCopy copy{};
   copy.imageSubresource = {image.aspect(), 0, 0, 1};
   copy.imageExtent = {image.info().size.x, image.info().size.y, image.info().size.z};
-  context_.vk().CmdCopyImageToBuffer(commands_, image.handle(), layout, buffer.handle(), 1, &copy);
+  list_.add([from = image.handle(), layout, to = buffer.handle(), copy](const Functions& vk,
+                                                                        VkCommandBuffer commands) {
+    vk.CmdCopyImageToBuffer(commands, from, layout, to, 1, &copy);
+  });
   use(buffer, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   flush_barriers();
 }
@@ -157,9 +171,18 @@ void Recorder::read_back(const Buffer& from, const Buffer& to, VkDeviceSize byte
   use(to, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   flush_barriers();
   const VkBufferCopy copy{0, 0, bytes};
-  context_.vk().CmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &copy);
+  list_.add([from = from.handle(), to = to.handle(), copy](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdCopyBuffer(commands, from, to, 1, &copy);
+  });
   use(to, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   flush_barriers();
+}
+
+void Recorder::add_blit(const Image& from, VkImage to, VkImageLayout layout, const VkImageBlit& blit,
+                        VkFilter filter) {
+  list_.add([from = from.handle(), to, layout, blit, filter](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdBlitImage(commands, from, VK_IMAGE_LAYOUT_GENERAL, to, layout, 1, &blit, filter);
+  });
 }
 
 void Recorder::blit(const Image& from, const Image& to, VkFilter filter) {
@@ -167,8 +190,7 @@ void Recorder::blit(const Image& from, const Image& to, VkFilter filter) {
   use(to, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
   flush_barriers();
   const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), glm::uvec2(to.info().size));
-  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(),
-                             VK_IMAGE_LAYOUT_GENERAL, 1, &blit, filter);
+  add_blit(from, to.handle(), VK_IMAGE_LAYOUT_GENERAL, blit, filter);
 }
 
 void Recorder::blit(const Image& from, const WindowImage& to) {
@@ -191,8 +213,7 @@ void Recorder::blit(const Image& from, const WindowImage& to) {
   };
   change(0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), to.size_px);
-  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle,
-                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
+  add_blit(from, to.handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, blit, VK_FILTER_NEAREST);
   change(VK_ACCESS_2_TRANSFER_WRITE_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
          VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
@@ -211,8 +232,7 @@ void Recorder::make_mip_levels(const Image& image) {
     blit.srcOffsets[1] = {half(size.x, level - 1), half(size.y, level - 1), 1};
     blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
     blit.dstOffsets[1] = {half(size.x, level), half(size.y, level), 1};
-    context_.vk().CmdBlitImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
-                               VK_IMAGE_LAYOUT_GENERAL, 1, &blit, VK_FILTER_LINEAR);
+    add_blit(image, image.handle(), VK_IMAGE_LAYOUT_GENERAL, blit, VK_FILTER_LINEAR);
     use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
         VK_IMAGE_LAYOUT_GENERAL);
     flush_barriers();

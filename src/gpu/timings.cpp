@@ -1,5 +1,8 @@
 #include "gpu/timings.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace brume::gpu {
 
 Timings::Timings(Context& context) : context_(context) {
@@ -14,41 +17,53 @@ Timings::~Timings() {
   context_.retire({.queries = pool_});
 }
 
-void Timings::reset(VkCommandBuffer commands) {
+void Timings::reset(CommandList& list) {
   names_.clear();
-  context_.vk().CmdResetQueryPool(commands, pool_, 0, 2 * kMaxScopes);
+  is_recorded_ = false;
+  list.add([pool = pool_](const Functions& vk, VkCommandBuffer commands) {
+    vk.CmdResetQueryPool(commands, pool, 0, 2 * kMaxScopes);
+  });
 }
 
-void Timings::begin(VkCommandBuffer commands, const char* name) {
+void Timings::write(CommandList& list, std::size_t query) const {
+  if (names_.size() > kMaxScopes) return;
+  list.add([pool = pool_, query = static_cast<std::uint32_t>(query)](const Functions& vk,
+                                                                     VkCommandBuffer commands) {
+    vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+  });
+}
+
+void Timings::begin(CommandList& list, const char* name) {
   names_.push_back(name);
-  if (names_.size() > kMaxScopes) return;
-  const auto query = static_cast<std::uint32_t>(2 * names_.size() - 2);
-  context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
+  write(list, 2 * names_.size() - 2);
 }
 
-void Timings::end(VkCommandBuffer commands) {
-  if (names_.size() > kMaxScopes) return;
-  const auto query = static_cast<std::uint32_t>(2 * names_.size() - 1);
-  context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
+void Timings::end(CommandList& list) {
+  write(list, 2 * names_.size() - 1);
 }
 
-std::vector<Timings::Scope> Timings::read(bool wait) const {
+std::vector<Timings::Scope> Timings::read() const {
+  std::vector<Scope> scopes;
+  read(scopes, true);
+  return scopes;
+}
+
+void Timings::read(std::vector<Scope>& scopes, bool wait) const {
+  scopes.clear();
   const auto count = std::min<std::size_t>(names_.size(), kMaxScopes);
-  if (count == 0) return {};
-  std::vector<std::uint64_t> ticks(2 * count);
+  if (count == 0 || !is_recorded_) return;
+  std::array<std::uint64_t, 2 * kMaxScopes> ticks;
   VkQueryResultFlags flags = VK_QUERY_RESULT_64_BIT;
   if (wait) flags |= VK_QUERY_RESULT_WAIT_BIT;
   const VkResult result =
       context_.vk().GetQueryPoolResults(context_.device(), pool_, 0, static_cast<std::uint32_t>(2 * count),
-                                        ticks.size() * 8, ticks.data(), 8, flags);
-  if (result == VK_NOT_READY) return {};
+                                        2 * count * 8, ticks.data(), 8, flags);
+  if (result == VK_NOT_READY) return;
   check(result, "vkGetQueryPoolResults");
-  std::vector<Scope> scopes;
   for (std::size_t i = 0; i < count; ++i) {
     const auto duration = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
     scopes.push_back({names_[i], duration * context_.timestamp_period() * 1e-6});
   }
-  return scopes;
 }
 
 }  // namespace brume::gpu

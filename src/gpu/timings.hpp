@@ -1,9 +1,10 @@
 // GPU times of named parts of a recording, by timestamp queries.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
+#include "gpu/command_list.hpp"
 #include "gpu/context.hpp"
 
 namespace brume::gpu {
@@ -12,7 +13,7 @@ class Timings {
  public:
   static constexpr std::uint32_t kMaxScopes = 64;
   struct Scope {
-    std::string name;
+    std::string_view name;
     double milliseconds = 0;
   };
 
@@ -22,21 +23,26 @@ class Timings {
   Timings& operator=(const Timings&) = delete;
 
   /// Clears the scopes of the last recording; must be the first command of a recording.
-  void reset(VkCommandBuffer commands);
+  void reset(CommandList& list);
   /// Scopes do not nest. More than kMaxScopes are ignored.
-  void begin(VkCommandBuffer commands, const char* name);
-  void end(VkCommandBuffer commands);
+  void begin(CommandList& list, const char* name);
+  void end(CommandList& list);
+  /// The commands of the list were recorded; before that, there is nothing to be read.
+  void set_recorded() { is_recorded_ = true; }
   /// The scopes in order, once the device has completed the recording.
-  std::vector<Scope> read() const { return read(true); }
-  /// The same, and none where the recording was not submitted.
-  std::vector<Scope> read_available() const { return read(false); }
+  std::vector<Scope> read() const;
+  /// The same in place of what `scopes` has; none where the recording was not submitted.
+  void read_available(std::vector<Scope>& scopes) const { read(scopes, false); }
 
  private:
-  std::vector<Scope> read(bool wait) const;
+  void read(std::vector<Scope>& scopes, bool wait) const;
 
   Context& context_;
   VkQueryPool pool_ = VK_NULL_HANDLE;
+  void write(CommandList& list, std::size_t query) const;
+
   std::vector<const char*> names_;
+  bool is_recorded_ = false;
 };
 
 }  // namespace brume::gpu

@@ -56,10 +56,9 @@ scene::SmokeOptions options_of(const brume_smoke_look& look, float extinction) {
   return options;
 }
 
-std::vector<shared::Light> frame_lights(const brume_frame_params& params) {
+void add_lights(const brume_frame_params& params, std::vector<shared::Light>& lights) {
   require(params.light_count <= planning::kMaxFlashes, "at most 64 lights of a frame");
   if (params.light_count > 0) api::required(params.lights, "lights");
-  std::vector<shared::Light> lights;
   for (std::size_t i = 0; i < params.light_count; ++i) {
     const scene::Light light = scene_light(params.lights[i], i);
     if (light.kind == scene::LightKind::directional)
@@ -69,7 +68,6 @@ std::vector<shared::Light> frame_lights(const brume_frame_params& params) {
                       static_cast<std::uint32_t>(light.kind), light.direction_world, light.cos_inner,
                       light.cos_outer, shared::kShadowByVoxels, 0, 0});
   }
-  return lights;
 }
 
 void add_triangles(const brume_renderer_params& params, scene::Mesh& mesh) {
@@ -194,8 +192,17 @@ passes::HostDepthRange depth_range(const brume_depth& depth) {
   return {depth.near_plane, depth.far_plane, depth.reversed != 0};
 }
 
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField* field) {
-  planning::FrameInput input;
+void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
+                     planning::FrameInput& input) {
+  // Lists keep their memory from frame to frame.
+  planning::FrameInput fresh;
+  fresh.environment.flashes = std::move(input.environment.flashes);
+  fresh.environment.flashes.clear();
+  fresh.environment.glow = std::move(input.environment.glow);
+  fresh.environment.glow.clear();
+  fresh.volumes = std::move(input.volumes);
+  fresh.volumes.clear();
+  input = std::move(fresh);
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
@@ -207,13 +214,12 @@ planning::FrameInput frame_input(const brume_frame_params& params, const api::Sm
   input.environment.sky.bounce = params.bounce;
   require(params.bounces <= 16, "`bounces` must be at most 16");
   input.environment.bounces = params.bounces;
-  input.environment.flashes = frame_lights(params);
+  add_lights(params, input.environment.flashes);
   input.quality = quality_of(params.quality);
   // What is too dark to be seen depends on it.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
   if (field) show_smoke(params.look, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
-  return input;
 }
 
 }  // namespace brume::host

@@ -38,6 +38,7 @@ scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
 /// Without volumes. What the result points to is the field's. `field`: null: no smoke.
-planning::FrameInput frame_input(const brume_frame_params& params, const api::SmokeField* field);
+void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
+                     planning::FrameInput& input);
 
 }  // namespace brume::host

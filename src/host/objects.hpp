@@ -64,6 +64,7 @@ struct brume_renderer : brume::api::Handle {
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;
+  brume::planning::FrameInput input;  ///< Of the last frame.
   brume::passes::MediaLayerPass layer;
   /// From the first frame on that asks for shadows.
   std::optional<brume::passes::SurfaceShadowPass> shadow_pass;

@@ -92,14 +92,13 @@ void check_frame(const brume_renderer& of, const brume_field* field, const brume
 /// Lights by their numbers in the plan, which has those that reach what is in view.
 glm::uvec4 planned_lights(const render::Renderer& renderer, const brume_frame_params& params,
                           const planning::FramePlan& plan) {
-  std::vector<shared::Light> lights = renderer.scene().resources().light_list;
+  const std::vector<shared::Light>& own = renderer.scene().resources().light_list;
   const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
-  lights.insert(lights.end(), flashes.begin(), flashes.end());
   glm::uvec4 numbers(shared::kNoLight);
   for (std::uint32_t i = 0; i < params.shadow_light_count; ++i) {
-    const auto same = [&](const shared::Light& other) {
-      return same_bytes(lights[params.shadow_lights[i]], other);
-    };
+    const std::size_t asked = params.shadow_lights[i];
+    const shared::Light& light = asked < own.size() ? own[asked] : flashes[asked - own.size()];
+    const auto same = [&](const shared::Light& other) { return same_bytes(light, other); };
     const auto found = std::ranges::find_if(plan.lights, same);
     if (found != plan.lights.end())
       numbers[static_cast<int>(i)] = static_cast<std::uint32_t>(found - plan.lights.begin());
@@ -168,7 +167,8 @@ void check_shadow_lights(const brume_renderer& of, const brume_frame_params& par
 void record(Call& call, brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
-  planning::FrameInput input = frame_input(params, field ? &*field->field : nullptr);
+  planning::FrameInput& input = of.input;
+  set_frame_input(params, field ? &*field->field : nullptr, input);
   check_shadow_lights(of, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
   // Taken even where the frame fails: the next one has a higher number.
@@ -177,14 +177,15 @@ void record(Call& call, brume_renderer& of, const brume_field* field, const brum
   of.recording.begin(params.commands, params.frame, params.completed);
   try {
     draw(of, params, input, range);
+    of.recording.end();
   } catch (...) {
     // What it holds may be half of what it planned: the next frame makes another.
     of.renderer.reset();
+    of.shadows = {};
     of.has_shadows = false;
-    of.recording.end();
+    of.recording.discard();
     throw;
   }
-  of.recording.end();
 }
 
 brume_timing timing_of(const gpu::Timings::Scope& scope) {

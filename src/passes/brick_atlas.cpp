@@ -199,8 +199,7 @@ BrickAtlas::Upload BrickAtlas::record_volume(gpu::Recorder& recorder, const volu
   entry.uploaded_revision = volume.revision();
   entry.everything = false;
 
-  const std::vector<std::uint32_t> every_slot =
-      all ? all_slots(volume.slot_count()) : std::vector<std::uint32_t>();
+  const FrameVector<std::uint32_t> every_slot = all_slots(all ? volume.slot_count() : 0, &recorder.memory());
   const auto changed = [&](std::span<const std::uint32_t> dirty) {
     return all ? std::span<const std::uint32_t>(every_slot) : dirty;
   };
@@ -235,20 +234,20 @@ void BrickAtlas::record_pages(gpu::Recorder& recorder, const volume::PageTable& 
 
 void BrickAtlas::record_bricks(gpu::Recorder& recorder, const volume::SparseVolume& volume,
                                std::span<const std::uint32_t> slots, const Entry& entry) {
-  std::vector<glm::ivec3> bricks;
-  for (const SlotRun& run : runs_of(slots)) {
+  FrameVector<glm::ivec3> bricks(&recorder.memory());
+  for_each_run(slots, [&](const SlotRun& run) {
     bricks.clear();
     for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot)
       bricks.push_back(volume.brick_of(slot));
     const std::size_t first = std::size_t{entry.layout.first_slot} + run.first;
     recorder.upload(slot_bricks_, first * sizeof(glm::ivec3), std::as_bytes(std::span(bricks)));
-  }
+  });
 }
 
 void BrickAtlas::record_texels(gpu::Recorder& recorder, const volume::SparseVolume& volume,
                                volume::ChannelId channel, std::span<const std::uint32_t> slots,
                                const Entry& entry) {
-  std::vector<gpu::Recorder::Region> regions;
+  FrameVector<gpu::Recorder::Region> regions(&recorder.memory());
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({volume.channel(channel, slot),
@@ -258,19 +257,8 @@ void BrickAtlas::record_texels(gpu::Recorder& recorder, const volume::SparseVolu
   recorder.upload(this->channel(channel), regions);
 }
 
-std::vector<SlotRun> runs_of(std::span<const std::uint32_t> slots) {
-  std::vector<SlotRun> runs;
-  for (const std::uint32_t slot : slots) {
-    if (!runs.empty() && runs.back().first + runs.back().count == slot)
-      ++runs.back().count;
-    else
-      runs.push_back({slot, 1});
-  }
-  return runs;
-}
-
-std::vector<std::uint32_t> all_slots(std::uint32_t slot_count) {
-  std::vector<std::uint32_t> slots(slot_count);
+FrameVector<std::uint32_t> all_slots(std::uint32_t slot_count, Allocator memory) {
+  FrameVector<std::uint32_t> slots(slot_count, memory);
   std::iota(slots.begin(), slots.end(), 0u);
   return slots;
 }

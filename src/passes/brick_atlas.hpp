@@ -116,9 +116,17 @@ class BrickAtlas {
 struct SlotRun {
   std::uint32_t first = 0, count = 0;
 };
-/// The runs of slots in rising order: each can be uploaded at once.
-std::vector<SlotRun> runs_of(std::span<const std::uint32_t> slots);
+/// Visits the runs of slots in rising order: each can be uploaded at once.
+template <typename Visit>
+void for_each_run(std::span<const std::uint32_t> slots, Visit&& visit) {
+  for (std::size_t first = 0; first < slots.size();) {
+    std::size_t end = first + 1;
+    while (end < slots.size() && slots[end] == slots[end - 1] + 1) ++end;
+    visit(SlotRun{slots[first], static_cast<std::uint32_t>(end - first)});
+    first = end;
+  }
+}
 /// 0 to slot_count - 1.
-std::vector<std::uint32_t> all_slots(std::uint32_t slot_count);
+FrameVector<std::uint32_t> all_slots(std::uint32_t slot_count, Allocator memory);
 
 }  // namespace brume::passes

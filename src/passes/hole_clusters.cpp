@@ -51,8 +51,8 @@ void HoleClusters::upload(gpu::Recorder& recorder, const planning::HolePlan& pla
   if (plan.holes.empty()) return;
   recorder.fill(counters_, 0);
   recorder.fill(words_taken_, 0);
-  const auto holes = planning::pack_holes(plan.holes, plan.time);
-  const auto reaches = planning::pack_reaches(plan.reaches);
+  const auto holes = planning::pack_holes(plan.holes, plan.time, &recorder.memory());
+  const auto reaches = planning::pack_reaches(plan.reaches, &recorder.memory());
   recorder.upload(resources_.holes, 0, std::as_bytes(std::span(holes)));
   recorder.upload(resources_.reaches, 0, std::as_bytes(std::span(reaches)));
 }

@@ -63,8 +63,9 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
 
 void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t most_lights,
                                 std::uint32_t casters) {
-  medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
-                             std::vector{casters & kCellMedia});
+  if (!medium_passes_.contains(casters & kCellMedia))
+    medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
+                               std::vector{casters & kCellMedia});
   patch_count_ = static_cast<std::uint32_t>(level.patches.size());
   probe_count_ = static_cast<std::uint32_t>(level.probes.size());
   gpu::grow(context_, patches_, std::max<std::size_t>(patch_count_, 1) * sizeof(shared::SurfacePatch));

@@ -62,16 +62,17 @@ std::uint32_t MarchPass::holes_of(const Inputs& in) const {
 }
 
 void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
-  std::vector<std::uint32_t> kinds;
-  if (rays != MarchRays::of_tiles) kinds.push_back(shared::kRaysOfPixels);
-  if (rays != MarchRays::of_pixels) kinds.insert(kinds.end(), {shared::kRaysOfTiles, shared::kRaysOfList});
   const bool several = (media & shared::kMediumSeveral) != 0;
   const gpu::ShaderCode& code = several ? shaders::march_several_comp : shaders::march_comp;
-  for (const std::uint32_t kind : kinds)
-    for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)})
+  for (const std::uint32_t kind : {shared::kRaysOfPixels, shared::kRaysOfTiles, shared::kRaysOfList}) {
+    if (rays == (kind == shared::kRaysOfPixels ? MarchRays::of_tiles : MarchRays::of_pixels)) continue;
+    for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)}) {
+      if (pipelines_.contains({kind, holes, media})) continue;
       pipelines_.try_emplace(
           {kind, holes, media}, context_, code,
           std::vector{counts_of(options_), kind, holes, media, block_steps_, split_by_holes_ ? 1u : 0u});
+    }
+  }
 }
 
 void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& in, const Rays& rays,

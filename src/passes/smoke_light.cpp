@@ -48,7 +48,7 @@ void SmokeLightPass::trim() {
 }
 
 bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
-  if (!plan.shadow_rays.empty())
+  if (!plan.shadow_rays.empty() && !rays_passes_.contains(casters & kRayMedia))
     rays_passes_.try_emplace(casters & kRayMedia, context_, shaders::light_rays_comp,
                              std::vector{casters & kRayMedia});
   // What is cached: twice what the plan needs, since a larger buffer loses it.

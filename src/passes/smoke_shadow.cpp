@@ -22,6 +22,7 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
 
 void SmokeShadowPass::reserve(std::uint32_t casters) {
   const std::uint32_t media = casters & kShadowMedia;
+  if (pipelines_.contains(media)) return;
   pipelines_.try_emplace(media, context_, shaders::smoke_shadow_comp, std::vector{media});
 }
 

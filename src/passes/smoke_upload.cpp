@@ -95,8 +95,8 @@ void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::Smo
 
 void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                                std::span<const std::uint32_t> slots) {
-  std::vector<std::uint32_t> cells;
-  for (const SlotRun& run : runs_of(slots)) {
+  FrameVector<std::uint32_t> cells(&recorder.memory());
+  for_each_run(slots, [&](const SlotRun& run) {
     cells.clear();
     for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot) {
       const auto of_slot = volume.cells(slot);
@@ -104,18 +104,18 @@ void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeBricks
     }
     recorder.upload(resources_.cells, std::size_t{run.first} * shared::kCellsPerBrick * sizeof(std::uint32_t),
                     std::as_bytes(std::span(cells)));
-  }
+  });
 }
 
 void SmokeUpload::record_filled(gpu::Recorder& recorder, const smoke::SmokeBricks& volume,
                                 std::span<const std::uint32_t> slots) {
-  std::vector<std::uint32_t> filled;
-  for (const SlotRun& run : runs_of(slots)) {
+  FrameVector<std::uint32_t> filled(&recorder.memory());
+  for_each_run(slots, [&](const SlotRun& run) {
     filled.clear();
     for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot)
       filled.push_back(filled_cells(volume, slot));
     recorder.upload(resources_.filled, run.first * sizeof(std::uint32_t), std::as_bytes(std::span(filled)));
-  }
+  });
 }
 
 bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volume) {
@@ -135,7 +135,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volu
   const BrickAtlas::Upload uploaded = atlas_.record(recorder, {&bricks, 1});
   // Everything.
   if (all) {
-    const std::vector<std::uint32_t> slots = all_slots(volume.slot_count());
+    const FrameVector<std::uint32_t> slots = all_slots(volume.slot_count(), &recorder.memory());
     record_cells(recorder, volume, slots);
     record_filled(recorder, volume, slots);
     recorder.upload(resources_.boundary, 0, std::as_bytes(volume.boundary_cells()));
@@ -145,7 +145,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volu
 
   // Only what changed: cells are filled by their texels and by boundary cells.
   record_cells(recorder, volume, volume.dirty_cell_slots());
-  std::vector<std::uint32_t> changed;
+  FrameVector<std::uint32_t> changed(&recorder.memory());
   std::set_union(volume.dirty_slots().begin(), volume.dirty_slots().end(), volume.dirty_cell_slots().begin(),
                  volume.dirty_cell_slots().end(), std::back_inserter(changed));
   record_filled(recorder, volume, changed);

@@ -36,8 +36,10 @@ bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32
   if (plan.sweeps.empty()) return false;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   const std::uint32_t sweep = casters & kSweepMedia, light = casters & kLightMedia;
-  sweep_pipelines_.try_emplace(sweep, context_, shaders::volume_sweep_comp, std::vector{sweep});
-  light_pipelines_.try_emplace(light, context_, shaders::volume_light_comp, std::vector{light});
+  if (!sweep_pipelines_.contains(sweep))
+    sweep_pipelines_.try_emplace(sweep, context_, shaders::volume_sweep_comp, std::vector{sweep});
+  if (!light_pipelines_.contains(light))
+    light_pipelines_.try_emplace(light, context_, shaders::volume_light_comp, std::vector{light});
   gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
   const auto fits = [count](const gpu::Image& image, std::uint32_t edge) {
     return image.info().size.y == edge && image.info().size.z >= edge * count;

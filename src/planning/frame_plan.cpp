@@ -1,6 +1,7 @@
 #include "planning/frame_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "planning/device_camera.hpp"
@@ -9,56 +10,60 @@ namespace brume::planning {
 namespace {
 
 /// Which lights and which smoke are visible; the device holds that smoke from then on. Returns all lights.
-std::vector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
+FrameVector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
+  const Allocator memory = history.memory.get();
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
-  std::vector<shared::Light> flashes = plan.input.environment.flashes;
-  flashes.insert(flashes.end(), plan.input.environment.glow.begin(), plan.input.environment.glow.end());
-  std::vector<shared::Light> lights(target.lights.begin(), target.lights.end());
-  const auto flash_count = static_cast<std::ptrdiff_t>(std::min(flashes.size(), kMaxFlashes));
-  lights.insert(lights.end(), flashes.begin(), flashes.begin() + flash_count);
+  const Environment& environment = plan.input.environment;
+  FrameVector<shared::Light> lights(target.lights.begin(), target.lights.end(), memory);
+  const std::size_t most = lights.size() + kMaxFlashes;
+  for (const auto* more : {&environment.flashes, &environment.glow})
+    for (const shared::Light& light : *more)
+      if (lights.size() < most) lights.push_back(light);
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
-  plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
+  plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size), memory);
   if (!volume) return lights;
+  SmokeVisibility visible = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds, memory);
   if (target.holds_all_smoke) {
-    plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
+    plan.visibility = std::move(visible);
     plan.smoke = volume;
     return lights;
   }
   // Indirect light comes from all of it.
-  plan.visibility =
-      history.resident->update({.volume = *volume,
-                                .all = plan.input.environment.bounces > 0,
-                                .eye_world = plan.input.view.camera.position_world,
-                                .atlas_bricks = target.atlas_bricks,
-                                .most_bricks = target.most_bricks},
-                               cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds));
+  plan.visibility = history.resident->update({.volume = *volume,
+                                              .all = plan.input.environment.bounces > 0,
+                                              .eye_world = plan.input.view.camera.position_world,
+                                              .atlas_bricks = target.atlas_bricks,
+                                              .most_bricks = target.most_bricks},
+                                             visible, memory);
   plan.smoke = history.resident.get();
   return lights;
 }
 
-void plan_hole_clusters(FramePlan& plan) {
+void plan_hole_clusters(FramePlan& plan, Allocator memory) {
   const SmokeInput& smoke = plan.input.smoke;
   const std::uint32_t slots = plan.smoke ? plan.smoke->slot_count() : 0;
-  plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
-                          slots > 0 ? plan.smoke->layout() : shared::VolumeLayout(), slots, plan.size_px);
+  plan.holes =
+      plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
+                 slots > 0 ? plan.smoke->layout() : shared::VolumeLayout(), slots, plan.size_px, memory);
 }
 
 /// Which media are visible, and at which resolution.
-void plan_visible_media(FramePlan& plan, PlanHistory& history, std::vector<shared::Light> lights) {
+void plan_visible_media(FramePlan& plan, PlanHistory& history, std::span<const shared::Light> lights) {
+  const Allocator memory = history.memory.get();
   plan.residency =
       history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
                                     plan.input.quality.volume_upload_bytes);
-  std::vector<bool> shown, lit;
-  for (const VolumeResidency& residency : plan.residency) {
-    shown.push_back(residency.shows_preview);
-    lit.push_back(residency.lit_by_preview);
+  std::array<bool, shared::kMaxVolumes> shown{}, lit{};  // of more, plan_media makes no plan
+  for (std::size_t i = 0; i < std::min(plan.residency.size(), shown.size()); ++i) {
+    shown[i] = plan.residency[i].shows_preview;
+    lit[i] = plan.residency[i].lit_by_preview;
   }
-  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke);
+  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
   plan.decals = plan_decals(plan.input, plan.frustum);
+  plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
-  plan.indirect_light =
-      history.indirect_light.plan(plan.input, plan.lit_media, plan.holes, std::move(lights));
+  plan.indirect_light = history.indirect_light.plan(plan.input, plan.lit_media, plan.holes, lights, memory);
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -74,7 +79,8 @@ void plan_level(FramePlan& plan, PlanHistory& history) {
 void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   const SmokeInput& smoke = plan.input.smoke;
   if (!plan.smoke) return;
-  plan.noise = plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period);
+  plan.noise =
+      plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period, history.memory.get());
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
     plan.noise.catches_up = history.noise.is_late();
     history.noise.invalidate();
@@ -82,24 +88,26 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   }
   const auto slots_due = history.noise.slots_due(
       {plan.smoke, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
-  plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end());
+  plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end(), history.memory.get());
   plan.noise.catches_up = !slots_due.empty();
 }
 
 void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const SmokeInput& smoke = plan.input.smoke;
   const Quality& quality = plan.input.quality;
-  std::vector<Box<float>> boxes;
-  if (plan.smoke) boxes = smoke_boxes(*plan.smoke, plan.visibility);
+  const Allocator memory = history.memory.get();
+  FrameVector<Box<float>> boxes(memory);
+  if (plan.smoke) boxes = smoke_boxes(*plan.smoke, plan.visibility, memory);
   for (const PlacedVolume& volume : plan.media.volumes)
     if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows(
           {plan.lights, target.sun_clip_from_world, device_camera(plan.input.view.camera, plan.size_px)},
-          boxes, target.smoke_shadow_atlas),
+          boxes, target.smoke_shadow_atlas, memory),
       {plan.smoke, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
        plan.level_changed || plan.volume_light.update || quality.rebuild_light,
-       quality.light_update_fraction});
+       quality.light_update_fraction},
+      memory);
 }
 
 void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
@@ -109,15 +117,16 @@ void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
        plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light ||
            (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
-       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version});
+       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version},
+      history.memory.get());
 }
 
 void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
-  plan.volume_light = history.volume_light.plan({&plan.lit_media, input.volumes, plan.lights, plan.smoke,
-                                                 input.smoke.look, input.smoke.time, input.environment.sky,
-                                                 plan.level_changed || input.quality.rebuild_light,
-                                                 plan.indirect_light.version});
+  plan.volume_light = history.volume_light.plan(
+      {&plan.lit_media, input.volumes, plan.lights, plan.smoke, input.smoke.look, input.smoke.time,
+       input.environment.sky, plan.level_changed || input.quality.rebuild_light, plan.indirect_light.version},
+      history.memory.get());
   for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
     for (MediaPlan* media : {&plan.media, &plan.lit_media}) {
@@ -130,11 +139,21 @@ void plan_volume_light(FramePlan& plan, PlanHistory& history) {
 
 }  // namespace
 
-FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px)
+FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory)
     : input(frame_input),
       size_px(frame_size_px),
       camera(device_camera(frame_input.view.camera, frame_size_px, frame_input.view.sample)),
-      frustum(camera) {}
+      frustum(camera),
+      lights(memory),
+      visibility{.slots = FrameVector<std::uint32_t>(memory)},
+      media{.volumes = FrameVector<PlacedVolume>(memory)},
+      lit_media{.volumes = FrameVector<PlacedVolume>(memory)},
+      changed_objects(memory),
+      holes{.holes = FrameVector<shared::Hole>(memory), .reaches = FrameVector<shared::HoleReach>(memory)},
+      noise{.motions = FrameVector<shared::CloudMotion>(memory),
+            .impulses = FrameVector<shared::Impulse>(memory)},
+      volume_light{.sweeps = FrameVector<shared::VolumeSweep>(memory)},
+      indirect_light{.lights = FrameVector<shared::Light>(memory)} {}
 
 const sim::State& FramePlan::state() const {
   static const sim::State kNothing;
@@ -142,11 +161,12 @@ const sim::State& FramePlan::state() const {
 }
 
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
-  FramePlan plan(input, target.size_px);
+  history.memory->reset();
+  FramePlan plan(input, target.size_px, history.memory.get());
   const SmokeInput& smoke = plan.input.smoke;
-  std::vector<shared::Light> lights = plan_visibility(plan, target, history);
-  plan_hole_clusters(plan);
-  plan_visible_media(plan, history, std::move(lights));
+  const FrameVector<shared::Light> lights = plan_visibility(plan, target, history);
+  plan_hole_clusters(plan, history.memory.get());
+  plan_visible_media(plan, history, lights);
   plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
   plan_level(plan, history);
   plan_noise_updates(plan, history);

@@ -37,16 +37,16 @@ struct PlanTarget {
 };
 
 struct FramePlan {
-  /// The plan of a frame in which nothing is visible.
-  FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px);
+  /// The plan of a frame in which nothing is visible; its lists are in `memory`, as those of copies are not.
+  FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory = {});
 
-  FrameInput input;
+  const FrameInput& input;  ///< Outlives the plan.
   glm::uvec2 size_px{1};
 
   // What is visible.
   shared::Camera camera;
   ViewFrustum frustum;
-  std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
+  FrameVector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
   /// That the device holds, in the history; null: none. Slots and voxels of the plan are of this.
   const smoke::SmokeBricks* smoke = nullptr;
   SmokeVisibility visibility;
@@ -58,7 +58,7 @@ struct FramePlan {
 
   // What changed.
   bool level_changed = false;                  ///< Walls or hidden objects.
-  std::vector<std::uint32_t> changed_objects;  ///< Hidden or shown since the frame before, rising.
+  FrameVector<std::uint32_t> changed_objects;  ///< Hidden or shown since the frame before, rising.
 
   // What is updated.
   std::vector<VolumeResidency> residency;  ///< Of the input's volumes.
@@ -78,6 +78,7 @@ struct FramePlan {
 
 /// What the caches of a renderer hold, and the level of the frame before.
 struct PlanHistory {
+  std::unique_ptr<FrameMemory> memory = std::make_unique<FrameMemory>();  ///< Of the plan.
   NoiseUpdates noise;
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;
@@ -89,7 +90,8 @@ struct PlanHistory {
   std::vector<std::uint32_t> hidden_objects;
 };
 
-/// Plans a frame, which must then be recorded: its updates count as done.
+/// Plans a frame, which must then be recorded: its updates count as done. The plan is valid until the next
+/// one of this history, and no longer than `input`.
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history);
 
 /// Plans the light in the smoke again after the device lost what was cached of it.

@@ -65,8 +65,10 @@ shared::HoleClusterLayout HolePlan::layout() const {
 }
 
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
-                    const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px) {
-  HolePlan plan;
+                    const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px,
+                    Allocator memory) {
+  HolePlan plan{.holes = FrameVector<shared::Hole>(memory),
+                .reaches = FrameVector<shared::HoleReach>(memory)};
   plan.time = time;
   plan.slot_count = slot_count;
   if (slot_count > 0) choose_holes(plan, holes, rim, volume);
@@ -80,15 +82,16 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
   return plan;
 }
 
-std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time) {
-  std::vector<shared::PackedHole> packed;
+FrameVector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time,
+                                           Allocator memory) {
+  FrameVector<shared::PackedHole> packed(memory);
   packed.reserve(holes.size());
   for (const shared::Hole& hole : holes) packed.push_back(shared::pack_hole(hole, is_wide_open(hole, time)));
   return packed;
 }
 
-std::vector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches) {
-  std::vector<shared::PackedReach> packed;
+FrameVector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches, Allocator memory) {
+  FrameVector<shared::PackedReach> packed(memory);
   packed.reserve(reaches.size());
   for (const shared::HoleReach& reach : reaches) packed.push_back(shared::pack_reach(reach));
   return packed;

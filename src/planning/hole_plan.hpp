@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
+#include "core/frame_memory.hpp"
 #include "shared/hole_clusters.h"
 #include "shared/hole_reach.h"
 #include "shared/smoke_volume.h"
@@ -17,8 +17,8 @@ constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 
 /// All that is known of a frame's holes before the device has clustered them.
 struct HolePlan {
-  std::vector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
-  std::vector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
+  FrameVector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
+  FrameVector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
   float time = 0;                          ///< [s]
   std::uint32_t slot_count = 0;            ///< Slots of the volume's bricks.
   /// Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
@@ -35,10 +35,13 @@ struct HolePlan {
 /// Plans the holes that are open at `time` in smoke of `slot_count` bricks, for a frame of `size_px`; without
 /// smoke none is. Noise moves their rims by up to `rim` metres.
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
-                    const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px);
+                    const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px,
+                    Allocator memory = {});
 
 /// Packs holes for the device (shared::PackedHole) as they are at `time`.
-std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time);
-std::vector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches);
+FrameVector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time,
+                                           Allocator memory = {});
+FrameVector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches,
+                                              Allocator memory = {});
 
 }  // namespace brume::planning

@@ -10,9 +10,10 @@
 namespace brume::planning {
 namespace {
 
-std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
-                              const HolePlan& holes, std::span<const shared::Light> lights) {
-  KeyBytes key;
+FrameVector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
+                              const HolePlan& holes, std::span<const shared::Light> lights,
+                              Allocator memory) {
+  KeyBytes key(memory);
   key.add(bounces);
   key.add(input.environment.sky.ambient);
   for (const shared::Light& light : lights) key.add(light);
@@ -34,12 +35,13 @@ std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
 }  // namespace
 
 IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaPlan& media,
-                                           const HolePlan& holes, std::vector<shared::Light> lights) {
-  IndirectLightPlan plan;
+                                           const HolePlan& holes, std::span<const shared::Light> lights,
+                                           Allocator memory) {
+  IndirectLightPlan plan{.lights = FrameVector<shared::Light>(memory)};
   const std::uint32_t bounces = input.environment.bounces;
   if (!input.level.voxels.grid || bounces == 0) return plan;
   plan.bounces = bounces;
-  plan.lights = std::move(lights);
+  plan.lights.assign(lights.begin(), lights.end());
   if (const smoke::SmokeVolume* smoke = input.smoke.volume; smoke && smoke->slot_count() > 0) {
     const shared::VolumeLayout& layout = smoke->layout();
     plan.media = {layout.origin_world + layout.bounds_min * layout.voxel_size,
@@ -54,13 +56,13 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
   if (plan.level_changed) shown_key_.clear();
 
   // What is being found goes on, unless it must be there at once or the number of its bounces changed.
-  std::vector<std::byte> key = key_of(input, bounces, media, holes, plan.lights);
+  const FrameVector<std::byte> key = key_of(input, bounces, media, holes, lights, memory);
   const float fraction =
       std::min(input.quality.light_update_fraction, input.quality.indirect_update_fraction);
   const bool at_once = shown_key_.empty() || fraction >= 1;
   const bool changed = key != shown_key_ || input.quality.rebuild_light;
   if (changed && (solving_key_.empty() || at_once || plan.bounces != bounces_)) {
-    solving_key_ = std::move(key);
+    solving_key_ = key;
     next_slice_ = 0;
   } else if (!changed && at_once) {
     solving_key_.clear();
@@ -77,7 +79,8 @@ volume::IndexRange IndirectLightCache::next_slices(float fraction) {
   const volume::IndexRange slices{next_slice_, std::min(due, all - next_slice_)};
   next_slice_ += slices.count;
   if (next_slice_ == all) {
-    shown_key_ = std::exchange(solving_key_, {});
+    std::swap(shown_key_, solving_key_);
+    solving_key_.clear();
     ++version_;
   }
   return slices;

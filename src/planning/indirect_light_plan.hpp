@@ -14,7 +14,7 @@ namespace brume::planning {
 
 struct IndirectLightPlan {
   std::uint32_t bounces = 0;          ///< 0: there is none.
-  std::vector<shared::Light> lights;  ///< All of the scene and of the frame, in view or not.
+  FrameVector<shared::Light> lights;  ///< All of the scene and of the frame, in view or not.
   Box<float> media = kEmptyBox;       ///< All smoke and the volumes of the frame [world space]; empty: none.
   bool level_changed = false;         ///< Walls or hidden objects, since the last plan with bounces.
   /// What is done in this frame, of bounces * kSlicesPerBounce slices; empty: the light of the frame before
@@ -33,7 +33,7 @@ class IndirectLightCache {
  public:
   /// The plan of a frame. It counts as done from then on.
   IndirectLightPlan plan(const FrameInput& input, const MediaPlan& media, const HolePlan& holes,
-                         std::vector<shared::Light> lights);
+                         std::span<const shared::Light> lights, Allocator memory = {});
 
  private:
   /// The next slices of what is being found; it shows after the last one.
@@ -42,8 +42,8 @@ class IndirectLightCache {
   LevelView level_;
   std::vector<std::uint32_t> hidden_objects_;
   bool has_level_ = false;
-  std::vector<std::byte> shown_key_;  ///< Of all other inputs of the light that shows; empty: there is none.
-  std::vector<std::byte> solving_key_;  ///< Of that which is being found; empty: none is.
+  FrameVector<std::byte> shown_key_;  ///< Of all other inputs of the light that shows; empty: there is none.
+  FrameVector<std::byte> solving_key_;  ///< Of that which is being found; empty: none is.
   std::uint32_t next_slice_ = 0;        ///< Of what is being found.
   std::uint32_t bounces_ = 0;
   std::uint64_t version_ = 0;

@@ -5,12 +5,14 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
-#include <vector>
+
+#include "core/frame_memory.hpp"
 
 namespace brume::planning {
 
 class KeyBytes {
  public:
+  explicit KeyBytes(Allocator memory) : bytes_(memory) {}
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void add(const T& value) {
@@ -18,10 +20,10 @@ class KeyBytes {
     bytes_.resize(end + sizeof value);
     std::memcpy(bytes_.data() + end, &value, sizeof value);
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
+  FrameVector<std::byte> take() { return std::move(bytes_); }
 
  private:
-  std::vector<std::byte> bytes_;
+  FrameVector<std::byte> bytes_;
 };
 
 }  // namespace brume::planning

@@ -1,7 +1,6 @@
 #include "planning/light_change_tracking.hpp"
 
 #include <algorithm>
-#include <map>
 #include <string_view>
 #include <tuple>
 #include <unordered_set>
@@ -69,7 +68,7 @@ bool LightChangeTracker::gather_inputs_changed(const SmokeLightInputs& inputs) c
 }
 
 void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
-                                          std::vector<shared::LightChange>& changes) const {
+                                          FrameVector<shared::LightChange>& changes) const {
   const float slack = layout_.voxel_size;  // holes are averaged over cells of half a voxel
   const auto add = [&](const shared::Hole& hole) {
     // A rim moves by a quarter of the radius at most; only boxes and masks have corners.
@@ -80,7 +79,8 @@ void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
   const auto bytes = [](const shared::Hole& hole) {
     return std::string_view(reinterpret_cast<const char*>(&hole), sizeof hole);
   };
-  std::unordered_set<std::string_view> gone;
+  if (holes_.empty() && inputs.holes.empty()) return;
+  std::pmr::unordered_set<std::string_view> gone(changes.get_allocator());
   for (const shared::Hole& hole : holes_) gone.insert(bytes(hole));
   for (const shared::Hole& hole : inputs.holes)
     if (gone.erase(bytes(hole)) == 0 || !same_opening(hole, last_->time, inputs.time)) add(hole);
@@ -89,27 +89,30 @@ void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
 }
 
 void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
-                                           std::vector<shared::LightChange>& changes) const {
+                                           FrameVector<shared::LightChange>& changes) const {
   const smoke::SmokeBricks& smoke = all_smoke(inputs);
   if (smoke.revision() == last_->all_revision) return;
   // Cubes of four bricks, what changed in each as one.
-  std::map<std::tuple<int, int, int>, Box<int>> cubes;
-  const auto add = [&](glm::ivec3 brick) {
-    const glm::ivec3 cube = brick >> 2;
-    const auto [known, added] = cubes.try_emplace({cube.x, cube.y, cube.z}, Box<int>{brick, brick + 1});
-    if (!added) known->second = {glm::min(known->second.low, brick), glm::max(known->second.high, brick + 1)};
-  };
+  FrameVector<glm::ivec3> bricks(changes.get_allocator());
+  bricks.reserve(2 * (smoke.dirty_slots().size() + smoke.dirty_cell_slots().size()));
   // A slot's brick, and the one that it held before.
   const auto add_slot = [&](std::uint32_t slot) {
-    add(smoke.brick_of(slot));
-    if (slot < brick_of_slot_.size()) add(brick_of_slot_[slot]);
+    bricks.push_back(smoke.brick_of(slot));
+    if (slot < brick_of_slot_.size()) bricks.push_back(brick_of_slot_[slot]);
   };
   for (const std::uint32_t slot : smoke.dirty_slots()) add_slot(slot);
   for (const std::uint32_t slot : smoke.dirty_cell_slots()) add_slot(slot);
-  for (const auto& [key, bricks] : cubes) {
+  const auto cube_of = [](glm::ivec3 brick) { return std::tuple(brick.x >> 2, brick.y >> 2, brick.z >> 2); };
+  std::sort(bricks.begin(), bricks.end(),
+            [&](glm::ivec3 a, glm::ivec3 b) { return cube_of(a) < cube_of(b); });
+  for (auto brick = bricks.begin(); brick != bricks.end();) {
+    Box<int> changed{*brick, *brick + 1};
+    const auto cube = cube_of(*brick);
+    for (; brick != bricks.end() && cube_of(*brick) == cube; ++brick)
+      changed = {glm::min(changed.low, *brick), glm::max(changed.high, *brick + 1)};
     // Corner sets of the bricks around change, too.
-    const glm::vec3 low = world_from_brick(all_layout_, bricks.low - 1);
-    const glm::vec3 high = world_from_brick(all_layout_, bricks.high + 1);
+    const glm::vec3 low = world_from_brick(all_layout_, changed.low - 1);
+    const glm::vec3 high = world_from_brick(all_layout_, changed.high + 1);
     const glm::vec3 middle = 0.5f * (low + high);
     changes.push_back({middle, 0.5f * glm::length(high - low), middle, 0});
   }

@@ -54,9 +54,9 @@ class LightChangeTracker {
   bool gather_inputs_changed(const SmokeLightInputs& inputs) const;
 
   /// Adds where holes opened, closed, came or went.
-  void add_hole_changes(const SmokeLightInputs& inputs, std::vector<shared::LightChange>& changes) const;
+  void add_hole_changes(const SmokeLightInputs& inputs, FrameVector<shared::LightChange>& changes) const;
   /// Adds where densities or walls changed.
-  void add_smoke_changes(const SmokeLightInputs& inputs, std::vector<shared::LightChange>& changes) const;
+  void add_smoke_changes(const SmokeLightInputs& inputs, FrameVector<shared::LightChange>& changes) const;
 
   /// The frame is the one before from now on.
   void store_inputs(const SmokeLightInputs& inputs);

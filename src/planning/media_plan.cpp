@@ -151,7 +151,7 @@ void add_visible(MediaPlan& plan, const VolumeInput& volume, const Box<float>& w
 }
 
 /// The boxes of a volume, and of the preview that may stand in for it.
-void add_boxes(const VolumeInput& volume, std::vector<Box<float>>& boxes) {
+void add_boxes(const VolumeInput& volume, FrameVector<Box<float>>& boxes) {
   const glm::vec3 reach = volume_effect(volume).amplitude;
   for (const Box<float>& box : volume.volume->boxes())
     boxes.push_back(world_box(volume.world_from_voxel, {box.low - reach, box.high + reach}));
@@ -161,7 +161,7 @@ void add_boxes(const VolumeInput& volume, std::vector<Box<float>>& boxes) {
 }
 
 /// Bounds the media by boxes in the world; those of the smoke are in the plan.
-void set_boxes(MediaPlan& plan, std::vector<Box<float>> boxes) {
+void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
   const auto to_world = [&](glm::vec3 p) { return plan.smoke.origin_world + p * plan.smoke.voxel_size; };
   const auto from_world = [&](glm::vec3 p) { return (p - plan.smoke.origin_world) / plan.smoke.voxel_size; };
   if ((plan.media & shared::kMediumSmoke) != 0)
@@ -181,8 +181,8 @@ void set_boxes(MediaPlan& plan, std::vector<Box<float>> boxes) {
 
 /// Adds volumes that may be in view, or all others.
 void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const ViewFrustum& frustum,
-                 const std::vector<bool>& previews, bool in_view) {
-  std::vector<Box<float>> boxes;
+                 std::span<const bool> previews, bool in_view) {
+  FrameVector<Box<float>> boxes(plan.volumes.get_allocator());
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const VolumeInput& volume = volumes[i];
     const shared::VolumeLayout& layout = volume.volume->layout();
@@ -201,7 +201,7 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
     add_visible(plan, shown, world);
     add_boxes(volume, boxes);
   }
-  if (in_view) set_boxes(plan, std::move(boxes));
+  if (in_view) set_boxes(plan, boxes);
 }
 
 /// The sun of the volumes: the first directional light.
@@ -260,8 +260,7 @@ std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan) {
   return std::span(plan.volumes).first(plan.frame.volume_count);
 }
 
-void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
-                     const std::vector<bool>& previews) {
+void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes, std::span<const bool> previews) {
   for (PlacedVolume& placed : plan.volumes) {
     placed.is_preview = !previews.empty() && previews[placed.index];
     const VolumeInput shown = shown_volume(volumes[placed.index], placed.is_preview);
@@ -271,12 +270,12 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
 }
 
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights, const std::vector<bool>& previews,
-                     const smoke::SmokeBricks* smoke) {
+                     std::span<const shared::Light> lights, std::span<const bool> previews,
+                     const smoke::SmokeBricks* smoke, Allocator memory) {
   if (input.volumes.size() > shared::kMaxVolumes)
     throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.volumes.size()) +
                                           " volumes; at most " + std::to_string(shared::kMaxVolumes));
-  MediaPlan plan;
+  MediaPlan plan{.volumes = FrameVector<PlacedVolume>(memory)};
   const bool has_smoke = smoke && input.smoke.volume && input.smoke.volume->slot_count() > 0;
   plan.smoke.voxel_size = 1;
   if (has_smoke) plan.smoke = smoke->layout();

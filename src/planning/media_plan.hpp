@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "planning/frame_input.hpp"
 #include "planning/smoke_visibility.hpp"
@@ -27,7 +26,7 @@ struct MediaPlan {
   std::uint32_t media = 0;    ///< Set of shared::kMedium..., of what may be in view.
   std::uint32_t casters = 0;  ///< The same of all that may cast shadows, in view or not.
   /// Those that may be in view, FrameMedia::volume_count, before those that only cast shadows.
-  std::vector<PlacedVolume> volumes;
+  FrameVector<PlacedVolume> volumes;
   shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
   shared::FrameMedia frame{};
   std::uint32_t sun = shared::kNoSun;  ///< In the frame's lights: that of FrameMedia::to_sun.
@@ -46,14 +45,13 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview);
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);
 
 /// The same volumes at other resolutions: `previews` as for plan_media.
-void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
-                     const std::vector<bool>& previews);
+void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes, std::span<const bool> previews);
 
 /// `previews`: of each volume of the input, whether its preview is shown; empty: none. `smoke`: that of the
 /// visibility; null: none.
 /// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights, const std::vector<bool>& previews = {},
-                     const smoke::SmokeBricks* smoke = nullptr);
+                     std::span<const shared::Light> lights, std::span<const bool> previews = {},
+                     const smoke::SmokeBricks* smoke = nullptr, Allocator memory = {});
 
 }  // namespace brume::planning

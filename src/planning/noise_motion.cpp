@@ -44,7 +44,7 @@ double front_voxels(const sim::Cloud& cloud, double tick) {
 }
 
 void add_shot(const sim::BulletHole& open, const sim::State& state, double seconds,
-              std::vector<shared::Impulse>& out) {
+              FrameVector<shared::Impulse>& out) {
   const shared::Hole hole = smoke::hole_of(open, state);
   const double age = seconds - static_cast<double>(hole.time_start);
   const double length = static_cast<double>(hole.time_to_reach_far) +
@@ -64,7 +64,7 @@ void add_shot(const sim::BulletHole& open, const sim::State& state, double secon
 }
 
 void add_blast(const sim::BlastField& field, const sim::State& state, double seconds,
-               std::vector<shared::Impulse>& out) {
+               FrameVector<shared::Impulse>& out) {
   const sim::Blast& blast = field.blast();
   const double length = static_cast<double>(field.end_tick() - blast.tick) / state.ticks_per_second;
   const auto strength =
@@ -78,7 +78,7 @@ void add_blast(const sim::BlastField& field, const sim::State& state, double sec
 }
 
 void add_body(const sim::Body& body, const sim::State& state, double seconds,
-              std::vector<shared::Impulse>& out) {
+              FrameVector<shared::Impulse>& out) {
   if (body.tick <= body.previous_tick || body.position == body.previous) return;
   const glm::dvec3 to = sim::metres_from_position(body.position);
   const glm::dvec3 step = to - sim::metres_from_position(body.previous);
@@ -126,8 +126,8 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
           static_cast<float>(1 - kGoneWeight * smooth(dissolve))};
 }
 
-std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds) {
-  std::vector<shared::Impulse> impulses;
+FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory) {
+  FrameVector<shared::Impulse> impulses(memory);
   const std::size_t shots = std::min(state.holes.size(), kMaxImpulses);
   for (const sim::BulletHole& open : std::span(state.holes).last(shots))
     add_shot(open, state, seconds, impulses);
@@ -138,11 +138,12 @@ std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds
   return impulses;
 }
 
-NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period) {
-  NoisePlan plan;
+NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period, Allocator memory) {
+  NoisePlan plan{.motions = FrameVector<shared::CloudMotion>(memory),
+                 .impulses = impulses_of(state, seconds, memory)};
+  plan.motions.reserve(state.clouds.size());
   for (const sim::LiveCloud& live : state.clouds)
     plan.motions.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));
-  plan.impulses = impulses_of(state, seconds);
   return plan;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "core/frame_memory.hpp"
 #include "shared/noise_advection.h"
 #include "sim/state.hpp"
 
@@ -25,19 +25,19 @@ constexpr std::size_t kMaxImpulses = 64;
 
 /// The impulses of shots, bodies and explosions; of more than kMaxImpulses the latest. Each begins and ends
 /// at rest.
-std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds);
+FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory = {});
 
 /// The noise of a frame.
 struct NoisePlan {
-  std::vector<shared::CloudMotion> motions;  ///< Of the state's clouds, in their order.
-  std::vector<shared::Impulse> impulses;
+  FrameVector<shared::CloudMotion> motions;  ///< Of the state's clouds, in their order.
+  FrameVector<shared::Impulse> impulses;
   /// The slots whose noise the frame advects; empty: all of its slots.
-  std::optional<std::vector<std::uint32_t>> slots_due;
+  std::optional<FrameVector<std::uint32_t>> slots_due = std::nullopt;
   /// Time-sliced noise catches up: it changes, though its inputs may be those of the frame before.
   bool catches_up = false;
 };
 
 /// What advects the noise of a state `seconds` after tick 0, in all slots.
-NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period);
+NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period, Allocator memory = {});
 
 }  // namespace brume::planning

@@ -19,14 +19,10 @@ bool before(glm::ivec3 a, glm::ivec3 b) {
   return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
 }
 
-void sort_once(std::vector<glm::ivec3>& bricks) {
+template <typename Bricks>
+void sort_once(Bricks& bricks) {
   std::sort(bricks.begin(), bricks.end(), before);
   bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-}
-
-void sort_once(std::vector<std::uint32_t>& slots) {
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
 volume::SparseVolume empty_volume(glm::vec3 origin_world, float voxel_size, glm::ivec3 atlas) {
@@ -65,11 +61,10 @@ void nearest_first(std::span<glm::ivec3> bricks, glm::vec3 eye_brick) {
   });
 }
 
-/// Adds bricks that are not among the first `known`, which are in order.
-void add_others(std::vector<glm::ivec3>& bricks, std::size_t known, std::vector<glm::ivec3> others) {
-  sort_once(others);
-  const std::vector<glm::ivec3> held(bricks.begin(), bricks.begin() + static_cast<std::ptrdiff_t>(known));
-  std::set_difference(others.begin(), others.end(), held.begin(), held.end(), std::back_inserter(bricks),
+/// Of `others`, those that are not in `known`; both in order.
+void add_others(std::span<const glm::ivec3> known, std::span<const glm::ivec3> others,
+                FrameVector<glm::ivec3>& bricks) {
+  std::set_difference(others.begin(), others.end(), known.begin(), known.end(), std::back_inserter(bricks),
                       before);
 }
 
@@ -104,65 +99,67 @@ void fill_coarse_brick(const smoke::SmokeVolume& volume, int level, glm::ivec3 b
 
 ResidentSmoke::ResidentSmoke() : SmokeBricks(held_), held_(empty_volume(glm::vec3(0), 1, glm::ivec3(0))) {}
 
-/// What there is to hold at a level, as far as there is room.
+/// The finest level at which what is in view has room, and its bricks there; finer than now only where there
+/// is room to spare, so that smoke does not change its level from frame to frame.
+FrameVector<glm::ivec3> ResidentSmoke::choose_level(const Request& request, const SmokeVisibility& visible,
+                                                    int& level, Allocator memory) const {
+  FrameVector<glm::ivec3> in_view(memory);
+  in_view.reserve(visible.visible_count);
+  for (std::uint32_t i = 0; i < visible.visible_count; ++i)
+    in_view.push_back(request.volume.brick_of(visible.slots[i]));
+  const std::size_t most = request.most_bricks;
+  for (level = 0;; ++level) {
+    sort_once(in_view);
+    if (level == kMostLevel || in_view.size() <= (level < level_ ? most - most / 4 : most)) return in_view;
+    for (glm::ivec3& brick : in_view) brick >>= 1;
+  }
+}
+
+/// What there is to hold at a level, as far as there is room; `in_view`: the bricks that are, in order.
 ResidentSmoke::Wanted ResidentSmoke::wanted_at(int level, const Request& request,
-                                               const SmokeVisibility& visible) const {
+                                               const SmokeVisibility& visible,
+                                               FrameVector<glm::ivec3> in_view) {
+  const Allocator memory = in_view.get_allocator();
   const smoke::SmokeVolume& volume = request.volume;
   const shared::VolumeLayout& layout = volume.layout();
   const float edge = layout.voxel_size * static_cast<float>(shared::kBrickVoxels << level);
   const glm::vec3 eye_brick = (request.eye_world - layout.origin_world) / edge;
-  std::vector<glm::ivec3> in_view, casters, rest;
-  for (std::size_t i = 0; i < visible.slots.size(); ++i)
-    (i < visible.visible_count ? in_view : casters).push_back(volume.brick_of(visible.slots[i]) >> level);
-  if (request.all)
-    for (const std::uint32_t slot : all_smoke_visible(volume).slots)
-      rest.push_back(volume.brick_of(slot) >> level);
-
-  Wanted wanted;
-  sort_once(in_view);
-  wanted.bricks = std::move(in_view);
-  wanted.visible = wanted.bricks.size();
-  add_others(wanted.bricks, wanted.visible, std::move(casters));
   const std::size_t most = request.most_bricks;
-  wanted.required = wanted.bricks.size();
-  if (wanted.required > most) {
-    const auto part = std::span(wanted.bricks).subspan(wanted.visible > most ? 0 : wanted.visible);
-    nearest_first(wanted.visible > most ? part.first(wanted.visible) : part, eye_brick);
-    wanted.bricks.resize(most);
-    wanted.visible = std::min(wanted.visible, most);
-    wanted.required = most;
+  Wanted wanted{.bricks = std::move(in_view)};
+  wanted.visible = wanted.bricks.size();
+  const auto bricks_of = [&](std::span<const std::uint32_t> slots) {
+    FrameVector<glm::ivec3> bricks(memory);
+    bricks.reserve(slots.size());
+    for (const std::uint32_t slot : slots) bricks.push_back(volume.brick_of(slot) >> level);
+    sort_once(bricks);
+    return bricks;
+  };
+  const auto end_of = [&](std::size_t count) { return static_cast<std::ptrdiff_t>(count); };
+  const auto cut = [&](std::size_t first, std::size_t count) {
+    nearest_first(std::span(wanted.bricks).subspan(first), eye_brick);
+    wanted.bricks.resize(first + count);
     wanted.is_limited = true;
-  }
-  std::sort(wanted.bricks.begin(), wanted.bricks.begin() + static_cast<std::ptrdiff_t>(wanted.visible),
-            before);
-  if (!request.all) return wanted;
-  std::vector<glm::ivec3> held = wanted.bricks;
-  sort_once(held);
-  sort_once(rest);
-  std::vector<glm::ivec3> others;
-  std::set_difference(rest.begin(), rest.end(), held.begin(), held.end(), std::back_inserter(others), before);
-  if (others.size() > most - wanted.required) {
-    nearest_first(others, eye_brick);
-    others.resize(most - wanted.required);
-    wanted.is_limited = true;
-  }
-  wanted.bricks.insert(wanted.bricks.end(), others.begin(), others.end());
-  return wanted;
-}
+  };
 
-/// The finest level at which what is in view has room; finer than now only where there is room to spare, so
-/// that smoke does not change its level from frame to frame.
-ResidentSmoke::Wanted ResidentSmoke::choose(const Request& request, const SmokeVisibility& visible,
-                                            int& level) const {
-  for (level = 0; level < kMostLevel; ++level) {
-    std::vector<glm::ivec3> in_view;
-    for (std::uint32_t i = 0; i < visible.visible_count; ++i)
-      in_view.push_back(request.volume.brick_of(visible.slots[i]) >> level);
-    if (level > 0) sort_once(in_view);
-    const std::size_t most = request.most_bricks;
-    if (in_view.size() <= (level < level_ ? most - most / 4 : most)) break;
+  // What is in view.
+  if (wanted.visible > most) {
+    cut(0, most);
+    wanted.visible = most;
+    std::sort(wanted.bricks.begin(), wanted.bricks.end(), before);
   }
-  return wanted_at(level, request, visible);
+  // What dims its light, and what else the indirect light comes from.
+  FrameVector<glm::ivec3> held(wanted.bricks, memory);
+  const auto add = [&](std::span<const std::uint32_t> slots) {
+    const std::size_t first = wanted.bricks.size();
+    add_others(held, bricks_of(slots), wanted.bricks);
+    if (wanted.bricks.size() > most) cut(first, most - first);
+    held.insert(held.end(), wanted.bricks.begin() + end_of(first), wanted.bricks.end());
+    std::sort(held.begin(), held.end(), before);
+  };
+  add(std::span(visible.slots).subspan(visible.visible_count));
+  wanted.required = wanted.bricks.size();
+  if (request.all) add(all_smoke_visible(volume, memory).slots);
+  return wanted;
 }
 
 /// Holds nothing, in an atlas of this size.
@@ -269,9 +266,9 @@ void ResidentSmoke::follow_changes() {
 }
 
 /// Releases what was not wanted for the longest time where the atlas would have to grow for it.
-void ResidentSmoke::make_room(std::size_t arriving, std::size_t wanted, std::size_t most) {
+void ResidentSmoke::make_room(std::size_t arriving, std::size_t wanted, std::size_t most, Allocator memory) {
   if (arriving == 0) return;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> unwanted;  // last frame, slot
+  FrameVector<std::pair<std::uint64_t, std::uint32_t>> unwanted(memory);  // last frame, slot
   std::size_t in_use = 0;
   for (std::uint32_t slot = 0; slot < held_.slot_count(); ++slot) {
     if (!held_.in_use(slot)) continue;
@@ -298,15 +295,19 @@ void ResidentSmoke::end() {
   held_.end_update();
   if (held_.structure_generation() != structure) ++generation_;
   std::erase_if(dirty_cell_slots_, [&](std::uint32_t slot) { return slot >= held_.slot_count(); });
-  sort_once(dirty_cell_slots_);
+  std::sort(dirty_cell_slots_.begin(), dirty_cell_slots_.end());
+  dirty_cell_slots_.erase(std::unique(dirty_cell_slots_.begin(), dirty_cell_slots_.end()),
+                          dirty_cell_slots_.end());
 }
 
-SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibility& visible) {
+SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibility& visible,
+                                      Allocator memory) {
   source_ = &request.volume;
   ++frames_;
   int level = 0;
   const bool was_missing = is_missing_;
-  const Wanted wanted = choose(request, visible, level);
+  FrameVector<glm::ivec3> in_view = choose_level(request, visible, level, memory);
+  const Wanted wanted = wanted_at(level, request, visible, std::move(in_view));
   is_missing_ = wanted.is_limited;
   wanted_count_ = static_cast<std::uint32_t>(wanted.bricks.size());
   const std::uint64_t generation = generation_;
@@ -317,7 +318,7 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
                                                                 : request.atlas_bricks);
 
   // What stays.
-  std::vector<glm::ivec3> arriving;
+  FrameVector<glm::ivec3> arriving(memory);
   for (const glm::ivec3 brick : wanted.bricks) {
     if (const std::uint32_t slot = held_.slot_at(brick); slot != kNoSlot)
       last_frame_[slot] = frames_;
@@ -328,7 +329,7 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
   follow_changes();
 
   // What comes.
-  make_room(arriving.size(), wanted.bricks.size(), request.most_bricks);
+  make_room(arriving.size(), wanted.bricks.size(), request.most_bricks, memory);
   for (const glm::ivec3 brick : arriving) {
     begin();
     const std::uint32_t slot = held_.acquire(brick);
@@ -339,8 +340,8 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
   end();
   shows_other_ = (was_missing || is_missing_) && generation_ != generation;
 
-  SmokeVisibility held = visible;
-  held.slots.clear();
+  SmokeVisibility held{FrameVector<std::uint32_t>(memory), 0, visible.visible_bounds, visible.caster_bounds};
+  held.slots.reserve(wanted.required);
   for (std::size_t i = 0; i < wanted.required; ++i) held.slots.push_back(held_.slot_at(wanted.bricks[i]));
   held.visible_count = static_cast<std::uint32_t>(wanted.visible);
   const auto casters = held.slots.begin() + static_cast<std::ptrdiff_t>(wanted.visible);

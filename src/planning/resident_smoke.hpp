@@ -34,7 +34,7 @@ class ResidentSmoke final : public smoke::SmokeBricks {
   /// Holds what is visible at the finest level at which what is in view takes no more than `most_bricks`; at
   /// kMostLevel the bricks nearest to the eye. Bricks that only dim light take what room is left, the nearest
   /// to the eye first. Returns the visibility in slots and voxels of this.
-  SmokeVisibility update(const Request& request, const SmokeVisibility& visible);
+  SmokeVisibility update(const Request& request, const SmokeVisibility& visible, Allocator memory = {});
 
   /// Whether bricks of the last request are missing, or coarser than they should be.
   bool is_limited() const { return is_missing_ || level_ > 0; }
@@ -57,17 +57,19 @@ class ResidentSmoke final : public smoke::SmokeBricks {
  private:
   /// Bricks of a level: those in view, in order, then those that dim light, then others.
   struct Wanted {
-    std::vector<glm::ivec3> bricks;
+    FrameVector<glm::ivec3> bricks;
     std::size_t visible = 0, required = 0;  // how many are in view, and with those that dim light
     bool is_limited = false;                // some have no room
   };
-  Wanted wanted_at(int level, const Request& request, const SmokeVisibility& visible) const;
-  Wanted choose(const Request& request, const SmokeVisibility& visible, int& level) const;
+  FrameVector<glm::ivec3> choose_level(const Request& request, const SmokeVisibility& visible, int& level,
+                                       Allocator memory) const;
+  static Wanted wanted_at(int level, const Request& request, const SmokeVisibility& visible,
+                          FrameVector<glm::ivec3> in_view);
   void restart(const smoke::SmokeVolume& source, int level, glm::ivec3 atlas);
   void find_changes(const smoke::SmokeVolume& source);
   bool has_changed(glm::ivec3 brick) const;
   void follow_changes();
-  void make_room(std::size_t arriving, std::size_t wanted, std::size_t most);
+  void make_room(std::size_t arriving, std::size_t wanted, std::size_t most, Allocator memory);
   void begin();
   void release(std::uint32_t slot);
   void write(std::uint32_t slot);

@@ -34,6 +34,16 @@ glm::vec3 middle_of(const shared::VolumeLayout& layout, glm::ivec3 brick) {
 
 }  // namespace
 
+void SmokeLightPlan::clear() {
+  texel_lists.clear();
+  shadow_rays.clear();
+  gathers.clear();
+  changes.clear();
+  gathered_lights.clear();
+  parts.clear();
+  texel_list_count = page_count = 0;
+}
+
 void SmokeLightCache::drop_all_rays() {
   entry_count_ = 0;
   std::fill(entry_of_slot_.begin(), entry_of_slot_.end(), kNone);
@@ -142,8 +152,8 @@ void SmokeLightCache::match_lights(std::span<const shared::Light> lights) {
   }
 }
 
-void SmokeLightCache::find_lights_in_reach(const SmokeLightInputs& inputs) {
-  std::vector<std::uint32_t> in_order(inputs.lights.size());
+void SmokeLightCache::find_lights_in_reach(const SmokeLightInputs& inputs, Allocator memory) {
+  FrameVector<std::uint32_t> in_order(inputs.lights.size(), memory);
   for (std::uint32_t i = 0; i < known_lights_.size(); ++i)
     if (known_lights_[i].in_frame != kNone) in_order[known_lights_[i].in_frame] = i;
   lights_in_reach_.clear();
@@ -352,12 +362,12 @@ void SmokeLightCache::plan_incremental(const SmokeLightInputs& inputs) {
   plan_.gathers.insert(plan_.gathers.end(), sliced_gathers_.begin(), sliced_gathers_.end());
   if (plan_.texel_lists.empty() && plan_.gathers.empty()) return;
   const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  plan_.parts = {{{0, count(plan_.texel_lists)},
-                  {0, count(plan_.shadow_rays)},
-                  {0, count(plan_.gathers)},
-                  count(sliced_rays_),
-                  count(sliced_gathers_),
-                  most_phases_}};
+  plan_.parts.push_back({{0, count(plan_.texel_lists)},
+                         {0, count(plan_.shadow_rays)},
+                         {0, count(plan_.gathers)},
+                         count(sliced_rays_),
+                         count(sliced_gathers_),
+                         most_phases_});
 }
 
 /// As many bricks at a time as their pages fit; nothing is cached.
@@ -387,7 +397,7 @@ void SmokeLightCache::plan_in_parts(const SmokeLightInputs& inputs) {
 }
 
 /// Finds the cached rays and texel lists that no longer hold.
-void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs) {
+void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs, Allocator memory) {
   hole_changes_.clear();
   if (!tracker_.is_continuous(inputs) || (!scheduler_.is_sliced() && tracker_.all_rays_changed(inputs))) {
     drop_all_rays();
@@ -396,9 +406,10 @@ void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs) {
 
   // Texels that must have light at once: of smoke that changed, and in holes that did and beside them. Rays
   // that only graze holes can wait.
-  std::vector<shared::LightChange> changes;
+  FrameVector<shared::LightChange> changes(memory), holes(memory);
   if (tracker_.smoke_changed(inputs)) relist_dirty_slots(*inputs.volume);
-  if (scheduler_.is_sliced()) tracker_.add_hole_changes(inputs, hole_changes_);
+  if (scheduler_.is_sliced()) tracker_.add_hole_changes(inputs, holes);
+  hole_changes_.assign(holes.begin(), holes.end());
   for (shared::LightChange& hole : hole_changes_) hole.radius -= 0.5f * tracker_.layout().voxel_size;
 
   // Rays that cross what changed.
@@ -409,8 +420,8 @@ void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs) {
     invalidate_rays();
 }
 
-const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs) {
-  plan_ = {};
+const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allocator memory) {
+  plan_.clear();
   if (!inputs.volume || inputs.volume->slot_count() == 0) {
     invalidate();
     return plan_;
@@ -418,10 +429,10 @@ const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs) {
 
   // What changed since the frame before.
   scheduler_.next_slice(inputs.update_fraction);
-  drop_changed(inputs);
+  drop_changed(inputs, memory);
   if (tracker_.gather_inputs_changed(inputs)) ++epoch_;
   match_lights(inputs.lights);
-  find_lights_in_reach(inputs);
+  find_lights_in_reach(inputs, memory);
 
   // What the frame updates.
   if (!pages_.fits(pages_missing(inputs))) drop_all_rays();

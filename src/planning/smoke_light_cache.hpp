@@ -27,6 +27,7 @@ struct SmokeLightPlan {
   };
   std::vector<Part> parts;
   std::uint32_t texel_list_count = 0, page_count = 0;  ///< That the device must have room for.
+  void clear();
 };
 
 /// Tracks which rays the device holds. A ray is followed again when its light, or anything that may lie on
@@ -43,7 +44,7 @@ class SmokeLightCache {
   explicit SmokeLightCache(std::uint32_t max_pages = kMaxRayPages) : pages_(max_pages) {}
 
   /// The work of a frame; it counts as done from then on. Valid until the next call.
-  const SmokeLightPlan& plan(const SmokeLightInputs& inputs);
+  const SmokeLightPlan& plan(const SmokeLightInputs& inputs, Allocator memory = {});
   /// The work of the last planned frame.
   const SmokeLightPlan& last_plan() const { return plan_; }
   /// The device lost what it held.
@@ -93,7 +94,7 @@ class SmokeLightCache {
   };
 
   // What still holds.
-  void drop_changed(const SmokeLightInputs& inputs);
+  void drop_changed(const SmokeLightInputs& inputs, Allocator memory);
   void drop_all_rays();
   void invalidate_rays();
   bool invalidate_crossing(const SmokeLightInputs& inputs, std::span<const shared::LightChange> changes);
@@ -102,7 +103,7 @@ class SmokeLightCache {
   // The lights of the frame.
   void match_lights(std::span<const shared::Light> lights);
   KnownLight& match_light(const shared::Light& light, std::size_t hint, std::size_t most);
-  void find_lights_in_reach(const SmokeLightInputs& inputs);
+  void find_lights_in_reach(const SmokeLightInputs& inputs, Allocator memory);
   std::span<const std::uint32_t> lights_reaching(std::size_t visible_index) const;
   std::uint64_t light_versions_hash(std::span<const std::uint32_t> lights) const;
 

@@ -36,9 +36,19 @@ bool SmokeShadowCache::Key::operator==(const Key& other) const {
          same_bytes(reaches, other.reaches) && hole_time == other.hole_time;
 }
 
-SmokeShadowCache::Key SmokeShadowCache::key_of(const SmokeShadowInputs& inputs) {
-  Key key;
-  if (!inputs.volume) return key;
+/// Keeps the memory of the key before.
+void SmokeShadowCache::set_key(const SmokeShadowInputs& inputs, Key& key) {
+  key.volume = key.revision = 0;
+  key.slots.clear();
+  key.caster_bounds = {};
+  key.lights.clear();
+  key.extinction = key.erosion = key.noise_time = key.hole_time = 0;
+  key.noise_look = {};
+  key.motions.clear();
+  key.impulses.clear();
+  key.holes.clear();
+  key.reaches.clear();
+  if (!inputs.volume) return;
   key.volume = inputs.volume->volume().id();
   key.revision = inputs.volume->revision();
 
@@ -56,25 +66,26 @@ SmokeShadowCache::Key SmokeShadowCache::key_of(const SmokeShadowInputs& inputs) 
   key.erosion = inputs.look.erosion;
   if (inputs.look.erosion > 0) {
     key.noise_look = noise_look_of(inputs.look);
-    key.motions = inputs.noise->motions;
-    key.impulses = inputs.noise->impulses;
+    key.motions.assign(inputs.noise->motions.begin(), inputs.noise->motions.end());
+    key.impulses.assign(inputs.noise->impulses.begin(), inputs.noise->impulses.end());
     key.noise_time = inputs.time;
   }
-  key.holes = inputs.holes->holes;
-  key.reaches = inputs.holes->reaches;
+  key.holes.assign(inputs.holes->holes.begin(), inputs.holes->holes.end());
+  key.reaches.assign(inputs.holes->reaches.begin(), inputs.holes->reaches.end());
   if (!key.holes.empty()) key.hole_time = inputs.holes->time;
-  return key;
 }
 
-std::optional<SmokeShadowUpdate> SmokeShadowCache::update(SmokeShadowPlan plan,
-                                                          const SmokeShadowInputs& inputs) {
+std::optional<SmokeShadowUpdate> SmokeShadowCache::update(const SmokeShadowPlan& plan,
+                                                          const SmokeShadowInputs& inputs, Allocator memory) {
   // What changed. Time-sliced noise changes after its inputs did, too.
-  Key key = key_of(inputs);
+  set_key(inputs, next_key_);
   const bool noise_changed = inputs.look.erosion > 0 && inputs.noise->catches_up;
-  const bool same_plan = key_ && plan == plan_;
-  const bool same_inputs = key_ && key == *key_ && !inputs.rebuild && !(inputs.volume && noise_changed);
-  plan_ = std::move(plan);
-  key_ = std::move(key);
+  const bool same_plan = has_texels_ && plan == plan_;
+  const bool same_inputs =
+      has_texels_ && next_key_ == key_ && !inputs.rebuild && !(inputs.volume && noise_changed);
+  plan_ = plan;
+  std::swap(key_, next_key_);
+  has_texels_ = true;
 
   // Texels of one frame lie beside those of the others.
   constexpr std::array<glm::uvec2, 4> kFirstTexels{{{1, 1}, {0, 1}, {1, 0}, {0, 0}}};
@@ -82,11 +93,11 @@ std::optional<SmokeShadowUpdate> SmokeShadowCache::update(SmokeShadowPlan plan,
   if (scheduler_.pending() == 0) return std::nullopt;
   if (!same_plan || !scheduler_.takes_one_slice(inputs.update_fraction)) {
     scheduler_.complete();
-    return SmokeShadowUpdate{plan_.spread_by(1), 1, glm::uvec2(0)};
+    return SmokeShadowUpdate{plan_.spread_by(1, memory), 1, glm::uvec2(0)};
   }
   scheduler_.next_slice(inputs.update_fraction);
   scheduler_.complete_slice();
-  return SmokeShadowUpdate{plan_.spread_by(2), 2, kFirstTexels[scheduler_.slices().first]};
+  return SmokeShadowUpdate{plan_.spread_by(2, memory), 2, kFirstTexels[scheduler_.slices().first]};
 }
 
 }  // namespace brume::planning

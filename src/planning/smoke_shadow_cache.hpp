@@ -39,9 +39,10 @@ struct SmokeShadowUpdate {
 class SmokeShadowCache {
  public:
   /// The update of a frame that has `plan`; nothing where all texels hold. It counts as done from then on.
-  std::optional<SmokeShadowUpdate> update(SmokeShadowPlan plan, const SmokeShadowInputs& inputs);
+  std::optional<SmokeShadowUpdate> update(const SmokeShadowPlan& plan, const SmokeShadowInputs& inputs,
+                                          Allocator memory = {});
   /// The device lost its atlas.
-  void invalidate() { key_.reset(); }
+  void invalidate() { has_texels_ = false; }
 
  private:
   /// What the texels were marched from.
@@ -63,11 +64,12 @@ class SmokeShadowCache {
     float hole_time = 0;
     bool operator==(const Key& other) const;
   };
-  static Key key_of(const SmokeShadowInputs& inputs);
+  static void set_key(const SmokeShadowInputs& inputs, Key& key);
 
   UpdateScheduler scheduler_{4};
   SmokeShadowPlan plan_;
-  std::optional<Key> key_;
+  bool has_texels_ = false;
+  Key key_, next_key_;
 };
 
 }  // namespace brume::planning

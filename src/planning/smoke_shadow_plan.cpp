@@ -70,9 +70,10 @@ bool shines_into(const shared::Light& light, std::uint32_t face) {
 }
 
 /// The parts of all lights, the brightest on smoke first.
-std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const Box<float>> smoke) {
-  std::vector<FacePart> parts;
-  std::vector<float> irradiance;
+FrameVector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const Box<float>> smoke,
+                                 Allocator memory) {
+  FrameVector<FacePart> parts(memory);
+  FrameVector<float> irradiance(memory);
   const ViewFrustum view(scene.camera);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const shared::Light& light = scene.lights[i];
@@ -107,20 +108,28 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
   return parts;
 }
 
+/// A rectangle of the atlas for a part.
+struct FaceRectangle {
+  shared::SmokeShadowFace face{};
+  const FacePart* part = nullptr;
+};
+
 /// Rectangles row by row, the highest first; false where they do not fit.
-bool pack(std::span<const FacePart> parts, float texel_metres, glm::uvec2 atlas, SmokeShadowPlan& plan) {
+bool pack(std::span<const FacePart> parts, float texel_metres, glm::uvec2 atlas,
+          FrameVector<FaceRectangle>& rectangles, SmokeShadowPlan& plan) {
   // Texels of a whole face. The shadows of a ball have no edges.
   constexpr float kLeastScale = 16, kMostScale = 2048, kSoftScale = 8;
-  std::vector<std::pair<shared::SmokeShadowFace, const FacePart*>> rectangles;
+  rectangles.clear();
   for (const FacePart& part : parts) {
     shared::SmokeShadowFace face{};
     face.scale = std::clamp(part.metres / (texel_metres * part.coarseness), kLeastScale, kMostScale);
     if (part.is_soft) face.scale = kSoftScale;
     face.size = glm::uvec2(glm::ceil((part.high - part.low) * face.scale)) + 2u;
-    rectangles.emplace_back(face, &part);
+    rectangles.push_back({face, &part});
   }
-  std::stable_sort(rectangles.begin(), rectangles.end(),
-                   [](const auto& a, const auto& b) { return a.first.size.y > b.first.size.y; });
+  std::sort(rectangles.begin(), rectangles.end(), [](const FaceRectangle& a, const FaceRectangle& b) {
+    return a.face.size.y != b.face.size.y ? a.face.size.y > b.face.size.y : a.part < b.part;
+  });
   glm::uvec2 at(0);
   std::uint32_t row = 0;
   for (auto& [face, part] : rectangles) {
@@ -143,8 +152,8 @@ bool SmokeShadowPlan::operator==(const SmokeShadowPlan& other) const {
           std::memcmp(faces.data(), other.faces.data(), faces.size() * sizeof faces[0]) == 0);
 }
 
-SmokeShadowPlan SmokeShadowPlan::spread_by(std::uint32_t spread) const {
-  SmokeShadowPlan plan{faces, 0};
+SmokeShadowPlan SmokeShadowPlan::spread_by(std::uint32_t spread, Allocator memory) const {
+  SmokeShadowPlan plan{{faces, memory}, 0};
   for (shared::SmokeShadowFace& face : plan.faces) {
     face.first_block = plan.blocks;
     const glm::uvec2 face_blocks = shared::smoke_shadow_blocks(face.size, spread);
@@ -154,24 +163,28 @@ SmokeShadowPlan SmokeShadowPlan::spread_by(std::uint32_t spread) const {
 }
 
 SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const Box<float>> smoke,
-                                   glm::uvec2 atlas_size) {
-  SmokeShadowPlan plan;
-  std::vector<FacePart> parts = find_parts(scene, smoke);
+                                   glm::uvec2 atlas_size, Allocator memory) {
+  SmokeShadowPlan plan{.faces = FrameVector<shared::SmokeShadowFace>(memory)};
+  FrameVector<FacePart> parts = find_parts(scene, smoke, memory);
+  FrameVector<FaceRectangle> rectangles(memory);
+  rectangles.reserve(parts.size());
   const auto try_size = [&](float texel_metres) {
     plan.faces.assign(scene.lights.size() * shared::kFacesPerLight, {});
-    return pack(parts, texel_metres, atlas_size, plan);
+    return pack(parts, texel_metres, atlas_size, rectangles, plan);
   };
   // Larger and larger texels until all fit; beyond 2 m fewer lights, but the sun remains, however large they
   // are.
   float texel_metres = kFinestSmokeShadow;
-  std::stable_partition(parts.begin(), parts.end(), [](const FacePart& part) { return part.is_sun; });
+  auto suns_end = parts.begin();
+  for (auto part = parts.begin(); part != parts.end(); ++part)
+    if (part->is_sun) std::rotate(suns_end++, part, part + 1);
   while (!try_size(texel_metres)) {
     if (texel_metres < 2 || parts.back().is_sun)
       texel_metres *= 1.2f;
     else
       parts.pop_back();
   }
-  return plan.spread_by(1);
+  return plan.spread_by(1, memory);
 }
 
 }  // namespace brume::planning

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "core/box.hpp"
 #include "planning/smoke_visibility.hpp"
@@ -13,11 +12,11 @@
 namespace brume::planning {
 
 struct SmokeShadowPlan {
-  std::vector<shared::SmokeShadowFace> faces;  ///< kFacesPerLight for each light, in their order.
+  FrameVector<shared::SmokeShadowFace> faces;  ///< kFacesPerLight for each light, in their order.
   std::uint32_t blocks = 0;                    ///< Of all faces together.
   bool operator==(const SmokeShadowPlan& other) const;
   /// The same with blocks of every `spread`th texel along both axes.
-  SmokeShadowPlan spread_by(std::uint32_t spread) const;
+  SmokeShadowPlan spread_by(std::uint32_t spread, Allocator memory = {}) const;
 };
 
 /// The lights, and the camera that sees what they light.
@@ -34,6 +33,6 @@ constexpr float kFinestSmokeShadow = 0.04f;
 /// disjoint, with texels of about one size in the world: as small as all of them fit, larger for what is
 /// dim. When they do not fit at any size, the last lights get none.
 SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const Box<float>> smoke,
-                                   glm::uvec2 atlas_size);
+                                   glm::uvec2 atlas_size, Allocator memory = {});
 
 }  // namespace brume::planning

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <tuple>
 
 #include "shared/smoke_light.h"
@@ -16,8 +15,13 @@ class LightPaths {
   /// `lit`: a box around all that is lit; `visible_smoke`: around the smoke in view, empty for none; `slack`:
   /// so far from what is in view light counts, too [m].
   LightPaths(const ViewFrustum& view, std::span<const shared::Light> lights, const Box<float>& lit,
-             const Box<float>& visible_smoke, float slack)
-      : view_(view), lit_(lit), visible_smoke_(visible_smoke), slack_(slack) {
+             const Box<float>& visible_smoke, float slack, Allocator memory)
+      : view_(view),
+        lit_(lit),
+        visible_smoke_(visible_smoke),
+        slack_(slack),
+        local_lights_(memory),
+        suns_(memory) {
     for (const shared::Light& light : lights)
       if (light.kind == shared::kLightDirectional)
         suns_.push_back(light.direction);
@@ -58,8 +62,8 @@ class LightPaths {
   const ViewFrustum& view_;
   Box<float> lit_, visible_smoke_;
   float slack_;
-  std::vector<WorldSphere> local_lights_;  // as far as they reach
-  std::vector<glm::vec3> suns_;
+  FrameVector<WorldSphere> local_lights_;  // as far as they reach
+  FrameVector<glm::vec3> suns_;
 };
 
 WorldSphere around(const Box<float>& box) {
@@ -93,7 +97,7 @@ class VolumeTransform {
 /// Adds the slots of a cloud that a test accepts, and returns whether there are any; node by node, so that
 /// clouds out of view cost little.
 bool collect_slots(const smoke::SmokeVolume& volume, const Box<float>& cloud, const VolumeTransform& places,
-                   const auto& accepts, std::vector<std::uint32_t>& slots) {
+                   const auto& accepts, FrameVector<std::uint32_t>& slots) {
   const Box<int> all = brick_range(cloud);
   if (!accepts(around(places.bricks(all)))) return false;
   const std::size_t before = slots.size();
@@ -115,16 +119,16 @@ Box<float> with(const Box<float>& bounds, const Box<float>& cloud) {
   return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};
 }
 
-void sort_once(std::vector<std::uint32_t>& slots) {
+void sort_once(FrameVector<std::uint32_t>& slots) {
   std::sort(slots.begin(), slots.end());
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
 }  // namespace
 
-std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
-                                          float slack) {
-  std::vector<shared::Light> visible;
+FrameVector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
+                                          float slack, Allocator memory) {
+  FrameVector<shared::Light> visible(memory);
   for (const shared::Light& light : lights)
     if (light.kind == shared::kLightDirectional ||
         view.may_intersect({light.position_world, light.range + slack}))
@@ -133,11 +137,11 @@ std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights,
 }
 
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
-                           std::span<const shared::Light> lights, const Box<float>& scene) {
+                           std::span<const shared::Light> lights, const Box<float>& scene, Allocator memory) {
   const VolumeTransform places(volume.layout());
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
   // What may be in view.
-  SmokeVisibility visibility;
+  SmokeVisibility visibility{.slots = FrameVector<std::uint32_t>(memory)};
   Box<float> visible_smoke = kEmptyBox;
   for (const Box<float>& cloud : volume.cloud_bounds()) {
     if (!collect_slots(volume, cloud, places, in_view, visibility.slots)) continue;
@@ -149,22 +153,25 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
 
   // What stands between that and the lights.
   const LightPaths paths(view, lights, united(scene, visible_smoke), visible_smoke,
-                         light_interpolation_margin(volume.layout().voxel_size));
+                         light_interpolation_margin(volume.layout().voxel_size), memory);
   const auto may_cast = [&](const WorldSphere& smoke) { return paths.may_cross(smoke); };
-  std::vector<std::uint32_t> casters;
+  FrameVector<std::uint32_t> casters(memory);
   visibility.caster_bounds = visibility.visible_bounds;
   for (const Box<float>& cloud : volume.cloud_bounds())
     if (collect_slots(volume, cloud, places, may_cast, casters))
       visibility.caster_bounds = with(visibility.caster_bounds, cloud);
   sort_once(casters);
-  const std::vector<std::uint32_t> visible = visibility.slots;
+  FrameVector<std::uint32_t> visible(memory);
+  visible.swap(visibility.slots);
+  visibility.slots.reserve(visible.size() + casters.size());
+  visibility.slots = visible;
   std::set_difference(casters.begin(), casters.end(), visible.begin(), visible.end(),
                       std::back_inserter(visibility.slots));
   return visibility;
 }
 
-SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
-  SmokeVisibility visibility;
+SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume, Allocator memory) {
+  SmokeVisibility visibility{.slots = FrameVector<std::uint32_t>(memory)};
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
     if (volume.slot_at(volume.brick_of(slot)) == slot) visibility.slots.push_back(slot);
   visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
@@ -173,18 +180,25 @@ SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
   return visibility;
 }
 
-std::vector<Box<float>> smoke_boxes(const smoke::SmokeBricks& volume, const SmokeVisibility& visibility) {
+FrameVector<Box<float>> smoke_boxes(const smoke::SmokeBricks& volume, const SmokeVisibility& visibility,
+                                    Allocator memory) {
   const VolumeTransform places(volume.layout());
-  std::map<std::tuple<int, int, int>, Box<float>> nodes;  // in voxels
-  for (const std::uint32_t slot : visibility.slots) {
-    const glm::ivec3 brick = volume.brick_of(slot), node = brick >> 3;
-    const Box<float> box{glm::vec3(brick * shared::kBrickVoxels),
-                         glm::vec3((brick + 1) * shared::kBrickVoxels)};
-    const auto [known, added] = nodes.try_emplace({node.x, node.y, node.z}, box);
-    if (!added) known->second = united(known->second, box);
-  }
-  std::vector<Box<float>> boxes;
-  for (const auto& [node, box] : nodes) {
+  // Bricks by their nodes.
+  FrameVector<glm::ivec3> bricks(memory);
+  bricks.reserve(visibility.slots.size());
+  for (const std::uint32_t slot : visibility.slots) bricks.push_back(volume.brick_of(slot));
+  const auto node_key = [](glm::ivec3 brick) { return std::tuple(brick.x >> 3, brick.y >> 3, brick.z >> 3); };
+  std::sort(bricks.begin(), bricks.end(),
+            [&](glm::ivec3 a, glm::ivec3 b) { return node_key(a) < node_key(b); });
+
+  FrameVector<Box<float>> boxes(memory);
+  for (auto first = bricks.begin(); first != bricks.end();) {
+    const auto end = std::find_if(first, bricks.end(),
+                                  [&](glm::ivec3 brick) { return node_key(brick) != node_key(*first); });
+    Box<float> box = kEmptyBox;  // in voxels
+    for (; first != end; ++first)
+      box = united(box, Box<float>{glm::vec3(*first * shared::kBrickVoxels),
+                                   glm::vec3((*first + 1) * shared::kBrickVoxels)});
     const Box<float> cut{glm::max(box.low, visibility.caster_bounds.low),
                          glm::min(box.high, visibility.caster_bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));

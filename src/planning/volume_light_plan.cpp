@@ -35,14 +35,14 @@ void add_transfer(KeyBytes& key, const TransferInput& transfer) {
   key.add(transfer.color_map.points.size());
 }
 
-std::vector<std::byte> key_of_volumes(const VolumeLightInputs& in) {
-  KeyBytes key;
+FrameVector<std::byte> key_of_volumes(const VolumeLightInputs& in, Allocator memory) {
+  KeyBytes key(memory);
   add_volumes(key, *in.media, in.volumes);
   return key.take();
 }
 
-std::vector<std::byte> key_of_others(const VolumeLightInputs& in) {
-  KeyBytes key;
+FrameVector<std::byte> key_of_others(const VolumeLightInputs& in, Allocator memory) {
+  KeyBytes key(memory);
   key.add(in.media->frame.volume_count);
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);
@@ -117,11 +117,11 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
   return sweep;
 }
 
-VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
-  VolumeLightPlan plan;
-  std::vector<std::byte> volumes_key = key_of_volumes(in);
+VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in, Allocator memory) {
+  VolumeLightPlan plan{.sweeps = FrameVector<shared::VolumeSweep>(memory)};
+  const FrameVector<std::byte> volumes_key = key_of_volumes(in, memory);
   plan.volumes_changed = volumes_key != volumes_key_;
-  volumes_key_ = std::move(volumes_key);
+  volumes_key_ = volumes_key;
   if (in.media->frame.volume_count == 0) {
     key_.clear();
     return plan;
@@ -141,9 +141,9 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
     return plan;
   }
   plan.is_alone = in.media->volumes.size() == 1 && (in.media->casters & shared::kMediumSmoke) == 0;
-  std::vector<std::byte> key = key_of_others(in);
+  const FrameVector<std::byte> key = key_of_others(in, memory);
   plan.update = in.rebuild || plan.volumes_changed || key != key_;
-  key_ = std::move(key);
+  key_ = key;
   return plan;
 }
 

@@ -17,7 +17,7 @@ struct VolumeLightPlan {
   std::uint32_t sun = shared::kNoSun;       ///< MediaPlan::sun.
   std::uint32_t edge = 1;                   ///< Cells of a volume's cube of light along an axis.
   std::uint32_t sun_edge = 1;               ///< The same of its cube of the sun's depths.
-  std::vector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
+  FrameVector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
   bool is_lit = true;                       ///< A volume in view scatters or emits by its extinction.
   bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
@@ -41,13 +41,13 @@ struct VolumeLightInputs {
 class VolumeLightCache {
  public:
   /// The plan of a frame. It counts as done from then on.
-  VolumeLightPlan plan(const VolumeLightInputs& inputs);
+  VolumeLightPlan plan(const VolumeLightInputs& inputs, Allocator memory = {});
   /// The device lost its light.
   void invalidate() { key_.clear(); }
 
  private:
-  std::vector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
-  std::vector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
+  FrameVector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
+  FrameVector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
 };
 
 /// Adds what the light in the volumes of a frame follows from, of the volumes themselves.

@@ -136,6 +136,7 @@ void Renderer::invalidate() {
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
+  input_ = input;
   const std::uint32_t room = bricks_of(smoke_.atlas_bricks());
   const std::uint32_t wanted = holds_all_smoke() ? room : history_.resident->wanted_count();
   if (smoke_budget_.begin_frame(context_.memory(), room, wanted)) {
@@ -146,7 +147,7 @@ FramePlan Renderer::plan(const FrameInput& input) {
     std::optional<gpu::Memory::Unlimited> reserve;
     if (smoke_budget_.is_reserve()) reserve.emplace(context_.memory());
     try {
-      return try_plan(input);
+      return try_plan();
     } catch (const Error& error) {
       const bool is_full = error.code() == ErrorCode::resource_limit;
       if (!is_full || !input.smoke.volume || !smoke_budget_.reduce(bricks_of(smoke_.atlas_bricks()))) throw;
@@ -154,17 +155,17 @@ FramePlan Renderer::plan(const FrameInput& input) {
   }
 }
 
-FramePlan Renderer::try_plan(const FrameInput& input) {
-  const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
+FramePlan Renderer::try_plan() {
+  hidden_objects_before_ = history_.hidden_objects;
   try {
-    upload_volumes(input);
-    upload_slices(input);
-    FramePlan plan = planning::plan_frame(input, plan_target(), history_);
+    upload_volumes(input_);
+    upload_slices(input_);
+    FramePlan plan = planning::plan_frame(input_, plan_target(), history_);
     reserve(plan);
     return plan;
   } catch (...) {
     // What the plan counts as updated is not.
-    history_.hidden_objects = hidden_objects;
+    history_.hidden_objects = hidden_objects_before_;
     invalidate();
     throw;
   }

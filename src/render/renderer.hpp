@@ -117,7 +117,7 @@ class Renderer {
   planning::PlanTarget plan_target() const;
   void upload_volumes(const FrameInput& input);
   void upload_slices(const FrameInput& input);
-  FramePlan try_plan(const FrameInput& input);
+  FramePlan try_plan();
   void reserve(FramePlan& plan);
   void upload_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
@@ -159,6 +159,8 @@ class Renderer {
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
   planning::PlanHistory history_;
+  FrameInput input_;                                  // of the last plan
+  std::vector<std::uint32_t> hidden_objects_before_;  // it
 };
 
 }  // namespace brume::render

@@ -19,8 +19,10 @@ from documents import Document, hostile, measured, sound
 
 ROOT = pathlib.Path(os.environ["BRUME_SOURCE_DIR"])
 PROGRAM = os.environ["BRUME_PROGRAM"]
+sys.path.insert(0, str(ROOT / "bench/page"))
+import peers  # noqa: E402
+
 CLAIMS = json.loads((ROOT / "bench/page/claims.json").read_text(encoding="utf-8"))
-MEASURED = [claim for claim in CLAIMS if "case" in claim]
 WITHOUT_CHROMIUM = "chromium is not installed; script/bootstrap test installs it"
 
 
@@ -70,15 +72,15 @@ class BrowserTest(Case):
         self.assertEqual([e[2] for e in rows], [m["name"] for m in measurements])
         self.assertEqual(len(page.all("th", role="rowheader")), len(CLAIMS))
         for m in measurements:
-            claimed = [c for c in MEASURED if c["case"] == m["name"]]
+            claimed = [c for c in CLAIMS if c["case"] == m["name"]]
             for claim in claimed:
                 value = m["details"][claim["detail"]] if "detail" in claim else m["median"]
                 cell = self.cell_of(page, claim)
                 number = float(re.match(r"[\d.,]+", cell)[0].replace(",", ""))
                 self.assertLessEqual(abs(number - value), 0.005 * value, cell)
-        self.assertEqual(sum("not measured here" in text for text in page.texts("td")), len(MEASURED) - 3)
+        self.assertEqual(sum("not measured here" in text for text in page.texts("td")), len(CLAIMS) - 3)
         note = " ".join(page.texts("div", role="note"))
-        self.assertIn(f"{len(MEASURED) - 3} of the {len(MEASURED)} figures", note)
+        self.assertIn(f"{len(CLAIMS) - 3} of the {len(CLAIMS)} figures", note)
         self.assertIn("march/1080p", note)
         self.assertNotIn("wire/keyframe", note)
 
@@ -137,7 +139,7 @@ class PageTest(Case):
         self.assertEqual(len(page.all("rect")), 4)
         widths = {e[1]["class"]: float(e[1]["width"]) for e in page.all("rect")[:2]}
         self.assertAlmostEqual(widths["s0"], 0.5 * widths["s1"], delta=0.1)
-        march = [c for c in MEASURED if c["case"] == "march/1080p"][0]
+        march = [c for c in CLAIMS if c["case"] == "march/1080p"][0]
         cells = page.texts("td", role="cell")[3 * CLAIMS.index(march):][:3]
         self.assertIn("0.5 times the README's figure", cells[1])
         self.assertIn("; 1 times the README's figure", cells[2])
@@ -234,12 +236,9 @@ class ClaimsTest(unittest.TestCase):
             self.assertEqual(self.readme.count(claim["text"]), 1, claim["text"])
 
     def test_figures_are_those_of_their_texts(self):
-        words = {"a tenth of a second": 100}
+        words = {"a tenth of a second": 100, "a sixth of the processor time": 0.1667, "a fifth of its error": 0.2,
+                 "twice as fast": 0.5, "less than a sixth of the time": 0.1667}
         for claim in CLAIMS:
-            if "case" in claim:
-                self.assertNotIn("by", claim)
-            else:
-                self.assertTrue(claim["by"])
             if "value" in claim:
                 said = words.get(claim["figure"]) or float(re.search(r"[\d.]+", claim["figure"])[0])
                 self.assertEqual(claim["value"], said)
@@ -260,8 +259,74 @@ class ClaimsTest(unittest.TestCase):
         text = subprocess.run([PROGRAM, "bench", "--help"], capture_output=True, text=True, check=True).stdout
         text = text[text.index("They are"):text.index("Options:")]
         names = set(re.split(r"[\s,]+", text))
-        for claim in MEASURED:
-            self.assertTrue(claim.get("run", claim["case"]) in names, claim["case"])
+        for claim in CLAIMS:
+            if "by" not in claim:
+                self.assertTrue(claim.get("run", claim["case"]) in names, claim["case"])
+
+
+CLOUD = {"renderers": [{"renderer": "Brume, lavapipe", "cpu": 1.5, "rmse": 0.5},
+                       {"renderer": "Brume, lavapipe, --step 2", "cpu": 1, "rmse": 1},
+                       {"renderer": "vdb_render 10.0.1", "cpu": 6, "rmse": 4},
+                       {"renderer": "vdb_render 10.0.1, finer", "cpu": 60, "rmse": 0.5}],
+         "nanovdb": ["NanoVDB: 9 bytes", "nearest    median   0.4000 min 0.3 max 1 ms; transmittance 0.1",
+                     "trilinear  median   9.0000 min 9 max 9 ms; transmittance 0.1",
+                     "volumes/fog_sphere       median        0.3  min        0.2  max        0.4 ms (gpu)"]}
+CYCLES = {"speed": {"rows": [{"cost": 2}, {"cost": 40}, {"cost": 20}]},
+          "scenes": [{"same_model": True, "whole": -0.002}, {"same_model": True, "whole": 0.001},
+                     {"same_model": False, "whole": 0.2}]}
+
+
+class BenchClaimsTest(Case):
+    """script/bench-claims, with a program in the place of brume."""
+
+    def run_with(self, bench):
+        """With a shell's words for `brume bench`; other commands fail."""
+        build = self.folder / "build"
+        (build / "bench/peers").mkdir(parents=True)
+        for name, text in (("brume", f'[ "$1" = bench ] || {{ echo "no $1"; exit 3; }}\n{bench}'),
+                           ("volume_reference", "exit 3")):
+            path = build / ("bench/peers" if name != "brume" else "") / name
+            path.write_text(f"#!/bin/sh\n{text}\n")
+            path.chmod(0o755)
+        return subprocess.run([ROOT / "script/bench-claims", "--build", build, "-o", self.folder / "claims.json"],
+                              cwd=self.folder, capture_output=True, text=True, check=False)
+
+    def test_multiples_of_other_renderers(self):
+        values = {one["name"]: one["median"] for one in peers.of_bench_peers(CLOUD) + peers.of_compare_cycles(CYCLES)}
+        for name, wanted in zip((*peers.OF_BENCH_PEERS, *peers.OF_COMPARE_CYCLES), (0.25, 0.125, 0.75, 0.1, 0.2)):
+            self.assertAlmostEqual(values.pop(name), wanted, places=12)
+        self.assertEqual(values, {})
+        self.assertEqual(peers.of_bench_peers({"renderers": CLOUD["renderers"][2:], "nanovdb": []}), [])
+        self.assertEqual(peers.of_compare_cycles({"speed": None, "scenes": []}), [])
+
+    def test_the_readme_has_a_figure_of_each(self):
+        self.assertEqual({(c["case"], c["by"]) for c in CLAIMS if "by" in c},
+                         {(name, "script/bench-claims") for name in peers.OF_BENCH_PEERS + peers.OF_COMPARE_CYCLES})
+
+    def test_one_file_has_all_or_says_why_not(self):
+        named = [measured(claim["case"], 1, details={claim.get("detail", "triangles"): 1})
+                 for claim in CLAIMS if "by" not in claim]
+        (self.folder / "canned.json").write_text(json.dumps(sound(results=named, skipped=["x: why"])))
+        done = self.run_with(f'echo "$@" > {self.folder}/words; cp {self.folder}/canned.json bench.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads((self.folder / "claims.json").read_text())
+        self.assertEqual(found["results"], named)
+        self.assertEqual(found["skipped"][0], "x: why")
+        reasons = dict(line.split(": ", 1) for line in found["skipped"][1:])
+        self.assertEqual(set(reasons), {claim["case"] for claim in CLAIMS if "by" in claim})
+        self.assertTrue(all("script/" in reason for reason in reasons.values()), reasons)
+        words = (self.folder / "words").read_text().split()
+        for claim in CLAIMS:
+            self.assertEqual(words.count(claim.get("run", claim["case"])), "by" not in claim, claim["case"])
+        page = Document(self.make(self.folder / "claims.json"))
+        self.assertIn(f"5 of the {len(CLAIMS)} figures", page.texts("div", role="note")[0])
+
+    def test_a_failure_is_one_line_and_leaves_an_earlier_file(self):
+        (self.folder / "claims.json").write_text("kept")
+        done = self.run_with("echo no device; exit 5")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\nscript/bench-claims: [^\n]* code 5: no device; see [^\n]*log.txt\n\Z")
+        self.assertEqual((self.folder / "claims.json").read_text(), "kept")
 
 
 def report(result, path):
@@ -272,7 +337,7 @@ def report(result, path):
 
 
 if __name__ == "__main__":
-    names = sys.argv[1:] or ["BrowserTest", "PageTest", "ClaimsTest"]
+    names = sys.argv[1:] or ["BrowserTest", "PageTest", "ClaimsTest", "BenchClaimsTest"]
     tests = unittest.defaultTestLoader.loadTestsFromNames(names, sys.modules["__main__"])
     outcome = unittest.TextTestRunner(verbosity=2).run(tests)
     if os.environ.get("GTEST_OUTPUT", "").startswith("xml:"):

@@ -39,12 +39,12 @@ def box(name, low, high, **more):
 class AddonCase(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        bpy.ops.preferences.addon_enable(module="brume")
+        bpy.ops.preferences.addon_enable(module="brume_blender")
         self.scene = bpy.context.scene
         self.scene.render.fps = 24
         self.floor = box("floor", (-5, -5, -0.2), (5, 5, 0))
         self.folder = tempfile.mkdtemp(dir=FOLDER)
-        self.preferences = bpy.context.preferences.addons["brume"].preferences
+        self.preferences = bpy.context.preferences.addons["brume_blender"].preferences
         self.preferences.program = BRUME
 
     def event(self, kind, location=(0, 0, 1), frame=1, **settings):
@@ -69,7 +69,7 @@ class AddonCase(unittest.TestCase):
 
     def said(self, kind=None):
         """The texts in the sidebar."""
-        from brume import messages
+        from brume_blender import messages
 
         return [message.text for message in messages.last() if kind in (None, message.kind)]
 

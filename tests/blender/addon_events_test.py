@@ -6,7 +6,7 @@ import tomllib
 import bpy
 import level_parts
 from addon_case import AddonCase, box
-from brume import checks, gizmos, markers, presets
+from brume_blender import checks, gizmos, markers, presets
 from mathutils import Vector
 
 
@@ -214,7 +214,7 @@ class Messages(AddonCase):
         self.assertEqual(text, 'Error: the shape of "SHOT" is Mask, but it names no image; choose one')
 
     def test_every_message_of_an_event_is_at_its_event(self):
-        from brume import messages
+        from brume_blender import messages
 
         self.event("SMOKE", (0, 0, 500))
         bpy.ops.brume.check()

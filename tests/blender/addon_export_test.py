@@ -6,8 +6,8 @@ import types
 import bpy
 import level_parts
 from addon_case import AddonCase, box
-from brume import conversion
-from brume.export_level import BRUME_OT_export_level
+from brume_blender import conversion
+from brume_blender.export_level import BRUME_OT_export_level
 
 
 class Visibility(AddonCase):

@@ -6,7 +6,7 @@ import signal
 import bpy
 import numpy as np
 from addon_case import AddonCase
-from brume import program, render, samples
+from brume_blender import program, render, samples
 
 
 _HANG = 120  # [s]: only ends tests that hang.

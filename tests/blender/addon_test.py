@@ -47,7 +47,7 @@ class Results(unittest.TextTestResult):
 def main():
     addon, brume, folder = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.preferences.addon_install(filepath=addon)
-    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.ops.preferences.addon_enable(module="brume_blender")
     import addon_case
 
     addon_case.BRUME, addon_case.FOLDER = brume, folder

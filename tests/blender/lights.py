@@ -69,7 +69,7 @@ def main():
     addon, _, folder = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.ops.preferences.addon_enable(module="brume_blender")
     build_plane()
     measured = {}
     for kind in LIGHTS:

@@ -21,12 +21,12 @@ LETTERS = 'a "b" \\ é \U0001f32b'
 
 def install(addon):
     bpy.ops.preferences.addon_install(filepath=addon)
-    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.ops.preferences.addon_enable(module="brume_blender")
 
 
 def empty_scene():
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.ops.preferences.addon_enable(module="brume_blender")
     bpy.context.scene.render.fps = 24
 
 
@@ -178,7 +178,7 @@ def make_odd(folder):
 
 def render_and_voxelize(folder, brume):
     scene = bpy.context.scene
-    bpy.context.preferences.addons["brume"].preferences.program = brume
+    bpy.context.preferences.addons["brume_blender"].preferences.program = brume
     scene.frame_set(86)
     bpy.ops.brume.render()
     image = bpy.data.images["Brume Render"]
@@ -208,7 +208,7 @@ def says(operator, **arguments):
 
 
 def make_failures(folder):
-    preferences = bpy.context.preferences.addons["brume"].preferences
+    preferences = bpy.context.preferences.addons["brume_blender"].preferences
     lines = {}
     preferences.program = os.path.join(folder, "no brume here")
     lines["no program"] = says(bpy.ops.brume.render)

@@ -13,7 +13,7 @@
 namespace brume::blender {
 namespace {
 
-const std::filesystem::path kAddon = BRUME_SOURCE_DIR "/integrations/blender/brume";
+const std::filesystem::path kAddon = BRUME_SOURCE_DIR "/integrations/blender/brume_blender";
 
 std::string manifest_text() {
   return read_text_file(kAddon / "blender_manifest.toml").value_or_throw();
@@ -29,6 +29,7 @@ TEST(BlenderPackage, ManifestHasTheFieldsThatBlender42Requires) {
   const std::regex version("[0-9]+\\.[0-9]+\\.[0-9]+");
   EXPECT_EQ(field("schema_version"), "1.0.0");
   EXPECT_EQ(field("id"), kAddon.filename().string());
+  EXPECT_NE(field("id"), "brume") << "the Python module, which Blender may find first";
   EXPECT_TRUE(std::regex_match(field("version"), version));
   EXPECT_NE(field("name"), "");
   EXPECT_NE(field("maintainer"), "");
@@ -69,14 +70,14 @@ TEST(BlenderPackage, ZipContainsOnlyTheSources) {
   command << "'" BRUME_SOURCE_DIR "/script/blender-addon' '" << zip << "' > /dev/null && cmake -E tar tf '"
           << zip << "' > '" << list << "'";
   ASSERT_EQ(std::system(command.str().c_str()), 0);
-  std::set<std::string> packed, wanted{"brume/blender_manifest.toml"};
+  std::set<std::string> packed, wanted{"brume_blender/blender_manifest.toml"};
   std::istringstream lines(read_text_file(list).value_or_throw());
   for (std::string line; std::getline(lines, line);) packed.insert(line);
   for (const auto& entry : std::filesystem::directory_iterator(kAddon)) {
-    if (entry.path().extension() == ".py") wanted.insert("brume/" + entry.path().filename().string());
+    if (entry.path().extension() == ".py") wanted.insert("brume_blender/" + entry.path().filename().string());
   }
   EXPECT_EQ(packed, wanted);
-  EXPECT_TRUE(packed.contains("brume/__init__.py"));
+  EXPECT_TRUE(packed.contains("brume_blender/__init__.py"));
 }
 
 }  // namespace

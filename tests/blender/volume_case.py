@@ -21,7 +21,7 @@ BRUME = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 
 def write_ball(path, grid="density", centre=CENTRE, value=1.0):
     """Writes a .vdb file with a ball of one value."""
-    folder, name = os.path.split(path)
+    folder = os.path.dirname(path)
     os.makedirs(folder, exist_ok=True)
     index = np.indices((EDGE, EDGE, EDGE)).reshape(3, -1).T  # z, y, x.
     first = np.round(np.asarray(centre) / VOXEL) - EDGE // 2
@@ -33,7 +33,9 @@ def write_ball(path, grid="density", centre=CENTRE, value=1.0):
     about["world_from_index"] = (VOXEL * np.vstack([np.identity(3), np.zeros(3)])).tolist()
     with open(os.path.join(folder, "ball.json"), "w", encoding="ascii") as file:
         json.dump(about, file)
-    subprocess.run([addon_case.BRUME, "convert", "ball.json", name], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    command = [addon_case.BRUME, "convert", "ball.json", "written.vdb"]
+    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    os.replace(os.path.join(folder, "written.vdb"), path)  # Brume takes a "%d" of a name for a number.
     for part in ("ball.raw", "ball.json"):
         os.remove(os.path.join(folder, part))
     return path

@@ -79,7 +79,7 @@ def choose_tab(view):
 
 def says(part):
     """The text in the sidebar that contains a part, or ""."""
-    from brume import messages
+    from brume_blender import messages
 
     return next((message.text for message in messages.last() if part in message.text), "")
 
@@ -99,7 +99,7 @@ def write_program(folder, name, commands):
 
 def set_up(addon, folder):
     bpy.ops.preferences.addon_install(filepath=addon)
-    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.ops.preferences.addon_enable(module="brume_blender")
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
     level_parts.build_all(folder)
@@ -270,7 +270,7 @@ def steps(addon, brume, folder):
     """Simulates user input; yields the time to wait [s]."""
     set_up(addon, folder)
     view, editor = lay_out()
-    preferences = bpy.context.preferences.addons["brume"].preferences
+    preferences = bpy.context.preferences.addons["brume_blender"].preferences
     facts = {}
     yield from draw_panels(view)
     yield from render(preferences, brume, folder, editor, facts)

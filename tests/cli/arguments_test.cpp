@@ -77,6 +77,18 @@ TEST_F(CommandLineTest, MistakesNameWhatWasMeant) {
             "expected INPUT: Timeline (.toml) or scene (.txt, .gltf, .glb, .obj)");
 }
 
+TEST_F(CommandLineTest, ValuesMayHaveTheNamesOfCommands) {
+  for (const std::string name : {"sim", "voxelize", "bake slices"})
+    EXPECT_EQ(refusal({"info", name}).rfind(name + ": unknown file suffix", 0), 0u);
+  const Outcome bench = run({"bench", "voxelize", "--repetitions", "1", "--json", "-"});
+  EXPECT_EQ(bench.exit_code, 0) << bench.error;
+  const Json results = Json::parse(bench.out, nullptr, false)["results"];
+  ASSERT_FALSE(results.empty()) << bench.out;
+  for (const Json& result : results)
+    EXPECT_TRUE(result["name"].get<std::string>().starts_with("voxelize/")) << result;
+  EXPECT_EQ(refusal({"bench", "render"}).rfind("no benchmark \"render\"; expected one of", 0), 0u);
+}
+
 TEST_F(CommandLineTest, NumbersAreFiniteAndInTheirRange) {
   const auto time = [&](const std::string& text) {
     return refusal({"render", "room.obj", "-o", "a.png", "--time", text});

@@ -48,6 +48,19 @@ TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
   expect_in(log(), ": frame 9: truncated\n");
 }
 
+// The encoder's output depends on its number of threads.
+TEST_F(Farm, EncodesByTheThreadsOfRender) {
+  const auto alone = [&](const std::string& threads) {
+    return film_alone({"--fps", "12", "--size", "32x18", "--threads", threads});
+  };
+  const std::string by_one = alone("1"), by_five = alone("5");
+  ASSERT_FALSE(by_one == by_five);
+  ASSERT_EQ(farm({"--fps", "12", "--", "--size", "32x18", "--threads", "1"}).exit_code, 0);
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == by_one);
+  ASSERT_EQ(farm({"--fps", "12", "--", "--threads=5", "--size", "32x18"}).exit_code, 0);
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == by_five);
+}
+
 // A program whose first call for the second shard meets a full disk.
 TEST_F(Farm, RunsFailedShardsAgain) {
   fs::create_directory(folder_.path() / "bin");

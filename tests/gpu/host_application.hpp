@@ -14,7 +14,8 @@ namespace brume::gpu {
 
 class HostApplication {
  public:
-  explicit HostApplication(std::size_t frames_in_flight) : instance_(true), slots_(frames_in_flight) {
+  explicit HostApplication(std::size_t frames_in_flight, bool validates = true)
+      : instance_(validates), slots_(frames_in_flight) {
     host_.get_instance_proc_addr = system_loader();
     host_.instance = instance_.handle();
     host_.physical_device = choose_device(list_devices(instance_.vk(), host_.instance), "").handle;

@@ -1,4 +1,4 @@
-// Every call that may fail for want of memory fails once: an error with a sentence, valid commands, and a
+// Every call that may fail for want of memory fails once: an error with a sentence, no command at all, and a
 // next frame that is right.
 #include <array>
 #include <cstring>
@@ -22,6 +22,7 @@ constexpr bool kEvery = false;
 struct Faults {
   static inline std::uint32_t calls = 0, fails_at = 0;  // 0: none
   static bool fails() { return ++calls == fails_at; }
+  static inline int commands = 0;  // that were recorded
 };
 
 /// A function of Vulkan that counts its calls, one of which fails. No two of those below have one type.
@@ -35,12 +36,24 @@ struct Faulty<VkResult(VKAPI_PTR*)(Arguments...)> {
   }
 };
 
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                       \
-  X(AllocateMemory)                                                                                     \
-  X(MapMemory) X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) \
-      X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)       \
-          X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool)                  \
-              X(ResetDescriptorPool) X(AllocateDescriptorSets) X(CreateQueryPool)
+template <typename... Arguments>
+struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
+  static inline void(VKAPI_PTR* real)(Arguments...) = nullptr;
+  static VKAPI_ATTR void VKAPI_CALL call(Arguments... arguments) {
+    ++Faults::commands;
+    real(arguments...);
+  }
+};
+
+#define BRUME_RECORDING_FUNCTIONS(X) \
+  X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                           \
+  X(AllocateMemory)                                                                                         \
+  X(MapMemory)                                                                                              \
+  X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler) \
+      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines)  \
+          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                         \
+              X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
 PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr;
@@ -54,6 +67,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_proc_addr(VkDevice device, const
     return reinterpret_cast<PFN_vkVoidFunction>(&Wrapper::call); \
   }
   BRUME_FAULTY_FUNCTIONS(X)
+  BRUME_RECORDING_FUNCTIONS(X)
 #undef X
   return real;
 }
@@ -113,7 +127,9 @@ class FaultTest : public testing::Test {
       params.completed = completed;
       params.depth.view = depth_.view();
       params.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
+      Faults::commands = 0;
       result = brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
+      EXPECT_EQ(Faults::commands > 0, result == BRUME_OK) << "a part of a frame was recorded";
       if (result != BRUME_OK) return;
       VkImage image = VK_NULL_HANDLE;
       EXPECT_OK(brume_renderer_smoke(smoke.renderer, &image, nullptr));

@@ -148,6 +148,23 @@ TEST(House, FilesAndFunctionsStayShort) {
   EXPECT_GT(count, 300);
 }
 
+TEST(House, ScriptsStayShort) {
+  int count = 0;
+  const auto check = [&](const std::filesystem::path& path) {
+    const std::string text = *read_text_file(path);
+    EXPECT_LT(line_count(text), kMaxFileLines) << path << " is too long: split it by purpose";
+    for (const std::size_t line : wide_lines(text, kMaxLineWidth))
+      ADD_FAILURE() << path << ":" << line << " is wider than " << kMaxLineWidth << " characters";
+    ++count;
+  };
+  for (const auto& script : std::filesystem::directory_iterator(kRoot / "script"))
+    if (script.is_regular_file()) check(script.path());
+  for (const char* folder : {"bench", "data", "integrations", "python", "scenes", "tests"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / folder))
+      if (entry.path().extension() == ".py") check(entry.path());
+  EXPECT_GT(count, 100);
+}
+
 TEST(House, ExportedShadersAreTheSameInBothLanguages) {
   EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-hlsl --check"), 0);
 }

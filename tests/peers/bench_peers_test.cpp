@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
@@ -35,6 +36,29 @@ TEST(BenchPeersTest, RenderersAgreeWithTheReference) {
   }
   for (const char* file : {"results.md", "plot.svg", "pictures.png"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "found" / file)) << file;
+}
+
+// script/bench-claims: one file has what all three programs measure, or why they do not.
+TEST(BenchClaimsTest, OneFileHasThemAll) {
+  const WorkFolder folder;
+  RunOptions options;
+  options.program = BRUME_SOURCE_DIR "/script/bench-claims";
+  const Outcome outcome =
+      run_brume(folder.path(), {"--quick", "--build", BRUME_BUILD_DIR, "-o", "claims.json"}, options);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto found = nlohmann::json::parse(*read_text_file(folder.path() / "claims.json"));
+  std::set<std::string> measured, skipped;
+  for (const auto& result : found.at("results")) {
+    measured.insert(result.at("name"));
+    EXPECT_GT(result.at("median").get<double>(), 0) << result;
+  }
+  for (const std::string line : found.at("skipped")) skipped.insert(line.substr(0, line.find(": ")));
+  EXPECT_TRUE(measured.contains("tank/pack/65535"));
+  for (const char* other :
+       {"vdb_render/cpu", "vdb_render/error", "nanovdb/gpu", "cycles/time", "cycles/mean"})
+    EXPECT_NE(measured.contains(std::string("peers/") + other),
+              skipped.contains(std::string("peers/") + other))
+        << other;
 }
 
 TEST(BenchPeersTest, NamesWhatIsWrong) {

@@ -38,7 +38,11 @@ class FramePlanTest : public ::testing::Test {
     input_.smoke.time = 4.6f;
     input_.level.voxels.grid = &grid_;
   }
-  FramePlan plan() { return plan_frame(input_, target_, history_); }
+  /// A copy, which is valid beside later plans.
+  FramePlan plan() {
+    const FramePlan made = plan_frame(input_, target_, history_);
+    return FramePlan(made);
+  }
 
   const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
   const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
@@ -105,7 +109,7 @@ TEST_F(FramePlanTest, EditsAndHiddenObjectsOfTheLevelReachWhatTheyMayChange) {
   plan();
   input_.level.hidden_objects = {3, 4};
   const FramePlan hidden = plan();
-  EXPECT_EQ(hidden.changed_objects, (std::vector<std::uint32_t>{1, 4}));
+  EXPECT_EQ(hidden.changed_objects, (FrameVector<std::uint32_t>{1, 4}));
   EXPECT_TRUE(hidden.smoke_shadows);
   EXPECT_FALSE(plan().smoke_shadows);
 }

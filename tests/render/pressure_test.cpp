@@ -50,8 +50,8 @@ TEST_F(PressureTest, SmokeHidesTheSameWhateverMemoryThereIs) {
     memory.set_limit(before + static_cast<VkDeviceSize>(part * static_cast<double>(needed - before)));
     Shot seen = shot(eye, pair, 1);
     ++at_level[static_cast<std::size_t>(eye.renderer().smoke_level())];
-    // Of the sign's radiance, 4, less than 4 exp(-9) passes: 1.6 steps of a display where it is darkest, which is
-    // where its curve is steepest.
+    // Of the sign's radiance, 4, less than 4 exp(-9) passes: 1.6 steps of a display where it is darkest,
+    // which is where its curve is steepest.
     float depth = 1e9f;
     for (int i = 0; i < 25; ++i) {
       const glm::vec2 at = glm::vec2(i % 5, i / 5) / 4.0f - 0.5f;
@@ -61,18 +61,17 @@ TEST_F(PressureTest, SmokeHidesTheSameWhateverMemoryThereIs) {
     shown += contrast(seen, seen.depth, pair) > 8;
     if (depth < 9) continue;
     ++hidden;
-    // Two pictures of as much smoke.
-    const auto look = [&] {
-      return std::pair(eye.renderer().smoke_level(), eye.renderer().is_smoke_missing());
-    };
-    auto held = look();
-    std::vector<Pixel> without = read_back<Pixel>(eye.look_past().targets().display);
-    for (int tries = 0; look() != held && tries < 4; ++tries) {
-      seen = shot(eye, pair, 1);
-      held = look();
+    // Without the sign, between two equal pictures with it: what the device holds, and with it the light in
+    // the smoke, may still follow the limit.
+    std::vector<Pixel> without;
+    bool is_steady = false;
+    for (int tries = 0; !is_steady && tries < 6; ++tries) {
       without = read_back<Pixel>(eye.look_past().targets().display);
+      Shot again = shot(eye, pair, 1);
+      is_steady = again.display == seen.display;
+      seen = std::move(again);
     }
-    EXPECT_EQ(look(), held);
+    EXPECT_TRUE(is_steady);
     const double difference = of_sign(seen, without, pair);
     most = std::max(most, difference);
     EXPECT_LT(difference, 2) << "at an optical depth of " << depth;

@@ -45,7 +45,7 @@ TEST(Installed, TheVersionIsTheSameEverywhere) {
   EXPECT_NE(read_text_file(BRUME_SOURCE_DIR "/CHANGELOG.md")->find("\n## " + number + " - 20"),
             std::string::npos);
   const std::string addon =
-      *read_text_file(BRUME_SOURCE_DIR "/integrations/blender/brume/blender_manifest.toml");
+      *read_text_file(BRUME_SOURCE_DIR "/integrations/blender/brume_blender/blender_manifest.toml");
   EXPECT_NE(addon.find("\nversion = \"" + number + "\"\n"), std::string::npos);
 }
 

@@ -46,6 +46,22 @@ TEST(ArgumentsTest, WhatIsUsedLaterIsCheckedFirst) {
   refuses({"--word", " "}, 2, "--word");
 }
 
+// Even with --force, which allows to replace it.
+TEST_F(WindowTest, AnEarlierFrameLogRemainsIfNothingIsDrawn) {
+  folder_.write("frames.csv", "of another program\n");
+  folder_.write("broken.toml", "version = 1\nscene =\n");
+  folder_.write("tank.toml", "version = 1\n[tank]\nspheres = 3\n");
+  cli::RunOptions on_desktop;
+  on_desktop.environment = {{"DISPLAY", desktop_.name()}};
+  const auto fails = [&](std::vector<std::string> words, int code, const std::string& part) {
+    words.insert(words.begin(), {"view", "--frame-log", "frames.csv", "--force"});
+    cli::expect_failure(folder_, words, code, {part}, on_desktop);
+  };
+  fails({"room.toml", "--device", "none of that name"}, 5, "none of that name");
+  fails({"tank.toml", "--device", "none of that name"}, 5, "none of that name");
+  fails({"broken.toml"}, 3, "broken.toml:2");
+}
+
 TEST_F(WindowTest, RunsFromItsTimeToItsEnd) {
   Program program(desktop_, folder_.path(),
                   arguments({"--time", "1", "--exit-after", "1.2", "--json", "r.json"}));

@@ -1,0 +1,216 @@
+// A host's world out of doors, in which nothing is submitted or waited for by the library, and all of the
+// device's memory comes from the host.
+#pragma once
+
+#include <map>
+#include <string_view>
+
+#include "tests/host/hosted_smoke.hpp"
+
+namespace brume::host {
+
+/// Functions that a library in a host must not call, counted.
+struct Waits {
+  static inline int calls = 0;
+};
+template <typename Function>
+struct Counted;
+template <typename... Arguments>
+struct Counted<VkResult(VKAPI_PTR*)(Arguments...)> {
+  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments...) {
+    ++Waits::calls;
+    return VK_ERROR_UNKNOWN;
+  }
+};
+
+#define BRUME_WAITING_FUNCTIONS(X)                                                                           \
+  X(QueueSubmit)                                                                                             \
+  X(QueueSubmit2)                                                                                            \
+  X(QueueWaitIdle)                                                                                           \
+  X(DeviceWaitIdle) X(WaitForFences) X(WaitSemaphores) X(QueueBindSparse) X(CreateDevice) X(CreateSemaphore) \
+      X(CreateFence) X(CreateCommandPool)
+
+inline PFN_vkGetInstanceProcAddr g_real_instance_proc_addr = nullptr;
+inline PFN_vkGetDeviceProcAddr g_real_device_proc_addr = nullptr;
+
+inline PFN_vkVoidFunction counted(const char* name, PFN_vkVoidFunction real) {
+#define X(function)                             \
+  if (std::string_view(name) == "vk" #function) \
+    return reinterpret_cast<PFN_vkVoidFunction>(&Counted<PFN_vk##function>::call);
+  BRUME_WAITING_FUNCTIONS(X)
+#undef X
+  return real;
+}
+inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_device_proc_addr(VkDevice device, const char* name) {
+  return counted(name, g_real_device_proc_addr(device, name));
+}
+inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_instance_proc_addr(VkInstance instance,
+                                                                            const char* name) {
+  const PFN_vkVoidFunction real = g_real_instance_proc_addr(instance, name);
+  if (std::string_view(name) != "vkGetDeviceProcAddr") return counted(name, real);
+  g_real_device_proc_addr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+  return reinterpret_cast<PFN_vkVoidFunction>(&counting_device_proc_addr);
+}
+
+/// Memory of the device by the host's own functions.
+struct HostMemory {
+  gpu::Functions vk;
+  VkDevice device = VK_NULL_HANDLE;
+  std::map<VkDeviceMemory, VkDeviceSize> blocks;
+  VkDeviceSize bytes = 0;
+  int allocations = 0;
+
+  static VkResult allocate(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) {
+    auto& own = *static_cast<HostMemory*>(user);
+    const VkResult result = own.vk.AllocateMemory(own.device, info, nullptr, memory);
+    if (result != VK_SUCCESS) return result;
+    own.blocks[*memory] = info->allocationSize;
+    own.bytes += info->allocationSize;
+    ++own.allocations;
+    return result;
+  }
+  static void free(void* user, VkDeviceMemory memory, VkDeviceSize size) {
+    auto& own = *static_cast<HostMemory*>(user);
+    EXPECT_EQ(own.blocks.at(memory), size);
+    own.blocks.erase(memory);
+    own.bytes -= size;
+    own.vk.FreeMemory(own.device, memory, nullptr);
+  }
+};
+
+/// A yard of a floor and a wall with a door, and as many smokes as a test throws.
+class YardTest : public testing::Test {
+ protected:
+  static constexpr glm::uvec2 kSizes[] = {{64, 36}, {33, 17}, {80, 45}, {1, 7}};
+
+  explicit YardTest(bool validates = true) : host_(3, validates), gpu_(host_.device()), recording_(gpu_) {
+    memory_.vk = gpu_.vk();
+    memory_.device = host_.device().device;
+  }
+  ~YardTest() override {
+    host_.wait();
+    if (field_) brume_field_destroy(field_);
+    if (state_) brume_state_destroy(state_);
+    if (world_) brume_world_destroy(world_);
+    if (level_) brume_level_destroy(level_);
+    EXPECT_OK(brume_renderer_destroy(renderer_));
+    EXPECT_OK(brume_device_destroy(device_));
+    EXPECT_EQ(memory_.bytes, 0u) << memory_.blocks.size() << " blocks";
+    EXPECT_EQ(Waits::calls, 0);
+    for (const std::string& message : host_.take_messages()) ADD_FAILURE() << message;
+  }
+
+  void make(brume_voxel size, float voxel_size, std::uint32_t march_scale = 1) {
+    std::vector<std::uint8_t> solid((static_cast<std::size_t>(size.x) * size.y * size.z + 7) / 8);
+    const auto set = [&](int x, int y, int z) {
+      const std::size_t i = static_cast<std::size_t>(x) +
+                            static_cast<std::size_t>(size.x) *
+                                (static_cast<std::size_t>(y) + static_cast<std::size_t>(size.y) * z);
+      solid[i / 8] = static_cast<std::uint8_t>(solid[i / 8] | 1 << i % 8);
+    };
+    for (int z = 0; z < size.z; ++z)
+      for (int x = 0; x < size.x; ++x) set(x, 0, z);
+    for (int z = 0; z < size.z; ++z)
+      for (int y = 1; y < 12; ++y)
+        if (z < 10 || z > 16) set(size.x / 2, y, z);
+    brume_voxels_params params = brume_voxels_defaults();
+    params.layout = {size, voxel_size, {0, 0, 0}};
+    params.bits = solid.data();
+    params.byte_count = solid.size();
+    ASSERT_OK(brume_level_create_from_voxels(context_.get(), &params, &level_));
+    ASSERT_OK(brume_world_create(level_, nullptr, &world_));
+    brume_field_params field = brume_field_defaults();
+    ASSERT_OK(brume_field_create(level_, &field, &field_));
+
+    brume_device_params on = brume_device_defaults();
+    g_real_instance_proc_addr = host_.device().get_instance_proc_addr;
+    on.get_instance_proc_addr = counting_instance_proc_addr;
+    on.instance = host_.device().instance;
+    on.physical_device = host_.device().physical_device;
+    on.device = host_.device().device;
+    on.memory_user = &memory_;
+    on.allocate_memory = HostMemory::allocate;
+    on.free_memory = HostMemory::free;
+    ASSERT_OK(brume_device_create(context_.get(), &on, &device_));
+    brume_renderer_params renderer = brume_renderer_defaults();
+    const brume_light light{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
+    renderer.lights = &light;
+    renderer.light_count = 1;
+    renderer.temporal = 1;
+    renderer.march_scale = march_scale;
+    ASSERT_OK(brume_renderer_create(device_, &renderer, &renderer_));
+    resize(0);
+  }
+  void resize(std::size_t i) {
+    host_.wait();
+    depth_ = gpu::Image(gpu_, {.format = VK_FORMAT_R32_SFLOAT,
+                               .size = {kSizes[i], 1},
+                               .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                        VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    ASSERT_OK(brume_renderer_resize(renderer_, kSizes[i].x, kSizes[i].y));
+  }
+  void append(const brume_event& event) { ASSERT_OK(brume_world_append(world_, &event, 1)); }
+  void smoke(std::uint32_t tick, glm::vec3 at, std::uint32_t voxels, std::uint32_t hold) {
+    brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, tick);
+    event.u.smoke.from = event.u.smoke.at = position_of(sim::position_from_metres(glm::dvec3(at)));
+    event.u.smoke.voxels = voxels;
+    event.u.smoke.hold_ticks = hold;
+    append(event);
+  }
+  void advance(std::uint32_t tick) {
+    ASSERT_OK(brume_world_advance_to(world_, tick));
+    if (state_) brume_state_destroy(state_);
+    state_ = nullptr;
+    ASSERT_OK(brume_world_state(world_, &state_));
+    ASSERT_OK(brume_field_update(field_, state_));
+  }
+  /// `record` calls brume_renderer_record, with what it adds to the frame.
+  void draw(glm::vec3 eye, glm::vec3 forward, double seconds,
+            const std::function<void(brume_frame_params&)>& record) {
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
+      recording_.begin(commands, frame, completed);
+      recording_.recorder().clear(depth_, {});
+      recording_.end();
+      host_.wait_for_compute(commands);
+      brume_frame_params params = brume_frame_defaults();
+      params.commands = commands;
+      params.frame = frame;
+      params.completed = completed;
+      params.camera.position = point_of(eye);
+      params.camera.forward = point_of(forward);
+      params.depth.view = depth_.view();
+      params.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
+      params.depth.reversed = 1;
+      params.seconds = seconds;
+      params.jitter_index = static_cast<std::uint32_t>(frame);
+      params.continues = frame > 1;
+      record(params);
+    });
+  }
+  void draw(glm::vec3 eye, glm::vec3 forward, double seconds) {
+    draw(eye, forward, seconds, [&](const brume_frame_params& params) {
+      ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+    });
+  }
+  void limit(std::uint64_t bytes) { EXPECT_OK(brume_device_set_memory_limit(device_, bytes)); }
+  std::uint64_t device_bytes() const {
+    std::uint64_t bytes = 0;
+    EXPECT_OK(brume_device_memory(device_, &bytes));
+    return bytes;
+  }
+
+  gpu::HostApplication host_;
+  gpu::Context gpu_;
+  gpu::HostRecording recording_;
+  gpu::Image depth_;
+  HostMemory memory_;
+  api::Context context_;
+  brume_level* level_ = nullptr;
+  brume_world* world_ = nullptr;
+  brume_state* state_ = nullptr;
+  brume_field* field_ = nullptr;
+  brume_device* device_ = nullptr;
+  brume_renderer* renderer_ = nullptr;
+};
+
+}  // namespace brume::host
