@@ -54,7 +54,6 @@ brume_package(sim_library libs "simulation of volumetric smoke (library)"
   "${about}\nThis package holds the library of the simulation, without graphics.")
 brume_package(library libs "volumetric smoke in the frames of a Vulkan renderer (library)"
   "${about}\nThis package holds the library that draws smoke into the frames of other\nrenderers.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libvulkan1)
 foreach(pair IN ITEMS "SIM_LIBRARY brume-sim" "LIBRARY brume")
   string(REPLACE " " ";" pair ${pair})
   list(GET pair 0 key)

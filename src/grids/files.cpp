@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "core/atomic_file.hpp"
-#include "core/file.hpp"
 #include "grids/brv_file.hpp"
 #include "grids/raw_file.hpp"
 #include "grids/slice_atlas.hpp"
 #include "grids/suffix.hpp"
 #include "grids/tank_grids.hpp"
+#include "grids/volume_files.hpp"
 #include "grids/worker.hpp"
 #include "spheres/file.hpp"
 
@@ -17,25 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Failure in_file(const fs::path& path, const Failure& failure) {
-  return {failure.code, path.string() + ": " + failure.message};
-}
-
-Result<GridFile> load_brv(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
-  const auto bytes = read_file(path, limits.bytes);
-  if (!bytes) return bytes.failure();
-  auto file = decode_brv(*bytes, limits, choice);
-  if (!file) return in_file(path, file.failure());
-  return file;
-}
-
 Result<void> save_brv(const fs::path& path, const GridFile& file) {
   auto target = AtomicFile::open(path);
   if (!target) return target.failure();
   BrvWriter writer([&](std::span<const std::byte> bytes) { return target->write(bytes); });
   for (const Grid& grid : file.grids)
     if (auto added = writer.add(grid); !added)
-      return added.failure().code == ErrorCode::bad_input ? in_file(path, added.failure()) : added.failure();
+      return added.failure().code == ErrorCode::bad_input
+                 ? Failure{ErrorCode::bad_input, path.string() + ": " + added.failure().message}
+                 : added.failure();
   if (auto finished = writer.finish(file.metadata); !finished) return finished;
   return target->commit();
 }
@@ -94,9 +84,7 @@ constexpr const char* kExpected = ": unknown file suffix; expected .brv, .vdb, .
 }  // namespace
 
 bool is_grid_file(const fs::path& path) {
-  const std::string suffix = lower_suffix(path);
-  if (suffix == ".brv" || suffix == ".vdb" || suffix == ".nvdb" || suffix == ".json") return true;
-  if (spheres::is_tank_file(path)) return true;
+  if (is_volume_file(path) || lower_suffix(path) == ".json" || spheres::is_tank_file(path)) return true;
   if (!is_image(path) || !fs::exists(description_of(path))) return false;
   const auto is_atlas = is_slice_atlas(description_of(path));
   return is_atlas && *is_atlas;
@@ -122,15 +110,13 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
 }
 
 Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
-  const std::string suffix = lower_suffix(path);
-  if (suffix == ".json") return chosen_of(load_described(path, limits), choice);
+  if (lower_suffix(path) == ".json") return chosen_of(load_described(path, limits), choice);
   if (is_image(path)) {
     if (auto described = check_described(path); !described) return described.failure();
     return chosen_of(load_described(description_of(path), limits), choice);
   }
-  if (suffix == ".brv") return load_brv(path, limits, choice);
   if (spheres::is_tank_file(path)) return load_spheres(path, limits, choice);
-  if (is_grid_file(path)) return read_in_child(path, limits);
+  if (is_volume_file(path)) return load_volume_file(path, limits, choice);
   return Failure{ErrorCode::bad_input, path.string() + kExpected};
 }
 

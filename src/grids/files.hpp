@@ -1,8 +1,8 @@
 // Reads and writes files of volume grids by their suffix: .brv, .vdb, .nvdb, and .json, which describes an
 // array of numbers or a slice atlas. Reads tanks of spheres (.spheres), too (tank_grids.hpp).
 //
-// A .brv file is read and written here (docs/brv-format.md). OpenVDB and NanoVDB run only in the program
-// brume-vdb, a child process with limits that speaks .brv over a pipe: their readers crash on damaged files.
+// OpenVDB and NanoVDB run only in the program brume-vdb, a child process with limits that speaks .brv over a
+// pipe: their readers crash on damaged files.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,10 @@
 #include "grids/metadata.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
+#include <string_view>
 
 namespace brume::grids {
 namespace {
@@ -68,6 +71,18 @@ std::string text_of(const Metadata& entry) {
         vectors<double>(entry, "d")})
     if (text) return *text;
   return std::to_string(entry.bytes.size()) + " bytes";
+}
+
+Metadata extinction_per_metre() {
+  constexpr std::string_view kValue = "extinction per metre";
+  Metadata entry{"brume_density", "string", {}};
+  const auto bytes = std::as_bytes(std::span(kValue));
+  entry.bytes.assign(bytes.begin(), bytes.end());
+  return entry;
+}
+
+bool is_extinction_per_metre(const Grid& grid) {
+  return std::ranges::find(grid.metadata, extinction_per_metre()) != grid.metadata.end();
 }
 
 }  // namespace brume::grids

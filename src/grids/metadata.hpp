@@ -18,4 +18,11 @@ std::vector<Metadata> read_metadata(ByteReader& in);
 /// The value as text: "fog volume", "0.5", "64, 64, 96". Bytes of a type that has no text here: "12 bytes".
 std::string text_of(const Metadata& entry);
 
+/// Name and value of the metadata of a density that is an extinction per metre: at extinction 1 it is shown
+/// as it is.
+Metadata extinction_per_metre();
+
+/// Whether a grid's metadata says that it is an extinction per metre.
+bool is_extinction_per_metre(const Grid& grid);
+
 }  // namespace brume::grids

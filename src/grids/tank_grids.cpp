@@ -8,6 +8,7 @@
 
 #include "core/log.hpp"
 #include "core/tasks.hpp"
+#include "grids/metadata.hpp"
 #include "spheres/color.hpp"
 #include "spheres/paint.hpp"
 
@@ -132,19 +133,12 @@ void fill_grid(Grid& grid, const Reduction& to, const spheres::PaintedBricks& pa
   });
 }
 
-Metadata text_metadata(const char* name, const std::string& text) {
-  Metadata one{name, "string", {}};
-  const auto bytes = std::as_bytes(std::span(text));
-  one.bytes.assign(bytes.begin(), bytes.end());
-  return one;
-}
-
 // The two grids without voxels.
 std::array<Grid, 2> empty_grids(const spheres::Tank& tank, const Reduction& to) {
   std::array<Grid, 2> grids;
   grids[0].name = "density";
   grids[0].grid_class = GridClass::fog_volume;
-  grids[0].metadata = {text_metadata(kDensityMeaning, kExtinctionPerMetre)};
+  grids[0].metadata = {extinction_per_metre()};
   grids[1].name = "Cd";
   grids[1].type = ValueType::vec3f;
   const double voxel = double{tank.voxel} * to.factor;
@@ -163,11 +157,6 @@ Result<std::vector<std::size_t>> positions_of(const std::array<Grid, 2>& grids, 
 }
 
 }  // namespace
-
-bool is_extinction_per_metre(const Grid& grid) {
-  const Metadata expected = text_metadata(kDensityMeaning, kExtinctionPerMetre);
-  return std::find(grid.metadata.begin(), grid.metadata.end(), expected) != grid.metadata.end();
-}
 
 Result<GridFile> tank_grids(const spheres::Tank& tank, const std::string& name, const GridLimits& limits,
                             const GridChoice& choice) {

@@ -13,13 +13,6 @@ namespace brume::grids {
 /// than a step of a picture of 10 bits, and still less than the most opaque medium, 1/255.
 inline constexpr double kOpaqueVoxel = 1 - 0x1p-10;
 
-/// Name and value of the metadata of a density that is an extinction per metre: at extinction 1 it is shown
-/// as it is.
-inline constexpr const char *kDensityMeaning = "brume_density", *kExtinctionPerMetre = "extinction per metre";
-
-/// Whether a grid's metadata says that it is an extinction per metre.
-bool is_extinction_per_metre(const Grid& grid);
-
 /// The painted voxels of a tank (spheres::paint) in the world, its middle at the origin: `density`, the
 /// extinction [1/m] that their opacity means, and `Cd`, their linear colours. Voxels without opacity are
 /// inactive. A tank of more than limits.tank_voxels is averaged over 2^3 voxels, again and again, until it

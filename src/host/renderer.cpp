@@ -96,8 +96,8 @@ glm::uvec4 planned_lights(const render::Renderer& renderer, const brume_frame_pa
   const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
   glm::uvec4 numbers(shared::kNoLight);
   for (std::uint32_t i = 0; i < params.shadow_light_count; ++i) {
-    const std::size_t asked = params.shadow_lights[i];
-    const shared::Light& light = asked < own.size() ? own[asked] : flashes[asked - own.size()];
+    const std::size_t index = params.shadow_lights[i];
+    const shared::Light& light = index < own.size() ? own[index] : flashes[index - own.size()];
     const auto same = [&](const shared::Light& other) { return same_bytes(light, other); };
     const auto found = std::ranges::find_if(plan.lights, same);
     if (found != plan.lights.end())

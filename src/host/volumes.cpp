@@ -46,7 +46,7 @@ std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
   auto data = std::make_shared<VolumeData>();
   data->options = options_of(params);
   data->wait = params.waits != 0 ? scenario::VolumeWait::until_loaded : scenario::VolumeWait::never;
-  data->volumes = loaded(scenario::Volumes::load(std::span(&data->options, 1)));
+  data->volumes = loaded(scenario::Volumes::load(std::span(&data->options, 1), grids::load_volume_file));
   if (params.max_bytes > 0) {
     scenario::VolumeRoom room;
     room.bricks = std::min(room.bricks, params.max_bytes / kBrickBytes);

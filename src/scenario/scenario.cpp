@@ -155,7 +155,14 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
 std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   std::vector<std::filesystem::path> files = scenario.scene.files;
   if (scenario.volumes)
-    for (std::filesystem::path& file : scenario.volumes->files()) files.push_back(std::move(file));
+    for (const std::filesystem::path& file : scenario.volumes->files()) {
+      // Of a description that cannot be read only itself; to load it fails.
+      const auto all = grids::files_of(file);
+      if (all)
+        files.insert(files.end(), all->begin(), all->end());
+      else
+        files.push_back(file);
+    }
   for (std::filesystem::path& file : slice_files_of(scenario.timeline)) files.push_back(std::move(file));
   for (const scene::ShotEvent& shot : scenario.timeline.shots)
     if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);

@@ -10,7 +10,7 @@
 #include "grids/color_bricks.hpp"
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
-#include "grids/tank_grids.hpp"
+#include "grids/metadata.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -216,22 +216,23 @@ Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
                                                              const scene::VolumeOptions& options,
                                                              const VolumeRoom& room,
-                                                             const std::atomic<bool>* stopped) {
+                                                             const std::atomic<bool>* stopped,
+                                                             grids::GridReader read) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
   std::vector<std::string> number_grids, color_grids;
-  const auto grids = grids::load_grid_file(file, {.tank_voxels = kMostTankVoxels, .stopped = stopped},
-                                           [&](GridList heads) -> Result<std::vector<std::size_t>> {
-                                             for (const grids::Grid* head : heads) {
-                                               if (is_number_grid(head)) number_grids.push_back(head->name);
-                                               if (is_colors(head)) color_grids.push_back(head->name);
-                                             }
-                                             const auto chosen = choose(heads, options);
-                                             if (!chosen) return chosen.failure();
-                                             std::vector<std::size_t> positions;
-                                             for (std::size_t i = 0; i < heads.size(); ++i)
-                                               if (chosen->has(heads[i])) positions.push_back(i);
-                                             return positions;
-                                           });
+  const auto grids = read(file, {.tank_voxels = kMostTankVoxels, .stopped = stopped},
+                          [&](GridList heads) -> Result<std::vector<std::size_t>> {
+                            for (const grids::Grid* head : heads) {
+                              if (is_number_grid(head)) number_grids.push_back(head->name);
+                              if (is_colors(head)) color_grids.push_back(head->name);
+                            }
+                            const auto chosen = choose(heads, options);
+                            if (!chosen) return chosen.failure();
+                            std::vector<std::size_t> positions;
+                            for (std::size_t i = 0; i < heads.size(); ++i)
+                              if (chosen->has(heads[i])) positions.push_back(i);
+                            return positions;
+                          });
   if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
   if (stopped && *stopped) return Failure{ErrorCode::internal, file.string() + ": stopped"};
   auto frame = make_frame(file, *grids, options, room);

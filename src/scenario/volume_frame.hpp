@@ -11,7 +11,9 @@
 #include "core/box.hpp"
 #include "core/error.hpp"
 #include "grids/brick_volume.hpp"
+#include "grids/files.hpp"
 #include "grids/glow.hpp"
+#include "grids/volume_files.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scenario {
@@ -60,12 +62,13 @@ struct VolumeRoom {
 VolumeRoom room_of(const VolumeFrame& frame);
 
 /// Loads the grids that the options name, reduced until they fit into the room, with a warning that names
-/// the error. Fails as grids::load_grid_file, and with bad_input for grids that do not exist; soon once
-/// `stopped` (null: never) is true.
+/// the error. Fails as `read`, and with bad_input for grids that do not exist; soon once `stopped` (null:
+/// never) is true.
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const std::filesystem::path& file,
                                                              const scene::VolumeOptions& options,
                                                              const VolumeRoom& room = {},
-                                                             const std::atomic<bool>* stopped = nullptr);
+                                                             const std::atomic<bool>* stopped = nullptr,
+                                                             grids::GridReader read = grids::load_grid_file);
 
 /// Around a box under an affine transform.
 Box<float> transformed(const glm::mat4& matrix, const Box<float>& box);

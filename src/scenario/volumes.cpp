@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -165,8 +164,10 @@ std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Vol
   return corners;
 }
 
-Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOptions> options) {
+Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOptions> options,
+                                               grids::GridReader read) {
   auto volumes = std::make_shared<Volumes>();
+  volumes->read_ = read;
   for (const scene::VolumeOptions& one : options) {
     const std::string where = one.place.empty() ? "" : one.place + ": ";
     if (!has_inverse(one))
@@ -175,7 +176,7 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
     auto files = files_of(one);
     if (!files) return Failure{files.failure().code, where + files.failure().message};
     Sequence sequence{one, std::move(*files), {}, {}, 0, {}, {}};
-    auto frame = load_volume_frame(sequence.files.begin()->second, one);
+    auto frame = load_volume_frame(sequence.files.begin()->second, one, {}, nullptr, read);
     if (!frame) return frame.failure();
     sequence.first = sequence.shown = {std::move(*frame), nullptr};
     sequence.shown_number = sequence.files.begin()->first;
@@ -196,22 +197,22 @@ void Volumes::start_loader() {
   auto sources = std::make_shared<std::vector<Source>>();
   for (const Sequence& sequence : sequences_)
     sources->push_back({sequence.options, sequence.files, sequence.room});
-  loader_ = std::make_unique<VolumeLoader>(
-      [sources, previews = has_previews_](const VolumeLoader::Key& key,
-                                          const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
-        const Source& source = (*sources)[key.volume];
-        auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped);
-        if (!frame) return frame.failure();
-        auto preview = previews ? scenario::make_previews(**frame) : nullptr;
-        return LoadedVolume{std::move(*frame), std::move(preview)};
-      });
+  loader_ = std::make_unique<VolumeLoader>([sources, previews = has_previews_, read = read_](
+                                               const VolumeLoader::Key& key,
+                                               const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
+    const Source& source = (*sources)[key.volume];
+    auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped, read);
+    if (!frame) return frame.failure();
+    auto preview = previews ? scenario::make_previews(**frame) : nullptr;
+    return LoadedVolume{std::move(*frame), std::move(preview)};
+  });
 }
 
 Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOptions& options) {
   Sequence& sequence = sequences_[volume];
   if (chosen_grids(sequence.options) == chosen_grids(options)) return {};
   const auto& [number, file] = *sequence.files.begin();
-  auto frame = load_volume_frame(file, options, sequence.room);
+  auto frame = load_volume_frame(file, options, sequence.room, nullptr, read_);
   if (!frame) return frame.failure();
   auto preview = has_previews_ ? scenario::make_previews(**frame) : nullptr;
   sequence.first = sequence.shown = {std::move(*frame), std::move(preview)};
@@ -237,7 +238,7 @@ Result<void> Volumes::limit(const VolumeRoom& room) {
     VolumeRoom takes{bricks[i], pages[i]};
     if (brick_parts[i] < bricks[i] || page_parts[i] < pages[i]) {
       auto frame = load_volume_frame(sequence.files.begin()->second, sequence.options,
-                                     {brick_parts[i], page_parts[i]});
+                                     {brick_parts[i], page_parts[i]}, nullptr, read_);
       if (!frame) return frame.failure();
       sequence.first = sequence.shown = {std::move(*frame), nullptr};
       sequence.shown_number = sequence.files.begin()->first;
@@ -345,14 +346,7 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
 std::vector<fs::path> Volumes::files() const {
   std::vector<fs::path> files;
   for (const Sequence& sequence : sequences_)
-    for (const auto& [number, file] : sequence.files) {
-      // Of a description that cannot be read only itself; to load it fails.
-      const auto all = grids::files_of(file);
-      if (all)
-        files.insert(files.end(), all->begin(), all->end());
-      else
-        files.push_back(file);
-    }
+    for (const auto& [number, file] : sequence.files) files.push_back(file);
   return files;
 }
 

@@ -38,9 +38,10 @@ enum class VolumeWait {
 /// time.
 class Volumes {
  public:
-  /// Loads the first frame of each. Fails as grids::load_grid_file, and with bad_input for a sequence without
-  /// files, for axes without an inverse, and for grids that do not exist.
-  static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
+  /// Loads the first frame of each by `read`, and later the others. Fails as `read`, and with bad_input for a
+  /// sequence without files, for axes without an inverse, and for grids that do not exist.
+  static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options,
+                                               grids::GridReader read = grids::load_grid_file);
 
   /// All volumes, in the order of the options, with the grids that they name. A frame that is missing from a
   /// sequence shows the one before it, so do times after the last, unless the options repeat or clip it;
@@ -63,7 +64,7 @@ class Volumes {
   void make_previews();
 
   const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first.frame; }
-  /// All files of all sequences.
+  /// All files of all sequences, without what they describe or are described by (grids::files_of).
   std::vector<std::filesystem::path> files() const;
 
  private:
@@ -82,6 +83,7 @@ class Volumes {
   void show(std::size_t volume, std::int64_t number, Result<LoadedVolume> loaded);
   void start_loader();
 
+  grids::GridReader read_ = nullptr;
   std::vector<Sequence> sequences_;
   bool has_previews_ = false, is_behind_ = false;
   std::unique_ptr<VolumeLoader> loader_;  ///< Of the rooms and previews as they are.

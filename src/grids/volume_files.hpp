@@ -1,0 +1,24 @@
+// Reads the files of volume grids that need no decoder of images: .brv here (docs/brv-format.md), .vdb and
+// .nvdb in the program brume-vdb (worker.hpp).
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "grids/grid.hpp"
+#include "grids/limits.hpp"
+
+namespace brume::grids {
+
+/// Reads a file of grids: load_volume_file, or load_grid_file (files.hpp), which reads more kinds of them.
+using GridReader = Result<GridFile> (*)(const std::filesystem::path& path, const GridLimits& limits,
+                                        const GridChoice& choice);
+
+/// Whether load_volume_file reads a file, by its suffix in any case.
+bool is_volume_file(const std::filesystem::path& path);
+
+/// Reads all grids of a .brv, .vdb or .nvdb file, or those of `choice`. Fails as load_grid_file.
+Result<GridFile> load_volume_file(const std::filesystem::path& path, const GridLimits& limits = {},
+                                  const GridChoice& choice = {});
+
+}  // namespace brume::grids
