@@ -226,6 +226,7 @@ TEST_F(FileFaultTest, TanksAndTimelines) {
   expect_whole_or_not_at_all("tank.ply",
                              [&](const auto& path) { return spheres::save_tank_ply(path, tank); });
   scene::Timeline timeline;
+  timeline.scene = "/room.obj";
   expect_whole_or_not_at_all("film.toml",
                              [&](const auto& path) { return scene::save_timeline(path, timeline); });
 }
