@@ -109,13 +109,13 @@ FrameVector<glm::ivec3> ResidentSmoke::choose_level(const Request& request, cons
     in_view.push_back(request.volume.brick_of(visible.slots[i]));
   const std::size_t most = request.most_bricks;
   for (level = 0;; ++level) {
-    sort_once(in_view);
+    if (level > 0) sort_once(in_view);  // else each slot is a brick of its own
     if (level == kMostLevel || in_view.size() <= (level < level_ ? most - most / 4 : most)) return in_view;
     for (glm::ivec3& brick : in_view) brick >>= 1;
   }
 }
 
-/// What there is to hold at a level, as far as there is room; `in_view`: the bricks that are, in order.
+/// What there is to hold at a level, as far as there is room; `in_view`: the bricks that are, each once.
 ResidentSmoke::Wanted ResidentSmoke::wanted_at(int level, const Request& request,
                                                const SmokeVisibility& visible,
                                                FrameVector<glm::ivec3> in_view) {
@@ -127,6 +127,14 @@ ResidentSmoke::Wanted ResidentSmoke::wanted_at(int level, const Request& request
   const std::size_t most = request.most_bricks;
   Wanted wanted{.bricks = std::move(in_view)};
   wanted.visible = wanted.bricks.size();
+  const auto casters = std::span(visible.slots).subspan(visible.visible_count);
+  // As in most frames: each slot is a brick of its own, and there is room for all.
+  if (level == 0 && !request.all && visible.slots.size() <= most) {
+    for (const std::uint32_t slot : casters) wanted.bricks.push_back(volume.brick_of(slot));
+    wanted.required = wanted.bricks.size();
+    return wanted;
+  }
+  std::sort(wanted.bricks.begin(), wanted.bricks.end(), before);
   const auto bricks_of = [&](std::span<const std::uint32_t> slots) {
     FrameVector<glm::ivec3> bricks(memory);
     bricks.reserve(slots.size());
@@ -156,7 +164,7 @@ ResidentSmoke::Wanted ResidentSmoke::wanted_at(int level, const Request& request
     held.insert(held.end(), wanted.bricks.begin() + end_of(first), wanted.bricks.end());
     std::sort(held.begin(), held.end(), before);
   };
-  add(std::span(visible.slots).subspan(visible.visible_count));
+  add(casters);
   wanted.required = wanted.bricks.size();
   if (request.all) add(all_smoke_visible(volume, memory).slots);
   return wanted;
@@ -341,12 +349,10 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
   shows_other_ = (was_missing || is_missing_) && generation_ != generation;
 
   SmokeVisibility held{FrameVector<std::uint32_t>(memory), 0, visible.visible_bounds, visible.caster_bounds};
-  held.slots.reserve(wanted.required);
-  for (std::size_t i = 0; i < wanted.required; ++i) held.slots.push_back(held_.slot_at(wanted.bricks[i]));
-  held.visible_count = static_cast<std::uint32_t>(wanted.visible);
-  const auto casters = held.slots.begin() + static_cast<std::ptrdiff_t>(wanted.visible);
-  std::sort(held.slots.begin(), casters);
-  std::sort(casters, held.slots.end());
+  FrameVector<SlotRole> roles(held_.slot_count(), SlotRole::none, memory);
+  for (std::size_t i = 0; i < wanted.required; ++i)
+    roles[held_.slot_at(wanted.bricks[i])] = i < wanted.visible ? SlotRole::visible : SlotRole::caster;
+  set_slots(held, roles);
   const float scale = 1.0f / static_cast<float>(1 << level_);
   for (Box<float>* box : {&held.visible_bounds, &held.caster_bounds})
     *box = {scale * box->low, scale * box->high};

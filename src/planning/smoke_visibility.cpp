@@ -1,8 +1,6 @@
 #include "planning/smoke_visibility.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <tuple>
 
 #include "shared/smoke_light.h"
 
@@ -94,23 +92,25 @@ class VolumeTransform {
   const shared::VolumeLayout& layout_;
 };
 
-/// Adds the slots of a cloud that a test accepts, and returns whether there are any; node by node, so that
-/// clouds out of view cost little.
-bool collect_slots(const smoke::SmokeVolume& volume, const Box<float>& cloud, const VolumeTransform& places,
-                   const auto& accepts, FrameVector<std::uint32_t>& slots) {
+/// Marks the slots of a cloud that are not required yet and that a test accepts, and returns whether any is
+/// required; node by node, so that clouds out of view cost little.
+bool mark_slots(const smoke::SmokeVolume& volume, const Box<float>& cloud, const VolumeTransform& places,
+                const auto& accepts, SlotRole role, std::span<SlotRole> slots) {
   const Box<int> all = brick_range(cloud);
   if (!accepts(around(places.bricks(all)))) return false;
-  const std::size_t before = slots.size();
+  bool any = false;
   const Box<int> nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
   for_each_in(nodes, [&](glm::ivec3 node) {
     const Box<int> bricks = intersection(all, {node * shared::kNodeBricks, (node + 1) * shared::kNodeBricks});
     if (!accepts(around(places.bricks(bricks)))) return;
     for_each_in(bricks, [&](glm::ivec3 brick) {
       const std::uint32_t slot = volume.slot_at(brick);
-      if (slot != smoke::SmokeVolume::kNoSlot && accepts(places.brick(brick))) slots.push_back(slot);
+      if (slot == smoke::SmokeVolume::kNoSlot) return;
+      if (slots[slot] == SlotRole::none && accepts(places.brick(brick))) slots[slot] = role;
+      any |= slots[slot] != SlotRole::none;
     });
   });
-  return slots.size() > before;
+  return any;
 }
 
 /// Bounds with those of one more cloud.
@@ -119,12 +119,18 @@ Box<float> with(const Box<float>& bounds, const Box<float>& cloud) {
   return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};
 }
 
-void sort_once(FrameVector<std::uint32_t>& slots) {
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-}
-
 }  // namespace
+
+void set_slots(SmokeVisibility& visibility, std::span<const SlotRole> roles) {
+  visibility.slots.clear();
+  visibility.slots.reserve(roles.size());
+  for (const SlotRole role : {SlotRole::visible, SlotRole::caster}) {
+    for (std::uint32_t slot = 0; slot < roles.size(); ++slot)
+      if (roles[slot] == role) visibility.slots.push_back(slot);
+    if (role == SlotRole::visible)
+      visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
+  }
+}
 
 FrameVector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
                                           float slack, Allocator memory) {
@@ -142,31 +148,23 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
   // What may be in view.
   SmokeVisibility visibility{.slots = FrameVector<std::uint32_t>(memory)};
+  FrameVector<SlotRole> roles(volume.slot_count(), SlotRole::none, memory);
   Box<float> visible_smoke = kEmptyBox;
   for (const Box<float>& cloud : volume.cloud_bounds()) {
-    if (!collect_slots(volume, cloud, places, in_view, visibility.slots)) continue;
+    if (!mark_slots(volume, cloud, places, in_view, SlotRole::visible, roles)) continue;
     visibility.visible_bounds = with(visibility.visible_bounds, cloud);
     visible_smoke = united(visible_smoke, places.bricks_of(cloud));
   }
-  sort_once(visibility.slots);
-  visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
 
   // What stands between that and the lights.
   const LightPaths paths(view, lights, united(scene, visible_smoke), visible_smoke,
                          light_interpolation_margin(volume.layout().voxel_size), memory);
   const auto may_cast = [&](const WorldSphere& smoke) { return paths.may_cross(smoke); };
-  FrameVector<std::uint32_t> casters(memory);
   visibility.caster_bounds = visibility.visible_bounds;
   for (const Box<float>& cloud : volume.cloud_bounds())
-    if (collect_slots(volume, cloud, places, may_cast, casters))
+    if (mark_slots(volume, cloud, places, may_cast, SlotRole::caster, roles))
       visibility.caster_bounds = with(visibility.caster_bounds, cloud);
-  sort_once(casters);
-  FrameVector<std::uint32_t> visible(memory);
-  visible.swap(visibility.slots);
-  visibility.slots.reserve(visible.size() + casters.size());
-  visibility.slots = visible;
-  std::set_difference(casters.begin(), casters.end(), visible.begin(), visible.end(),
-                      std::back_inserter(visibility.slots));
+  set_slots(visibility, roles);
   return visibility;
 }
 
@@ -183,22 +181,16 @@ SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume, Allocator me
 FrameVector<Box<float>> smoke_boxes(const smoke::SmokeBricks& volume, const SmokeVisibility& visibility,
                                     Allocator memory) {
   const VolumeTransform places(volume.layout());
-  // Bricks by their nodes.
-  FrameVector<glm::ivec3> bricks(memory);
-  bricks.reserve(visibility.slots.size());
-  for (const std::uint32_t slot : visibility.slots) bricks.push_back(volume.brick_of(slot));
-  const auto node_key = [](glm::ivec3 brick) { return std::tuple(brick.x >> 3, brick.y >> 3, brick.z >> 3); };
-  std::sort(bricks.begin(), bricks.end(),
-            [&](glm::ivec3 a, glm::ivec3 b) { return node_key(a) < node_key(b); });
-
+  const volume::PageTable& pages = volume.pages();
+  FrameVector<Box<float>> nodes(pages.root().size(), kEmptyBox, memory);  // in voxels
+  for (const std::uint32_t slot : visibility.slots) {
+    const glm::ivec3 brick = volume.brick_of(slot), node = (brick >> 3) - pages.origin(), size = pages.size();
+    Box<float>& box = nodes[static_cast<std::size_t>(node.x + size.x * (node.y + size.y * node.z))];
+    box = united(box, Box<float>{glm::vec3(brick * shared::kBrickVoxels),
+                                 glm::vec3((brick + 1) * shared::kBrickVoxels)});
+  }
   FrameVector<Box<float>> boxes(memory);
-  for (auto first = bricks.begin(); first != bricks.end();) {
-    const auto end = std::find_if(first, bricks.end(),
-                                  [&](glm::ivec3 brick) { return node_key(brick) != node_key(*first); });
-    Box<float> box = kEmptyBox;  // in voxels
-    for (; first != end; ++first)
-      box = united(box, Box<float>{glm::vec3(*first * shared::kBrickVoxels),
-                                   glm::vec3((*first + 1) * shared::kBrickVoxels)});
+  for (const Box<float>& box : nodes) {
     const Box<float> cut{glm::max(box.low, visibility.caster_bounds.low),
                          glm::min(box.high, visibility.caster_bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));

@@ -22,6 +22,11 @@ struct SmokeVisibility {
   Box<float> caster_bounds{};       ///< Around these and the clouds that may dim light to what is in view.
 };
 
+/// What a frame requires a slot for.
+enum class SlotRole : std::uint8_t { none, visible, caster };
+/// Sets the slots and their counts by the role of each.
+void set_slots(SmokeVisibility& visibility, std::span<const SlotRole> roles);
+
 /// How far from what is in view light in smoke is still looked up, by interpolation and off walls [m].
 inline float light_interpolation_margin(float voxel_size) {
   return 4 * voxel_size;
