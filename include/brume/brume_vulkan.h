@@ -83,7 +83,8 @@ BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT
 BRUME_API brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT;
 /// From the next frame on the device's renderers use no more than `bytes` of device memory, beside what
 /// frames in flight still use; UINT64_MAX, as in the beginning: as much as the device has. Images of the
-/// frame's size, and for each renderer a reserve of 512 bricks of smoke with their light, are not given back.
+/// frame's size, and for each renderer a reserve of 512 bricks of smoke with their light, are neither refused
+/// nor given back.
 /// Smoke that has too little room, here or on the device, becomes coarser instead of invisible: see
 /// brume_renderer_coarseness.
 BRUME_API brume_result brume_device_set_memory_limit(brume_device* device, uint64_t bytes) BRUME_NOEXCEPT;

@@ -127,18 +127,24 @@ void draw_shadows(brume_renderer& of, const brume_frame_params& params, const pl
       planned_lights(renderer, params, plan), of.shadows);
 }
 
+/// What a frame needs whatever it shows, which no limit of memory refuses.
+void reserve(brume_renderer& of, const brume_frame_params& params) {
+  const gpu::Memory::Unlimited always(of.device->context.memory());
+  if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
+  if (params.picture.view) of.layer.reserve(params.picture.format);
+  if (params.shadow_light_count > 0) reserve_shadows(of);
+}
+
 void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
           const passes::HostDepthRange& range) {
-  if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
+  reserve(of, params);
   render::Renderer& renderer = *of.renderer;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
   if (volume != of.shown_volume) {
     renderer.invalidate();
     of.shown_volume = volume;
   }
-  if (params.picture.view) of.layer.reserve(params.picture.format);
   of.has_shadows = false;
-  if (params.shadow_light_count > 0) reserve_shadows(of);
   const planning::FramePlan plan = renderer.plan(input);
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
@@ -223,6 +229,7 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     of.options.size_px = size_px;
     of.shadows = {};
     of.has_shadows = false;
+    const brume::gpu::Memory::Unlimited always(of.device->context.memory());
     try {
       if (of.renderer) of.renderer->resize(size_px);
     } catch (...) {
@@ -238,6 +245,7 @@ brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t m
     const std::uint32_t scale = brume::host::checked_scale(march_scale);
     const std::scoped_lock lock(of.mutex, of.device->mutex);
     of.options.smoke.march_scale = scale;
+    const brume::gpu::Memory::Unlimited always(of.device->context.memory());
     try {
       if (of.renderer) of.renderer->set_march_scale(scale);
     } catch (...) {

@@ -30,9 +30,9 @@ TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
       append(door);
     }
     if (i % 50 == 30) resize(number(std::size(kSizes)));
-    // Memory is short for a while.
-    if (i % 100 == 60) limit(device_bytes() * 3 / 4);
-    if (i % 100 == 90) limit(UINT64_MAX);
+    // Memory is short for a while, in which the size changes, too.
+    if (i % 40 == 25) limit(device_bytes() * 3 / 4);
+    if (i % 40 == 38) limit(UINT64_MAX);
     advance(tick);
     const float turn = 0.01f * static_cast<float>(i);
     draw({6 + 3 * std::cos(turn), 1.5f, 4}, {std::sin(3 * turn), 0, std::cos(3 * turn)}, tick / 64.0);
