@@ -104,6 +104,7 @@ Level load_level(const fs::path& path, float voxel_size, int margin) {
 }
 
 void save_level(const Level& level, const fs::path& path) {
+  if (path.extension() != ".vxl") refuse("path", path.string() + ": expected the suffix .vxl");
   released([&] {
     const scenario::Voxels& v = *level.voxels;
     of_file(voxel::save_vxl(path, {v.grid, v.planes, v.triangles}, 0), path, FileUse::write);
@@ -153,7 +154,9 @@ finite, MemoryError for an axis beyond 4096.)")
 voxel_size, margin: as in from_triangles; a .vxl file has its own.
 
 Raises FileNotFoundError, ValueError for a damaged file, MemoryError for an axis beyond 4096 voxels.)")
-      .def("save", &save_level, "path"_a, R"(Writes a .vxl file, completely or not at all. Raises OSError.)")
+      .def(
+          "save", &save_level, "path"_a,
+          R"(Writes a .vxl file, completely or not at all. Raises OSError, and ValueError for another suffix.)")
       .def_property_readonly(
           "size", [](const Level& l) { return tuple_of(l.grid().size()); }, "Voxels along x, y and z.")
       .def_property_readonly(

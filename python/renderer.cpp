@@ -132,6 +132,7 @@ void save_picture(const std::filesystem::path& path, const py::array& picture) {
   if (picture.ndim() != 3 || (picture.shape(2) != 3 && picture.shape(2) != 4))
     refuse("picture",
            "expected the shape (height, width, 3) or (height, width, 4), got " + shape_text(picture));
+  if (path.extension() != ".png") refuse("path", path.string() + ": expected the suffix .png");
   for (int axis = 0; axis < 2; ++axis)
     if (picture.shape(axis) < 1 || picture.shape(axis) > py::ssize_t{image::kMaxAxis})
       refuse("picture", "expected 1 to " + std::to_string(image::kMaxAxis) + " pixels along each axis");
@@ -190,11 +191,11 @@ Returns an array of the shape (height, width, 3), rows from the top: uint8 as in
 float32 where the renderer is linear. Ctrl-C takes effect after the picture.)")
       .def_property_readonly("device", &Renderer::device, "Name of its Vulkan device.");
   module.def("save_png", &save_picture, "path"_a, "picture"_a,
-             R"(Writes a picture as a PNG, completely or not at all.
+             R"(Writes a picture as a .png file, completely or not at all.
 
 picture: uint8, shape (height, width, 3) or, with alpha, (height, width, 4); sRGB, rows from the top.
 
-Raises OSError where it cannot be written, TypeError and ValueError for another array.)");
+Raises OSError where it cannot be written, TypeError and ValueError for another array or suffix.)");
 }
 
 }  // namespace brume::python

@@ -95,6 +95,8 @@ std::string reason_of(const SequenceSettings& settings, std::uint32_t frame) {
     if (const auto image = image::decode_image(*bytes, ""); !image) failure = image.failure().message;
   }
   if (!failure.empty()) return is_truncated(*bytes, is_exr, failure) ? "truncated" : "damaged";
+  // Beside its pixels.
+  if (!is_exr && !image::is_intact_png(*bytes)) return "damaged";
   return fault;
 }
 

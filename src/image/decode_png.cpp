@@ -1,4 +1,5 @@
 #include <spng.h>
+#include <zlib.h>
 
 #include <memory>
 #include <vector>
@@ -82,6 +83,21 @@ std::uint32_t channels_of(const spng_ihdr& header) {
 }
 
 }  // namespace
+
+bool is_intact_png(std::span<const std::byte> bytes) {
+  constexpr std::uint64_t kIend = 0x49454e44;
+  // Chunks: length, type, data, checksum of type and data.
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::uint64_t length = big_endian(bytes.subspan(at, 4));
+    if (length > bytes.size() - at - 12) return false;
+    const auto checked = bytes.subspan(at + 4, 4 + length);
+    const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(checked.data()), checked.size());
+    at += 12 + length;
+    if (sum != big_endian(bytes.subspan(at - 4, 4))) return false;
+    if (big_endian(checked.first(4)) == kIend) return at == bytes.size();
+  }
+  return false;
+}
 
 Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& name) {
   const auto png = open_png(bytes, name);

@@ -44,4 +44,7 @@ Result<NumberImage> decode_png_numbers(std::span<const std::byte> bytes, const s
 /// The text of the first tEXt chunk with this keyword. Does not check whether the file is complete.
 std::optional<std::string> find_png_text(std::span<const std::byte> bytes, const std::string& keyword);
 
+/// Whether all checksums of a PNG hold, and nothing follows its end.
+bool is_intact_png(std::span<const std::byte> bytes);
+
 }  // namespace brume::image

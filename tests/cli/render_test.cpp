@@ -275,6 +275,15 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
             "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
   EXPECT_EQ(contents(folder_), expected);
 
+  // Damage beside the pixels: the checksum before the end's 12 bytes, and bytes after the end.
+  damaged = expected.at("f_1.png");
+  damaged[damaged.size() - 16] ^= 1;
+  folder_.write("f_1.png", damaged);
+  folder_.write("f_2.png", expected.at("f_2.png") + std::string(50, '\0'));
+  EXPECT_EQ(drawn(whole), 2);
+  EXPECT_EQ(reasons, "brume: frames 1-2: damaged\n");
+  EXPECT_EQ(contents(folder_), expected);
+
   // Other settings or another scene make other frames.
   Arguments other = whole;
   other.insert(other.end(), {"--step", "2"});

@@ -13,13 +13,13 @@ namespace {
 #ifdef BRUME_EVERY_FAULT
 constexpr int kFaults = 300;
 #else
-constexpr int kFaults = 8;
+constexpr int kFaults = 4;
 #endif
 
 /// Without the validation layers, which allocate with every command.
 class HeapTest : public YardTest {
  protected:
-  static constexpr int kCycle = 16;  // frames in which the camera turns there and back
+  static constexpr int kCycle = 8;  // frames in which the camera turns there and back
 
   HeapTest() : YardTest(false) {}
 

@@ -71,6 +71,8 @@ class PictureFileTest(unittest.TestCase):
         with work_folder() as folder:
             brume.save_png(folder + "/a.png", picture[::-1])
             np.testing.assert_array_equal(read_png(folder + "/a.png"), picture[::-1])
+            with self.assertRaises(ValueError):
+                brume.save_png(folder + "/a.toml", picture)
 
 
 class ScenarioTest(unittest.TestCase):

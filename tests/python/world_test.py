@@ -35,6 +35,8 @@ class LevelTest(unittest.TestCase):
         level = brume.Level.load(SOURCE / "scenes" / "demo.glb", 0.5)
         with work_folder() as folder:
             level.save(folder + "/demo.vxl")
+            with self.assertRaises(ValueError):
+                level.save(folder + "/demo.toml")
             again = brume.Level.load(folder + "/demo.vxl")
         np.testing.assert_array_equal(again.solid, level.solid)
         self.assertEqual(again.origin, level.origin)
