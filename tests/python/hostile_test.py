@@ -312,7 +312,9 @@ class RenderTest(Hostile):
                 self.refuse(brume.save_png, folder + "/a.png", bad)
             self.assertEqual(os.listdir(folder), [])
             fine = np.zeros((4, 4, 3), np.uint8)
-            self.refuse(brume.save_png, folder, fine, kinds=IsADirectoryError)
+            self.refuse(brume.save_png, folder, fine)
+            os.mkdir(folder + "/b.png")
+            self.refuse(brume.save_png, folder + "/b.png", fine, kinds=IsADirectoryError)
             self.refuse(brume.save_png, folder + "/none/a.png", fine, kinds=FileNotFoundError)
 
     def test_draws(self):
