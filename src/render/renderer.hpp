@@ -159,8 +159,8 @@ class Renderer {
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
   planning::PlanHistory history_;
-  FrameInput input_;                                  // of the last plan
-  std::vector<std::uint32_t> hidden_objects_before_;  // it
+  FrameInput input_;                                  // of the last plan, which refers to it
+  std::vector<std::uint32_t> hidden_objects_before_;  // the last plan, for one that fails
 };
 
 }  // namespace brume::render

@@ -120,7 +120,7 @@ PFN_vkVoidFunction uncounted(const char* name, PFN_vkVoidFunction real) {
   X(CreateComputePipelines)
   X(CreateGraphicsPipelines)
 #undef X
-      return real;
+  return real;
 }
 
 class HeapFaultTest : public HeapTest {
@@ -180,7 +180,7 @@ TEST_F(HeapFaultTest, EveryAllocationMayFail) {
     Heap::fails_at = 0;
     ASSERT_FALSE(HasFailure());
   }
-  EXPECT_LE(memory_.bytes, bytes + (64u << 20));
+  EXPECT_LE(memory_.bytes, bytes + (64u << 20)) << "four blocks: a spare one of each kind, and staging";
 }
 
 }  // namespace
