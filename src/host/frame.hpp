@@ -37,7 +37,7 @@ glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
-/// Sets all of `input` but its volumes; its lists keep their memory. What it points to is the field's.
+/// Sets all of `input`, without volumes; its lists keep their memory. What it points to is the field's.
 /// `field`: null: no smoke.
 void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
                      planning::FrameInput& input);
