@@ -102,8 +102,12 @@ Between place_among(std::span<const Point> points, double at) {
 template <typename Point, typename NumbersOf>
 std::optional<PointFault> find_fault(std::span<const Point> points, NumbersOf numbers_of, const char* form) {
   if (points.size() < 2 || points.size() > kMostPoints)
-    return PointFault{std::nullopt, "expected 2 to " + std::to_string(kMostPoints) + " points " + form +
-                                        ", found " + std::to_string(points.size())};
+    return PointFault{std::nullopt, std::string("expected 2 to ")
+                                        .append(std::to_string(kMostPoints))
+                                        .append(" points ")
+                                        .append(form)
+                                        .append(", found ")
+                                        .append(std::to_string(points.size()))};
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const float number : numbers_of(points[i]))
       if (!(number >= 0 && number <= 1))
