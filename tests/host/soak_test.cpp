@@ -39,6 +39,10 @@ TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
     std::uint64_t& most = i < kFrames / 2 ? first_half : second_half;
     most = std::max<std::uint64_t>(most, memory_.bytes);
     ASSERT_FALSE(HasFatalFailure());
+    if (tick % 1000 == 0) {
+      std::printf("%u frames: %.1f MB\n", tick, static_cast<double>(memory_.bytes) / 1e6);
+      std::fflush(stdout);
+    }
   }
   std::printf("%d frames: %.1f MB at most in the first half, %.1f in the second\n", kFrames,
               static_cast<double>(first_half) / 1e6, static_cast<double>(second_half) / 1e6);
