@@ -6,6 +6,7 @@
 #include "passes/blue_noise.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/lens.hpp"
+#include "render/tank_layer.hpp"
 
 namespace brume::render {
 namespace {
@@ -266,10 +267,8 @@ void Renderer::record_media_over(gpu::Recorder& recorder, const FramePlan& plan,
 }
 
 void Renderer::record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host) {
-  if (host)
-    surface_import_->record(recorder, host->depth, host->range, plan.camera.near_z, targets_.gbuffer);
-  else
-    scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer);
+  if (!host) return scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer);
+  surface_import_->record(recorder, host->depth, host->range, plan.camera.near_z, targets_.gbuffer);
 }
 
 /// What later frames rely on, too: everything that the plan's history counts as updated.
@@ -287,6 +286,7 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
   scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
+  if (host && host->tanks) host->tanks->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {

@@ -22,6 +22,7 @@ namespace brume::render {
 
 using planning::FrameInput;
 using planning::FramePlan;
+class TankLayer;
 
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
@@ -38,6 +39,7 @@ struct RendererOptions {
 struct HostSurfaces {
   const gpu::Image& depth;  ///< Of the renderer's size.
   passes::HostDepthRange range;
+  TankLayer* tanks = nullptr;  ///< Planned for this frame, surfaces, too; null: none.
 };
 
 class Renderer {
