@@ -30,6 +30,8 @@ class HostileFrames : public api::Hostile {
   void renderer_read();
   void volume_create();
   void volume_read();
+  void tank_create();
+  void tank_change();
   void record();
 
   /// Mostly in a range.
@@ -38,6 +40,7 @@ class HostileFrames : public api::Hostile {
   void spoil(Number& number, double probability = 0.01);
   brume_light light();
   brume_shown_volume shown_volume();
+  brume_shown_tank shown_tank();
   void spoil(brume_frame_params& params);
 
   gpu::HostApplication host_{1};
@@ -50,9 +53,11 @@ class HostileFrames : public api::Hostile {
   bool has_drawn_ = false;  ///< Over the picture, in this frame.
   std::vector<brume_light> lights_;
   std::vector<brume_shown_volume> shown_;
+  std::vector<brume_shown_tank> shown_tanks_;
   api::Pool<brume_device> devices_;
   api::Pool<brume_renderer> renderers_;
   api::Pool<brume_volume> volumes_;
+  api::Pool<brume_tank> tanks_;
 };
 
 }  // namespace brume::host
