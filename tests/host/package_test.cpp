@@ -30,7 +30,8 @@ TEST(VulkanHeader, CompilesWithoutAWarning) {
     if (run_shell(std::string("command -v ") + compiler).status == 0)
       expect_runs("echo '#include <brume/brume_vulkan.h>' | " + std::string(compiler) + flags +
                   "-std=c11 -x c -");
-  expect_runs("echo '#include <brume/brume_vulkan.h>' | g++" + flags + "-std=c++17 -x c++ -");
+  for (const char* header : {"brume_vulkan.h", "brume_vulkan.hpp"})
+    expect_runs("echo '#include <brume/" + std::string(header) + ">' | g++" + flags + "-std=c++17 -x c++ -");
 }
 
 TEST(VulkanLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {
