@@ -3,7 +3,7 @@
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
-//   context --> volume ---------------'
+//   context --> volume, decal --------'
 //
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
@@ -32,6 +32,7 @@ extern "C" {
 typedef struct brume_device brume_device;
 typedef struct brume_renderer brume_renderer;
 typedef struct brume_volume brume_volume;
+typedef struct brume_decal brume_decal;
 
 // ---- Device ----
 
@@ -250,6 +251,74 @@ static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume*
   return shown;
 }
 
+// ---- Decals ----
+
+/// Baked occlusion around a mesh: how much it hides of the hemisphere above what faces up, along y of the
+/// box, and above what faces down. Of a file (`brume bake occlusion`, then `brume convert`), or of
+/// arrays.
+typedef struct brume_decal_params {
+  uint32_t struct_size;
+  const void* next;
+  const char* file;  ///< As brume_volume_params::file, one frame; null: the arrays.
+  /// Name of a grid for both directions; null or empty: the grids "up" and "down", or else the first grid.
+  const char* grid;
+  /// Where `file` is null: size[0] * size[1] * size[2] finite numbers, 0: nothing is hidden, 1: all; voxel
+  /// (i, j, k) is i + size[0] * (j + size[1] * k). They are copied.
+  const float* up;
+  const float* down;  ///< The same of what faces down; null: as `up`.
+  uint32_t size[3];   ///< Voxels along x, y and z, at least 1; 2^26 in all at most.
+  brume_point low;    ///< Of the box of all voxels, in the decal's space.
+  brume_point high;   ///< Above `low` along each axis.
+} brume_decal_params;
+
+static inline brume_decal_params brume_decal_defaults(void) {
+  brume_decal_params params = {sizeof(brume_decal_params),
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               {0, 0, 0},
+                               {-1.0f, -1.0f, -1.0f},
+                               {1.0f, 1.0f, 1.0f}};
+  return params;
+}
+
+/// Loads a decal. Errors: BRUME_ERROR_DATA as brume_volume_create; BRUME_ERROR_LIMIT for too many voxels.
+BRUME_API brume_result brume_decal_create(brume_context* context, const brume_decal_params* params,
+                                          brume_decal** decal) BRUME_NOEXCEPT;
+/// What frames in flight show of it stays with their renderers.
+BRUME_API brume_result brume_decal_destroy(brume_decal* decal) BRUME_NOEXCEPT;
+
+/// A decal in a frame: where it is and how it darkens. Its box must lie within 10^6 m of the world's origin
+/// and have edges of at least 10^-6 m.
+typedef struct brume_shown_decal {
+  const brume_decal* decal;            ///< One may be shown several times.
+  brume_point x_axis, y_axis, z_axis;  ///< Of its space in the world; they must span space.
+  brume_point position;                ///< Of its origin [m].
+  float strength;                      ///< Fraction of the occlusion that darkens, [0, 1].
+  float gamma;       ///< Exponent of the occlusion in the middle of y; below 1 darkens, [0.1, 10].
+  float correction;  ///< How much of `gamma` applies there, [0, 1].
+  float falloff;     ///< How fast that fades towards the ends of y, [0, 100].
+  float fade;        ///< Part of the box, at each side, over which the decal fades out, [0, 0.5].
+  float scatter;     ///< How far noise scatters the samples [voxels], [0, 4].
+} brume_shown_decal;
+
+static inline brume_shown_decal brume_shown_decal_defaults(const brume_decal* decal) {
+  brume_shown_decal shown = {decal,
+                             {1.0f, 0.0f, 0.0f},
+                             {0.0f, 1.0f, 0.0f},
+                             {0.0f, 0.0f, 1.0f},
+                             {0.0f, 0.0f, 0.0f},
+                             1.0f,
+                             1.0f,
+                             1.0f,
+                             1.0f,
+                             0.05f,
+                             0.5f};
+  return shown;
+}
+
 // ---- Frames ----
 
 /// The camera of a frame.
@@ -271,6 +340,28 @@ typedef struct brume_depth {
   float far_plane;       ///< [m], above near_plane; may be infinite. Depth of far_plane: no surface.
   uint32_t reversed;     ///< 1: the depth is 1 at near_plane and 0 at far_plane.
 } brume_depth;
+
+typedef enum brume_normal_encoding {
+  BRUME_NORMALS_SIGNED = 0,    ///< x, y and z in r, g and b, of any length.
+  BRUME_NORMALS_UNSIGNED = 1,  ///< 2 rgb - 1 is that.
+  /// r and g in [-1, 1] are x and y of the octahedron |x| + |y| + |z| = 1; its half of z < 0 is folded over
+  /// the other: (x, y) becomes ((1 - |y|) sign(x), (1 - |x|) sign(y)).
+  BRUME_NORMALS_OCTAHEDRAL = 2,
+  BRUME_NORMALS_OCTAHEDRAL_UNSIGNED = 3  ///< 2 rg - 1 is that.
+} brume_normal_encoding;
+
+/// The normals of the surfaces that the host drew, which decals darken.
+typedef struct brume_normals {
+  /// Of the renderer's size, of a format that shaders read as floats, with VK_IMAGE_USAGE_SAMPLED_BIT; null:
+  /// the normals are those of the planes through the depths of neighbouring pixels, and face the camera. So
+  /// is one that is 0 or not finite.
+  VkImageView view;
+  VkImageLayout layout;  ///< One in which it can be sampled. Stage: compute shaders, sampled reads.
+  uint32_t encoding;     ///< brume_normal_encoding.
+  uint32_t of_view;      ///< 1: along the camera's right, up, and towards the viewer; 0: of the world.
+  /// 1: decals do not darken surfaces where its alpha is 0: what moves, and what they were baked of.
+  uint32_t alpha_receives;
+} brume_normals;
 
 /// The host's picture, which smoke is blended over.
 typedef struct brume_picture {
@@ -318,7 +409,7 @@ typedef struct brume_frame_params {
   uint64_t completed;        ///< The last frame whose commands the device has completed; 0: none.
   brume_camera camera;       ///< That of the depth and the picture.
   brume_depth depth;         ///< What hides smoke.
-  brume_picture picture;     ///< What smoke is blended over.
+  brume_picture picture;     ///< What smoke is blended over, and decals darken.
   brume_smoke_look look;     ///< Extinction is the field's: what players see is what queries find.
   double seconds;            ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
   /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
@@ -338,6 +429,10 @@ typedef struct brume_frame_params {
   uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
   uint32_t shadow_light_count;  ///< [0, BRUME_MAX_SHADOW_LIGHTS].
   brume_quality quality;        ///< What the frame may save.
+  const brume_shown_decal*
+      decals;             ///< At most 32; where they overlap, what they leave of the light multiplies.
+  size_t decal_count;     ///< Of `decals`.
+  brume_normals normals;  ///< Of the surfaces that they darken.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -363,15 +458,19 @@ static inline brume_frame_params brume_frame_defaults(void) {
       0,
       {0, 0, 0, 0},
       0,
-      {0.0f, 0.0f, 0, 0.0f, 0.0f, 0}};
+      {0.0f, 0.0f, 0, 0.0f, 0.0f, 0},
+      BRUME_NULL,
+      0,
+      {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, BRUME_NORMALS_SIGNED, 0, 0}};
   return params;
 }
 
 /// Records the smoke of a field, as of its last update, and volumes in front of the host's surfaces, and
-/// blends them over the host's picture p: exposure * radiance + transmittance * p. `field` may be null: no
-/// smoke, and no level. Field and volumes may change as soon as the function returns. Errors:
-/// BRUME_ERROR_MISMATCH for a field with other masks; BRUME_ERROR_LIMIT when the device has too little
-/// memory; BRUME_ERROR_DEVICE.
+/// blends them over the host's picture p: exposure * radiance + transmittance * p; with decals exposure *
+/// radiance + transmittance * (1 - occlusion) * p. `field` may be null: no smoke, and no level. Field,
+/// volumes and decals may change as soon as the function returns. Errors: BRUME_ERROR_MISMATCH for a field
+/// with other masks; BRUME_ERROR_LIMIT when the device has too little memory, or the decals of a frame more
+/// voxels than one image holds; BRUME_ERROR_DEVICE.
 BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
@@ -395,6 +494,13 @@ BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer,
 /// brume_renderer_resize. Either pointer may be null.
 BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                               VkImageView* view) BRUME_NOEXCEPT;
+
+/// The occlusion of the last frame by its decals: half floats, in R which fraction of the light that it
+/// reflects the surface of the pixel loses, 0 without a surface; the other channels are the renderer's own.
+/// In VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. BRUME_ERROR_ORDER unless the last frame had
+/// decals, in view or not; another image after each frame. Either pointer may be null.
+BRUME_API brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
+                                                VkImageView* view) BRUME_NOEXCEPT;
 
 /// The time that a pass took.
 typedef struct brume_timing {

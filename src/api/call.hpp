@@ -61,7 +61,8 @@ enum class Kind : std::uint32_t {
   field,
   device,
   renderer,
-  volume
+  volume,
+  decal
 };
 
 /// The start of what every handle points to.

@@ -1,5 +1,6 @@
 #include "api/smoke_field.hpp"
 #include "core/same_bytes.hpp"
+#include "host/decals.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
 #include "host/volumes.hpp"
@@ -133,10 +134,11 @@ void reserve(brume_renderer& of, const brume_frame_params& params) {
   if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
   if (params.picture.view) of.layer.reserve(params.picture.format);
   if (params.shadow_light_count > 0) reserve_shadows(of);
+  if (params.decal_count > 0) of.renderer->reserve_decals();
 }
 
 void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
-          const passes::HostDepthRange& range) {
+          const passes::HostDepthRange& range, passes::HostNormals normals) {
   reserve(of, params);
   render::Renderer& renderer = *of.renderer;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
@@ -149,7 +151,10 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
       {VK_NULL_HANDLE, params.depth.view, VK_FORMAT_D32_SFLOAT, size_px, params.depth.layout});
-  renderer.record_media_over(of.recording.recorder(), plan, {depth, range});
+  const gpu::Image of_normals(
+      {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
+  if (params.normals.view) normals.image = &of_normals;
+  renderer.record_media_over(of.recording.recorder(), plan, {depth, range, normals});
   if (params.shadow_light_count > 0) {
     draw_shadows(of, params, plan);
     of.has_shadows = true;
@@ -158,7 +163,8 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
   const gpu::Scope timed(of.recording.recorder(), "layer");
-  of.layer.record(of.recording.recorder(), renderer.media(), params.picture.exposure, picture);
+  of.layer.record(of.recording.recorder(), {renderer.media(), renderer.occlusion(), params.picture.exposure},
+                  picture);
 }
 
 void check_shadow_lights(const brume_renderer& of, const brume_frame_params& params) {
@@ -173,16 +179,18 @@ void check_shadow_lights(const brume_renderer& of, const brume_frame_params& par
 void record(Call& call, brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
+  const passes::HostNormals normals = host_normals(params.normals);
   planning::FrameInput& input = of.input;
   set_frame_input(params, field ? &*field->field : nullptr, input);
   check_shadow_lights(of, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
+  add_decals(call, params, of);
   // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame;
   of.device->completed = params.completed;
   of.recording.begin(params.commands, params.frame, params.completed);
   try {
-    draw(of, params, input, range);
+    draw(of, params, input, range, normals);
     of.recording.end();
   } catch (...) {
     // What it holds may be half of what it planned: the next frame makes another.
@@ -300,6 +308,19 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
       if (!of.has_shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
       if (image) *image = of.shadows.handle();
       if (view) *view = of.shadows.view();
+    });
+  });
+}
+
+brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
+                                      VkImageView* view) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_renderer& of = call.handle(renderer);
+    call.read(of, [&] {
+      const brume::gpu::Image* occlusion = of.renderer ? of.renderer->occlusion() : nullptr;
+      if (!occlusion) fail(BRUME_ERROR_ORDER, "a frame with `decals` must be recorded first");
+      if (image) *image = occlusion->handle();
+      if (view) *view = occlusion->view();
     });
   });
 }

@@ -176,7 +176,7 @@ struct FrameInput {
   SmokeInput smoke;
   std::vector<VolumeInput> volumes;  ///< At most shared::kMaxVolumes; they may overlap.
   /// Volumes that are sampled without a march; uploaded when they are others than before. null: none.
-  std::shared_ptr<const std::vector<grids::DenseVolume>> slices;
+  std::shared_ptr<const grids::DenseVolumes> slices;
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
   std::vector<ParticleInput> particles;

@@ -51,7 +51,7 @@ struct FramePlan {
   const smoke::SmokeBricks* smoke = nullptr;
   SmokeVisibility visibility;
   MediaPlan media;
-  std::vector<PlacedDecal> decals;
+  FrameVector<PlacedDecal> decals;
   /// The media as light is found in them and shadows are cast by them: volumes may have other resolutions.
   MediaPlan lit_media;
   std::vector<shared::ParticleSystem> particles;  ///< In view.

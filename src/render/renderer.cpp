@@ -189,18 +189,25 @@ void Renderer::upload_slices(const FrameInput& input) {
   if (input.slices == loaded_slices_ && slices_) return;
   std::vector<std::span<const grids::DenseGrid>> volumes;
   if (input.slices)
-    for (const grids::DenseVolume& volume : *input.slices) volumes.emplace_back(volume);
+    for (const auto& volume : *input.slices) volumes.emplace_back(*volume);
   if (volumes.empty() && !slices_) return;
   slices_.emplace(passes::SliceTextures::create(context_, stream_, volumes).value_or_throw());
   loaded_slices_ = input.slices;
+}
+
+void Renderer::reserve_decals() {
+  if (!decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
+  if (!surface_import_) return;
+  if (!normal_pass_) normal_pass_.emplace(context_);
+  if (!targets_.gbuffer.normal_metallic) targets_.gbuffer.add_imported_normals(context_);
 }
 
 /// Makes room for a plan.
 void Renderer::reserve(FramePlan& plan) {
   scene_.reserve(plan);
   smoke_.reserve(plan, history_);
+  if (!plan.decals.empty()) reserve_decals();
   if (surface_import_) return;
-  if (!plan.decals.empty() && !decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
   if (!plan.particles.empty()) {
     if (!particle_pass_) particle_pass_.emplace(context_);
     particle_pass_->reserve(plan.particles, targets_.size_px,
@@ -263,6 +270,8 @@ void Renderer::record_media_over(gpu::Recorder& recorder, const FramePlan& plan,
   record_light(recorder, plan, in, &surfaces);
   record_media(recorder, plan, in);
   record_accumulate(recorder, plan, in);
+  begin_decals(plan, true);
+  if (has_decals_) scope(recorder, "decals", [&] { record_decals_over(recorder, plan, surfaces.normals); });
 }
 
 void Renderer::record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host) {
@@ -309,10 +318,8 @@ void Renderer::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan,
 
 void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   record_accumulate(recorder, plan, in);
-  has_decals_ = !plan.input.decals.empty();
-  occlusion_ = nullptr;
   const bool is_debug_view = plan.input.debug.view != planning::DebugView::none;
-  if (decal_pass_ && (plan.decals.empty() || is_debug_view)) decal_pass_->invalidate_past();
+  begin_decals(plan, !is_debug_view);
   if (is_debug_view && antialias_pass_) antialias_pass_->invalidate_past();
   if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
@@ -342,7 +349,8 @@ void Renderer::record_antialias(gpu::Recorder& recorder, const FramePlan& plan) 
 }
 
 void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {
-  std::vector<shared::Decal> decals;
+  FrameVector<shared::Decal> decals(&recorder.memory());
+  decals.reserve(plan.decals.size());
   for (const planning::PlacedDecal& placed : plan.decals) {
     decals.push_back(placed.decal);
     decals.back().occlusion = (*slices_)[placed.volume];
@@ -350,10 +358,27 @@ void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   decal_pass_->upload(recorder, decals);
 }
 
+void Renderer::begin_decals(const FramePlan& plan, bool shows) {
+  has_decals_ = !plan.input.decals.empty();
+  occlusion_ = nullptr;
+  if (decal_pass_ && (plan.decals.empty() || !shows)) decal_pass_->invalidate_past();
+}
+
 void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(),
                       plan.input.view.continues && smoke_.is_accumulated());
   occlusion_ = &decal_pass_->occlusion();
+}
+
+/// Where none is in view the host has an image, too: of 0.
+void Renderer::record_decals_over(gpu::Recorder& recorder, const FramePlan& plan,
+                                  const passes::HostNormals& normals) {
+  if (plan.decals.empty())
+    decal_pass_->upload(recorder, {});
+  else
+    normal_pass_->record(recorder, frame_, normals, targets_.gbuffer);
+  record_decals(recorder, plan);
+  if (plan.decals.empty()) decal_pass_->invalidate_past();
 }
 
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
