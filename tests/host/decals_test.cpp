@@ -42,6 +42,7 @@ grids::DenseVolume occlusion_volume(glm::uvec3 size, double radius) {
 class DecalsTest : public HostedPair {
  protected:
   DecalsTest() {
+    scenario_.camera = {{-1.5f, 2.8f, 6.5f}, {-1.5f, 0.3f, 1}, 1};
     scene::Scene& scene = scenario_.scene;
     add_box(scene, {-5, 0.6f, 3}, 30, {1, 0.2f, 0.5f});
     add_box(scene, {-2.5f, 0.8f, 1}, 50, {-0.3f, 1, 0.4f});
@@ -284,6 +285,10 @@ TEST_F(DecalsTest, OfArraysAreThoseOfFiles) {
 // are those of the images, exactly; the picture holds floats, which a device blends with 2^-10 at worst.
 TEST_F(DecalsTest, DarkenThePictureInThePassOfTheMedia) {
   add_three_decals();
+  // In smoke that the ground is seen through.
+  scenario_.timeline.smoke.extinction = 0.4f;
+  add_decal(scenario_.timeline.decals[0].file, {-5.5f, 0.4f, 0}).scale = 2.5f;
+  load_decals();
   make_sides(1, 1);
   draw_both(2.0, 1);
   constexpr float kExposure = 1.5f;
