@@ -62,7 +62,7 @@ void HostileFrames::run_frames(int frames) {
       &HostileFrames::renderer_read, &HostileFrames::volume_create,   &HostileFrames::volume_read,
       &HostileFrames::decal_create,  &HostileFrames::record,          &HostileFrames::record,
       &HostileFrames::record};
-  constexpr int kStepsOfFrame = 24;
+  constexpr int kStepsOfFrame = 27;
   run(2000);  // states and fields
   for (int i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
     host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
