@@ -3,7 +3,7 @@
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
-//   context --> volume, decal --------'
+//   context --> volume, decal, tank --'
 //
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
@@ -33,6 +33,7 @@ typedef struct brume_device brume_device;
 typedef struct brume_renderer brume_renderer;
 typedef struct brume_volume brume_volume;
 typedef struct brume_decal brume_decal;
+typedef struct brume_tank brume_tank;
 
 // ---- Device ----
 
@@ -319,6 +320,109 @@ static inline brume_shown_decal brume_shown_decal_defaults(const brume_decal* de
   return shown;
 }
 
+// ---- Tanks of spheres ----
+
+/// A box of voxels that holds balls of colour: a file, or arrays.
+typedef struct brume_tank_params {
+  uint32_t struct_size;
+  const void* next;
+  const char* file;        ///< Path of a .spheres file, UTF-8; null: what follows.
+  uint32_t size[3];        ///< Of the box [voxels], each in [1, 2048], their product at most 2^28.
+  float voxel;             ///< Edge of a voxel [m], > 0.
+  const float* spheres;    ///< Four numbers each: middle and radius [voxels] from the low corner, in the box.
+  const uint32_t* colors;  ///< One each, bytes from the lowest: R, G and B of sRGB, and 255 for an opaque
+                           ///< surface, else a medium of which a voxel's length blocks a/255 of the light.
+  size_t sphere_count;     ///< Of `spheres` and `colors`, at most 2^23. Spheres must not overlap.
+} brume_tank_params;
+
+static inline brume_tank_params brume_tank_defaults(void) {
+  brume_tank_params params = {
+      sizeof(brume_tank_params), BRUME_NULL, BRUME_NULL, {1, 1, 1}, 0.005f, BRUME_NULL, BRUME_NULL, 0};
+  return params;
+}
+
+/// Loads or copies a tank, which is lit by brume_tank_lighting_defaults(). Errors: BRUME_ERROR_DATA for a
+/// file that is missing or damaged, BRUME_ERROR_LIMIT for one that is too large.
+BRUME_API brume_result brume_tank_create(brume_context* context, const brume_tank_params* params,
+                                         brume_tank** tank) BRUME_NOEXCEPT;
+/// What frames in flight show of it stays with their renderers.
+BRUME_API brume_result brume_tank_destroy(brume_tank* tank) BRUME_NOEXCEPT;
+
+/// A ball that shines evenly in all directions; invisible itself.
+typedef struct brume_tank_light {
+  brume_point position;  ///< [m], in the tank's space.
+  float radius;          ///< [m], [0, 1000]; 0: a point.
+  float intensity[3];    ///< [W/sr], [0, 10^9].
+} brume_tank_light;
+
+/// Light, glass and air of a tank, in its own space: metres around its middle, before it is scaled.
+typedef struct brume_tank_lighting {
+  uint32_t struct_size;
+  const void* next;
+  const brume_tank_light* lights;  ///< At most 16.
+  size_t light_count;              ///< Of `lights`.
+  float ambient[3];                ///< Radiance from all around, [0, 10^6].
+  uint32_t bounces;                ///< Most scatterings of a path, [0, 16]; 0: direct and ambient light only.
+  float fog_extinction;            ///< Inside of the box, along rays of the camera [1/m], [0, 10^6].
+  float fog_color[3];              ///< Radiance of deep fog, [0, 10^6].
+  float glass_index;               ///< Of refraction, [1, 4]; 0: no glass.
+  brume_point glass_position;      ///< Middle of an ellipsoid of glass.
+  brume_point glass_radii;         ///< Half its axes [m], [0.0001, 10000].
+  uint32_t photons;                ///< Paths of light through the glass, [0, 2^22]; 0: none comes through it.
+} brume_tank_lighting;
+
+static inline brume_tank_lighting brume_tank_lighting_defaults(void) {
+  brume_tank_lighting lighting = {sizeof(brume_tank_lighting),
+                                  BRUME_NULL,
+                                  BRUME_NULL,
+                                  0,
+                                  {0.6f, 0.6f, 0.6f},
+                                  2,
+                                  0.0f,
+                                  {0.02f, 0.05f, 0.08f},
+                                  0.0f,
+                                  {0.0f, 0.0f, 0.0f},
+                                  {0.5f, 0.5f, 0.5f},
+                                  0};
+  return lighting;
+}
+
+/// Lights a tank from the next frame on. Paths through glass are traced by all cores on this call, about a
+/// second for a million; without glass it is a copy.
+BRUME_API brume_result brume_tank_set_lighting(brume_tank* tank,
+                                               const brume_tank_lighting* lighting) BRUME_NOEXCEPT;
+
+typedef enum brume_tank_view {
+  BRUME_TANK_SPHERES = 0,  ///< The spheres themselves, by paths of light: exact, and noisy with few samples.
+  BRUME_TANK_VOXELS = 1    ///< The voxels painted with them, lit once: smooth, and about as large as a voxel.
+} brume_tank_view;
+
+/// A tank in a frame. It hides what is behind it and is hidden by the host's surfaces; smoke and volumes are
+/// drawn before it and behind it. No shadows fall from one on the other.
+typedef struct brume_shown_tank {
+  const brume_tank* tank;  ///< One may be shown several times.
+  /// Of the tank's space in the world: at right angles, right-handed, of one length, which scales the tank.
+  brume_point x_axis, y_axis, z_axis;
+  brume_point position;  ///< Of its middle [m].
+  uint32_t view;         ///< brume_tank_view
+  uint32_t samples;      ///< Paths of each pixel in this frame, [1, 64].
+  /// 1: the host's surfaces are those of the frame before; where camera, tank and light are, too, the samples
+  /// of all these frames are averaged.
+  uint32_t continues;
+} brume_shown_tank;
+
+static inline brume_shown_tank brume_shown_tank_defaults(const brume_tank* tank) {
+  brume_shown_tank shown = {tank,
+                            {1.0f, 0.0f, 0.0f},
+                            {0.0f, 1.0f, 0.0f},
+                            {0.0f, 0.0f, 1.0f},
+                            {0.0f, 0.0f, 0.0f},
+                            BRUME_TANK_SPHERES,
+                            1,
+                            0};
+  return shown;
+}
+
 // ---- Frames ----
 
 /// The camera of a frame.
@@ -427,12 +531,13 @@ typedef struct brume_frame_params {
   size_t volume_count;                ///< Of `volumes`.
   /// Lights for brume_renderer_shadows, by their number: those of the renderer, then those of the frame.
   uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
-  uint32_t shadow_light_count;  ///< [0, BRUME_MAX_SHADOW_LIGHTS].
-  brume_quality quality;        ///< What the frame may save.
-  const brume_shown_decal*
-      decals;             ///< At most 32; where they overlap, what they leave of the light multiplies.
-  size_t decal_count;     ///< Of `decals`.
-  brume_normals normals;  ///< Of the surfaces that they darken.
+  uint32_t shadow_light_count;      ///< [0, BRUME_MAX_SHADOW_LIGHTS].
+  brume_quality quality;            ///< What the frame may save.
+  const brume_shown_decal* decals;  ///< At most 32; what they leave of the light multiplies.
+  size_t decal_count;               ///< Of `decals`.
+  brume_normals normals;            ///< Of the surfaces that they darken.
+  const brume_shown_tank* tanks;    ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
+  size_t tank_count;                ///< Of `tanks`.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -461,23 +566,25 @@ static inline brume_frame_params brume_frame_defaults(void) {
       {0.0f, 0.0f, 0, 0.0f, 0.0f, 0},
       BRUME_NULL,
       0,
-      {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, BRUME_NORMALS_SIGNED, 0, 0}};
+      {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, BRUME_NORMALS_SIGNED, 0, 0},
+      BRUME_NULL,
+      0};
   return params;
 }
 
-/// Records the smoke of a field, as of its last update, and volumes in front of the host's surfaces, and
-/// blends them over the host's picture p: exposure * radiance + transmittance * p; with decals exposure *
+/// Records the smoke of a field, as of its last update, volumes and tanks in front of the host's surfaces,
+/// and blends them over the host's picture p: exposure * radiance + transmittance * p; with decals exposure *
 /// radiance + transmittance * (1 - occlusion) * p. `field` may be null: no smoke, and no level. Field,
-/// volumes and decals may change as soon as the function returns. Errors: BRUME_ERROR_MISMATCH for a field
-/// with other masks; BRUME_ERROR_LIMIT when the device has too little memory, or the decals of a frame more
-/// voxels than one image holds; BRUME_ERROR_DEVICE.
+/// volumes, decals and tanks may change as soon as the function returns. Errors: BRUME_ERROR_MISMATCH for a
+/// field with other masks; BRUME_ERROR_LIMIT when the device has too little memory, or the decals of a frame
+/// more voxels than one image holds; BRUME_ERROR_DEVICE.
 BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
 /// The smoke of the last recorded frame, for hosts that blend it themselves: half floats, premultiplied
 /// radiance and, in alpha, transmittance, in VK_IMAGE_LAYOUT_GENERAL, written by compute shaders.
-/// BRUME_ERROR_ORDER before the first frame; another image after brume_renderer_resize. Either pointer may be
-/// null.
+/// Tanks are part of it. BRUME_ERROR_ORDER before the first frame; another image after brume_renderer_resize,
+/// and where frames begin or end to have tanks. Either pointer may be null.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
 

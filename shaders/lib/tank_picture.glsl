@@ -1,7 +1,9 @@
-// The pixels of a picture of a tank: the mean of its samples.
+// The pixels of a picture of a tank: the mean of its samples. With TANK_OVER_SURFACES the tank is part of a frame: paths
+// end at its surfaces, and what is behind the tank is not in the picture, but how much of it is seen.
 #ifndef TANK_PICTURE_GLSL
 #define TANK_PICTURE_GLSL
-#include "lib/tank.glsl"
+#include "lib/tank_air.glsl"
+#include "lib/tank_glass.glsl"
 #include "lib/tank_samples.glsl"
 #include "shared/average.h"
 #include "shared/display.h"
@@ -10,6 +12,51 @@ layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_imag
 layout(binding = kBindRadianceSum, rgba32f) uniform image2D sum_image;
 layout(push_constant, scalar) uniform Samples { TankSamples samples; };
 
+/// What a path brings: radiance, and which fraction of that of the frame's surfaces behind the tank.
+struct Seen {
+  vec3 radiance;
+  float transmittance;
+};
+
+void add(inout Seen sum, Seen more) {
+  sum.radiance += more.radiance;
+  sum.transmittance += more.transmittance;
+}
+
+/// Ends a path that nothing has scattered.
+void see_behind(vec3 direction, vec3 weight, inout Seen seen) {
+#ifdef TANK_OVER_SURFACES
+  seen.transmittance = weight.x;
+#else
+  seen.radiance += weight * backdrop(direction);
+#endif
+}
+
+#ifdef TANK_OVER_SURFACES
+layout(binding = kBindTankSurfaces, r32f) uniform image2D surface_depth;
+
+/// Of the frame's surface in a pixel, along the camera's axis [voxels].
+float surface_distance(ivec2 px) {
+  const float depth = imageLoad(surface_depth, px).r;
+  return depth > 0.0 ? tank.surface_near / depth : kNoCrossing;
+}
+
+/// The same along a ray of the pixel.
+float along_ray(float distance, vec3 direction) {
+  return distance == kNoCrossing ? kNoCrossing : distance / dot(direction, tank.camera.forward);
+}
+
+/// The tank as a surface of the frame, where a ray of the pixel meets it.
+void store_surface(ivec2 px, vec3 direction, float t) {
+  if (t == kNoCrossing) return;
+  const float distance = max(t * dot(direction, tank.camera.forward), tank.surface_near);
+  imageStore(surface_depth, px, vec4(tank.surface_near / distance));
+}
+#else
+float surface_distance(ivec2 px) { return kNoCrossing; }
+float along_ray(float distance, vec3 direction) { return distance; }
+#endif
+
 /// Of this thread.
 ivec2 sampled_pixel() {
   return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, samples.first_row);
@@ -17,14 +64,22 @@ ivec2 sampled_pixel() {
 
 /// Of the samples of a pixel so far. Further ones are added to it one by one: the same bits in whatever portions they
 /// come.
-vec3 sum_so_far(ivec2 px) {
-  return samples.first > 0u ? imageLoad(sum_image, px).rgb : vec3(0.0);
+Seen sum_so_far(ivec2 px) {
+  if (samples.first == 0u) return Seen(vec3(0.0), 0.0);
+  const vec4 sum = imageLoad(sum_image, px);
+  return Seen(sum.rgb, sum.a);
 }
 
 /// Writes the sum of a pixel, and the mean.
-void store_sum(ivec2 px, vec3 sum) {
-  imageStore(sum_image, px, vec4(sum, 1.0));
-  imageStore(radiance_image, px, vec4(min(sum / float(samples.first + samples.count), 65504.0), 1.0));
+void store_sum(ivec2 px, Seen sum) {
+  const float count = float(samples.first + samples.count);
+  imageStore(sum_image, px, vec4(sum.radiance, sum.transmittance));
+  imageStore(radiance_image, px, vec4(min(sum.radiance / count, 65504.0), sum.transmittance / count));
+}
+
+/// Of the i-th sample of this dispatch.
+SampleSource sample_source(ivec2 px, uint i) {
+  return SampleSource(px, samples.index + samples.first + i, 0u);
 }
 
 /// The camera's ray of a sample, anywhere in its pixel and on the lens. The first of a pinhole is in the middle.

@@ -18,6 +18,7 @@ SHARED_BINDING(kBindVoxelIds, 72u);
 SHARED_BINDING(kBindVoxelLight, 73u);
 SHARED_BINDING(kBindTankLights, 74u);
 SHARED_BINDING(kBindWideVoxelIds, 75u);
+SHARED_BINDING(kBindTankSurfaces, 100u);
 
 /// A ball that shines evenly in all directions.
 struct TankLight {
@@ -64,8 +65,9 @@ struct TankConstants {
   uint light_count;
   uint bounces;  // most scattering events of a path
   PhotonGrid photons;
+  float surface_near;  // in a frame: its depth d is that of a surface at surface_near / d along the camera's axis
 };
-SHARED_SIZE(TankConstants, 192);
+SHARED_SIZE(TankConstants, 196);
 
 /// What is found for each voxel.
 struct SphereVoxelsParams {
@@ -80,8 +82,9 @@ struct TankSamples {
   uint first;  // before them; 0 begins a picture
   uint count;
   uint first_row;
+  uint index;  // of the picture's first sample: pictures of other ones have other noise
 };
-SHARED_SIZE(TankSamples, 12);
+SHARED_SIZE(TankSamples, 16);
 
 SHARED_END
 #endif

@@ -39,6 +39,8 @@ const char* kind_name(Kind kind) {
       return "volume";
     case Kind::decal:
       return "decal";
+    case Kind::tank:
+      return "tank";
   }
   return "unknown object";
 }

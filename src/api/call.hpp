@@ -62,7 +62,8 @@ enum class Kind : std::uint32_t {
   device,
   renderer,
   volume,
-  decal
+  decal,
+  tank
 };
 
 /// The start of what every handle points to.

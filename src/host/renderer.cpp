@@ -3,6 +3,7 @@
 #include "host/decals.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
+#include "host/tanks.hpp"
 #include "host/volumes.hpp"
 #include "shared/surface_import.h"
 
@@ -135,10 +136,18 @@ void reserve(brume_renderer& of, const brume_frame_params& params) {
   if (params.picture.view) of.layer.reserve(params.picture.format);
   if (params.shadow_light_count > 0) reserve_shadows(of);
   if (params.decal_count > 0) of.renderer->reserve_decals();
+  if (params.tank_count > 0 && !of.tanks)
+    of.tanks.emplace(of.device->context, of.recording, of.options.size_px);
+}
+
+/// Of the last frame: smoke, volumes and tanks.
+const gpu::Image& layers_of(const brume_renderer& of) {
+  return of.has_tanks ? of.tanks->layers() : of.renderer->media();
 }
 
 void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
-          const passes::HostDepthRange& range, passes::HostNormals normals) {
+          std::span<const render::TankInput> tanks, const passes::HostDepthRange& range,
+          passes::HostNormals normals) {
   reserve(of, params);
   render::Renderer& renderer = *of.renderer;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
@@ -147,6 +156,8 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
     of.shown_volume = volume;
   }
   of.has_shadows = false;
+  of.has_tanks = !tanks.empty();
+  if (of.tanks) of.tanks->plan(tanks, input.view.camera);
   const planning::FramePlan plan = renderer.plan(input);
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
@@ -154,7 +165,9 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const gpu::Image of_normals(
       {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
   if (params.normals.view) normals.image = &of_normals;
-  renderer.record_media_over(of.recording.recorder(), plan, {depth, range, normals});
+  renderer.record_media_over(of.recording.recorder(), plan,
+                             {depth, range, normals, of.has_tanks ? &*of.tanks : nullptr});
+  if (of.has_tanks) of.tanks->record_layers(of.recording.recorder(), renderer.media());
   if (params.shadow_light_count > 0) {
     draw_shadows(of, params, plan);
     of.has_shadows = true;
@@ -163,7 +176,7 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
   const gpu::Scope timed(of.recording.recorder(), "layer");
-  of.layer.record(of.recording.recorder(), {renderer.media(), renderer.occlusion(), params.picture.exposure},
+  of.layer.record(of.recording.recorder(), {layers_of(of), renderer.occlusion(), params.picture.exposure},
                   picture);
 }
 
@@ -185,16 +198,19 @@ void record(Call& call, brume_renderer& of, const brume_field* field, const brum
   check_shadow_lights(of, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
   add_decals(call, params, of);
+  const std::vector<render::TankInput> tanks = tanks_of(call, params);
   // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame;
   of.device->completed = params.completed;
   of.recording.begin(params.commands, params.frame, params.completed);
   try {
-    draw(of, params, input, range, normals);
+    draw(of, params, input, tanks, range, normals);
     of.recording.end();
   } catch (...) {
     // What it holds may be half of what it planned: the next frame makes another.
     of.renderer.reset();
+    of.tanks.reset();
+    of.has_tanks = false;
     of.shadows = {};
     of.has_shadows = false;
     of.recording.discard();
@@ -240,8 +256,11 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     const brume::gpu::Memory::Unlimited always(of.device->context.memory());
     try {
       if (of.renderer) of.renderer->resize(size_px);
+      if (of.tanks) of.tanks->resize(size_px);
     } catch (...) {
       of.renderer.reset();
+      of.tanks.reset();
+      of.has_tanks = false;
       throw;
     }
   });
@@ -281,8 +300,8 @@ brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image
     const brume_renderer& of = call.handle(renderer);
     call.read(of, [&] {
       if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      if (image) *image = of.renderer->media().handle();
-      if (view) *view = of.renderer->media().view();
+      if (image) *image = brume::host::layers_of(of).handle();
+      if (view) *view = brume::host::layers_of(of).view();
     });
   });
 }

@@ -24,36 +24,46 @@ struct TankInputs {
 struct TankTargets {
   const gpu::Image& sum;       ///< Floats.
   const gpu::Image& radiance;  ///< Half floats.
+  /// Depth of a frame's surfaces, of GBuffer::imported: paths end at them, alpha is what is seen of them, and
+  /// the tank becomes one. Null: behind the tank is its air.
+  const gpu::Image* surfaces = nullptr;
 };
 
 /// Exact spheres by paths of light (docs/aquaria-light.md).
 class TankSpheresPass {
  public:
   explicit TankSpheresPass(gpu::Context& context);
+  /// Makes the pipeline for a volume, outside of a recording.
+  void reserve(const TankVolume& volume, bool over_surfaces) { pipeline(volume, over_surfaces); }
   /// Adds samples to each pixel of at least `rows` rows; the first of a picture begins it.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const TankTargets& targets,
               const shared::TankSamples& samples, std::uint32_t rows);
 
  private:
-  const gpu::ComputePipeline& pipeline(const TankVolume& volume);
+  const gpu::ComputePipeline& pipeline(const TankVolume& volume, bool over_surfaces);
 
   gpu::Context& context_;
   gpu::Sampler nearest_;
-  /// Made when first needed: opaque or not, ids of 32 bits or 16, with ids or without.
-  std::array<std::optional<gpu::ComputePipeline>, 8> pipelines_;
+  /// Made when first needed: over surfaces or not, opaque or not, ids of 32 bits or 16, with ids or without.
+  std::array<std::optional<gpu::ComputePipeline>, 16> pipelines_;
 };
 
 /// The painted voxels with their light (TankLightPass).
 class TankVoxelsPass {
  public:
   explicit TankVoxelsPass(gpu::Context& context);
+  void reserve(bool over_surfaces) { pipeline(over_surfaces); }
   /// As TankSpheresPass.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const gpu::Image& voxel_light,
-              const TankTargets& targets, const shared::TankSamples& samples, std::uint32_t rows) const;
+              const TankTargets& targets, const shared::TankSamples& samples, std::uint32_t rows);
 
  private:
-  gpu::ComputePipeline pipeline_;
+  const gpu::ComputePipeline& pipeline(bool over_surfaces);
+
+  gpu::Context& context_;
   gpu::Sampler nearest_;
+  /// Made when first needed: over surfaces or not.
+  std::array<std::optional<gpu::ComputePipeline>, 2> pipelines_;
 };
 
 }  // namespace brume::passes

@@ -16,8 +16,8 @@ struct ToVoxels {
   glm::vec3 point(const glm::vec3& world) const { return world * per_metre + middle; }
 };
 
-shared::TankCamera tank_camera(const scene::Camera& camera, glm::uvec2 size_px, const ToVoxels& voxels) {
-  const shared::Camera pinhole = device_camera(camera, size_px);
+shared::TankCamera tank_camera(const shared::Camera& pinhole, const scene::Camera& camera,
+                               const ToVoxels& voxels) {
   shared::TankCamera lens{};
   lens.eye = voxels.point(pinhole.eye_world);
   lens.aperture = camera.lens.aperture * voxels.per_metre;
@@ -29,17 +29,12 @@ shared::TankCamera tank_camera(const scene::Camera& camera, glm::uvec2 size_px, 
   return lens;
 }
 
-}  // namespace
-
-TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
-                   const std::optional<scene::Camera>& camera) {
+/// Of all but the camera.
+TankPlan plan_tank_alone(const scene::TankScene& scene, const spheres::Tank& tank, double time,
+                         glm::uvec2 size_px) {
   const ToVoxels voxels(tank);
   TankPlan plan;
   shared::TankConstants& constants = plan.constants;
-  constants.camera =
-      tank_camera(camera ? *camera : scene::camera_at(scene, size_of(tank), time), size_px, voxels);
-  constants.camera.lens_points =
-      scene.lens_points == scene::LensPoints::rejection ? shared::kLensRejection : shared::kLensRemap;
   constants.air = {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient, scene.fog.color,
                    scene.fog.extinction / voxels.per_metre};
   if (scene.glass) {
@@ -59,6 +54,32 @@ TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, dou
                            light.color * (light.intensity * voxels.per_metre * voxels.per_metre)});
   }
   constants.light_count = static_cast<glm::uint>(plan.lights.size());
+  return plan;
+}
+
+}  // namespace
+
+TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
+                   const std::optional<scene::Camera>& camera) {
+  TankPlan plan = plan_tank_alone(scene, tank, time, size_px);
+  const scene::Camera from = camera ? *camera : scene::camera_at(scene, size_of(tank), time);
+  plan.constants.camera = tank_camera(device_camera(from, size_px), from, ToVoxels(tank));
+  plan.constants.camera.lens_points =
+      scene.lens_points == scene::LensPoints::rejection ? shared::kLensRejection : shared::kLensRemap;
+  return plan;
+}
+
+TankPlan plan_tank_in_frame(const scene::TankScene& scene, const spheres::Tank& tank,
+                            const TankPlacement& placement, const scene::Camera& camera, glm::uvec2 size_px) {
+  TankPlan plan = plan_tank_alone(scene, tank, 0, size_px);
+  shared::Camera pinhole = device_camera(camera, size_px);
+  const glm::mat3 tank_from_world = glm::transpose(placement.axes);
+  pinhole.eye_world = tank_from_world * (pinhole.eye_world - placement.position_world) / placement.scale;
+  pinhole.forward = tank_from_world * pinhole.forward;
+  pinhole.right = tank_from_world * pinhole.right;
+  pinhole.up = tank_from_world * pinhole.up;
+  plan.constants.camera = tank_camera(pinhole, camera, ToVoxels(tank));
+  plan.constants.surface_near = pinhole.near_z / (placement.scale * tank.voxel);
   return plan;
 }
 

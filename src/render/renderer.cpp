@@ -6,6 +6,7 @@
 #include "passes/blue_noise.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/lens.hpp"
+#include "render/tank_layer.hpp"
 
 namespace brume::render {
 namespace {
@@ -270,15 +271,11 @@ void Renderer::record_media_over(gpu::Recorder& recorder, const FramePlan& plan,
   record_light(recorder, plan, in, &surfaces);
   record_media(recorder, plan, in);
   record_accumulate(recorder, plan, in);
-  begin_decals(plan, true);
-  if (has_decals_) scope(recorder, "decals", [&] { record_decals_over(recorder, plan, surfaces.normals); });
 }
 
 void Renderer::record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host) {
-  if (host)
-    surface_import_->record(recorder, host->depth, host->range, plan.camera.near_z, targets_.gbuffer);
-  else
-    scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer);
+  if (!host) return scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer);
+  surface_import_->record(recorder, host->depth, host->range, plan.camera.near_z, targets_.gbuffer);
 }
 
 /// What later frames rely on, too: everything that the plan's history counts as updated.
@@ -296,6 +293,7 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
   scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
+  if (host) record_on_surfaces(recorder, plan, *host);
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
@@ -370,9 +368,16 @@ void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   occlusion_ = &decal_pass_->occlusion();
 }
 
+/// Decals are on the host's own surfaces, tanks are surfaces before them.
+void Renderer::record_on_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& host) {
+  begin_decals(plan, true);
+  if (has_decals_) scope(recorder, "decals", [&] { record_decals_on(recorder, plan, host.normals); });
+  if (host.tanks) host.tanks->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
+}
+
 /// Where none is in view the host has an image, too: of 0.
-void Renderer::record_decals_over(gpu::Recorder& recorder, const FramePlan& plan,
-                                  const passes::HostNormals& normals) {
+void Renderer::record_decals_on(gpu::Recorder& recorder, const FramePlan& plan,
+                                const passes::HostNormals& normals) {
   if (plan.decals.empty())
     decal_pass_->upload(recorder, {});
   else

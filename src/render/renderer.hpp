@@ -22,6 +22,7 @@ namespace brume::render {
 
 using planning::FrameInput;
 using planning::FramePlan;
+class TankLayer;
 
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
@@ -39,6 +40,7 @@ struct HostSurfaces {
   const gpu::Image& depth;  ///< Of the renderer's size.
   passes::HostDepthRange range;
   passes::HostNormals normals = {};  ///< For decals.
+  TankLayer* tanks = nullptr;        ///< Planned for this frame, surfaces, too; null: none.
 };
 
 class Renderer {
@@ -125,7 +127,8 @@ class Renderer {
   void upload_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void begin_decals(const FramePlan& plan, bool shows);
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
-  void record_decals_over(gpu::Recorder& recorder, const FramePlan& plan, const passes::HostNormals& normals);
+  void record_on_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& host);
+  void record_decals_on(gpu::Recorder& recorder, const FramePlan& plan, const passes::HostNormals& normals);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);
   void record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host);

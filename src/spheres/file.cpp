@@ -34,35 +34,6 @@ Failure refuse_tank(const std::string& name, const std::string& why, ErrorCode c
   return {code, name + ": " + why};
 }
 
-/// Nothing, or why it exceeds the limits of a tank.
-std::string beyond_limits(const Header& header) {
-  std::uint64_t voxels = 1;
-  for (const std::uint32_t axis : header.size) {
-    if (axis > kMostVoxelsPerAxis)
-      return "has " + std::to_string(axis) + " voxels along an axis; at most " +
-             std::to_string(kMostVoxelsPerAxis) + " are possible";
-    voxels *= axis;
-  }
-  if (voxels > kMostVoxels)
-    return "has " + std::to_string(voxels) + " voxels; at most " + std::to_string(kMostVoxels) +
-           " are possible";
-  if (header.count > kMostSpheres)
-    return "has " + std::to_string(header.count) + " spheres; at most " + std::to_string(kMostSpheres) +
-           " are possible";
-  return "";
-}
-
-bool is_inside(const Sphere& sphere, const glm::uvec3& size) {
-  const auto radius = double{sphere.radius};
-  if (!(radius > 0)) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = double{sphere.center[axis]};
-    // False also for numbers that are not finite.
-    if (!(at >= radius && at <= size[axis] - radius)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 bool is_tank_file(const std::filesystem::path& path) {
@@ -82,8 +53,9 @@ Result<Tank> parse_tank(std::span<const std::byte> bytes, const std::string& nam
   if (header.version != kVersion)
     return refuse_tank(name, "a .spheres file of version " + std::to_string(header.version) + ", not " +
                                  std::to_string(kVersion));
-  if (const std::string why = beyond_limits(header); !why.empty())
-    return refuse_tank(name, why, ErrorCode::resource_limit);
+  const glm::uvec3 size(header.size[0], header.size[1], header.size[2]);
+  if (const auto fits = check_tank_size(size, header.count); !fits)
+    return refuse_tank(name, fits.failure().message, fits.failure().code);
 
   // Length and checksum.
   const std::uint64_t length = sizeof header + header.count * kSphereBytes + kChecksumBytes;
@@ -97,21 +69,16 @@ Result<Tank> parse_tank(std::span<const std::byte> bytes, const std::string& nam
     return refuse_tank(name, "the file is damaged: its checksum is wrong");
 
   // The tank and its spheres.
-  Tank tank{{header.size[0], header.size[1], header.size[2]}, header.voxel, {}, {}};
-  if (std::min({tank.size.x, tank.size.y, tank.size.z}) == 0)
-    return refuse_tank(name, "the file is damaged: its tank has no voxels");
-  if (!std::isfinite(tank.voxel) || tank.voxel <= 0)
-    return refuse_tank(name, "the file is damaged: the edge of a voxel is not a number above 0");
+  Tank tank{size, header.voxel, {}, {}};
   tank.spheres.resize(header.count);
   tank.colors.resize(header.count);
-  if (header.count == 0) return tank;
-  std::memcpy(tank.spheres.data(), bytes.data() + sizeof header, header.count * sizeof(Sphere));
-  std::memcpy(tank.colors.data(), bytes.data() + sizeof header + header.count * sizeof(Sphere),
-              header.count * sizeof(Color));
-  for (std::size_t i = 0; i < tank.spheres.size(); ++i)
-    if (!is_inside(tank.spheres[i], tank.size))
-      return refuse_tank(
-          name, "the file is damaged: sphere " + std::to_string(i + 1) + " is not inside of the tank");
+  if (header.count > 0) {
+    std::memcpy(tank.spheres.data(), bytes.data() + sizeof header, header.count * sizeof(Sphere));
+    std::memcpy(tank.colors.data(), bytes.data() + sizeof header + header.count * sizeof(Sphere),
+                header.count * sizeof(Color));
+  }
+  if (const auto valid = check_tank(tank); !valid)
+    return refuse_tank(name, "the file is damaged: " + valid.failure().message);
   return tank;
 }
 

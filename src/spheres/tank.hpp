@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace brume::spheres {
 
 /// A ball. In voxels, from the low corner of the tank: voxel i covers [i, i + 1).
@@ -32,5 +34,11 @@ struct Tank {
   std::vector<Sphere> spheres;  ///< At most kMostSpheres.
   std::vector<Color> colors;    ///< One for each of `spheres`.
 };
+
+/// Fails with resource_limit for more than a tank may have, without the name of a file.
+Result<void> check_tank_size(const glm::uvec3& size, std::uint64_t spheres);
+/// The same, and fails with bad_input for a tank without voxels or with spheres that are not inside of it.
+/// That spheres do not overlap is not checked.
+Result<void> check_tank(const Tank& tank);
 
 }  // namespace brume::spheres

@@ -32,6 +32,7 @@ HostileFrames::~HostileFrames() {
   host_.wait();
   for (brume_volume* volume : volumes_) EXPECT_EQ(brume_volume_destroy(volume), BRUME_OK);
   for (brume_decal* decal : decals_) EXPECT_EQ(brume_decal_destroy(decal), BRUME_OK);
+  for (brume_tank* tank : tanks_) EXPECT_EQ(brume_tank_destroy(tank), BRUME_OK);
   for (brume_renderer* renderer : renderers_) EXPECT_EQ(brume_renderer_destroy(renderer), BRUME_OK);
   for (brume_device* device : devices_) EXPECT_EQ(brume_device_destroy(device), BRUME_OK);
 }
@@ -57,12 +58,12 @@ void HostileFrames::begin_frame(VkCommandBuffer commands, std::uint64_t frame, s
 }
 
 void HostileFrames::run_frames(int frames) {
-  static constexpr std::array<Step, 10> kSteps{
+  static constexpr std::array<Step, 12> kSteps{
       &HostileFrames::device,        &HostileFrames::renderer_create, &HostileFrames::renderer_change,
       &HostileFrames::renderer_read, &HostileFrames::volume_create,   &HostileFrames::volume_read,
-      &HostileFrames::decal_create,  &HostileFrames::record,          &HostileFrames::record,
-      &HostileFrames::record};
-  constexpr int kStepsOfFrame = 27;
+      &HostileFrames::decal_create,  &HostileFrames::tank_create,     &HostileFrames::tank_change,
+      &HostileFrames::record,        &HostileFrames::record,          &HostileFrames::record};
+  constexpr int kStepsOfFrame = 33;
   run(2000);  // states and fields
   for (int i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
     host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
@@ -277,6 +278,73 @@ brume_shown_volume HostileFrames::shown_volume() {
   return shown;
 }
 
+void HostileFrames::tank_create() {
+  if (tanks_.size() > 1 && !chance(0.2)) return;
+  static constexpr std::array kSpheres{3.0f, 3.0f, 3.0f, 2.0f, 7.0f, 5.0f, 4.0f, 1.5f};
+  static constexpr std::array kColors{0xffffffffu, 0x40808080u};
+  std::array spheres = kSpheres;
+  brume_tank_params params = brume_tank_defaults();
+  if (chance(0.05)) params.file = chance(0.5) ? "" : file_.c_str();
+  for (std::uint32_t& size : params.size) {
+    size = 9;
+    spoil(size, 0.03);
+  }
+  params.voxel = 0.2f;
+  spoil(params.voxel, 0.1);
+  for (float& number : spheres) spoil(number, 0.03);
+  params.spheres = chance(0.05) ? nullptr : spheres.data();
+  params.colors = chance(0.05) ? nullptr : kColors.data();
+  params.sphere_count = chance(0.05) ? below(3) : 2;
+  if (chance(0.05)) params.sphere_count = (std::size_t{1} << 23) + 1 + number(999);
+  auto out = output<brume_tank*>();
+  const brume_result result = brume_tank_create(handle(contexts_), spoiled(params), out.pointer());
+  if (!checked("brume_tank_create", result, out.untouched())) return;
+  tanks_.push_back(out.value());
+  if (tanks_.size() <= 3) return;
+  EXPECT_TRUE(checked("brume_tank_destroy", brume_tank_destroy(tanks_.front()), true));
+  tanks_.erase(tanks_.begin());
+}
+
+void HostileFrames::tank_change() {
+  brume_tank_lighting lighting = brume_tank_lighting_defaults();
+  std::array<brume_tank_light, 3> lights{};
+  for (brume_tank_light& light : lights) {
+    light = {point(3), within(0, 1), {1, 2, 3}};
+    spoil(light.radius);
+    spoil(light.intensity[1]);
+  }
+  lighting.lights = chance(0.05) ? nullptr : lights.data();
+  lighting.light_count = below(4);
+  if (chance(0.05)) lighting.light_count = 17 + number(99);
+  spoil(lighting.ambient[1]);
+  lighting.bounces = below(4);
+  spoil(lighting.bounces);
+  spoil(lighting.fog_extinction, 0.05);
+  spoil(lighting.fog_color[2], 0.05);
+  if (chance(0.3)) lighting.glass_index = 1.5f;
+  spoil(lighting.glass_index, 0.05);
+  lighting.glass_position = point(1);
+  spoil(lighting.glass_radii.y, 0.05);
+  lighting.photons = below(64);
+  if (chance(0.05)) lighting.photons = (1u << 22) + 1 + number(99);
+  checked("brume_tank_set_lighting", brume_tank_set_lighting(handle(tanks_), spoiled(lighting)), true);
+  checked("brume_tank_destroy", brume_tank_destroy(wrong_handle<brume_tank>()), true);
+}
+
+brume_shown_tank HostileFrames::shown_tank() {
+  brume_shown_tank shown = brume_shown_tank_defaults(handle(tanks_));
+  shown.position = point(9);
+  spoil(shown.x_axis.x);
+  if (chance(0.01)) shown.y_axis = shown.x_axis;
+  spoil(shown.z_axis.z);
+  shown.view = below(2);
+  spoil(shown.view);
+  shown.samples = 1 + below(2);
+  spoil(shown.samples);
+  shown.continues = below(2);
+  return shown;
+}
+
 void HostileFrames::spoil(brume_frame_params& params) {
   constexpr double kRarely = 0.006;
   for (float* value : {&params.camera.position.y,
@@ -312,6 +380,7 @@ void HostileFrames::spoil(brume_frame_params& params) {
   if (chance(0.02)) params.light_count = count(lights_.size());
   if (chance(0.02)) params.volume_count = count(shown_.size());
   if (chance(0.02)) params.decal_count = chance(0.5) ? 33 : count(shown_decals_.size());
+  if (chance(0.02)) params.tank_count = count(shown_tanks_.size());
   if (chance(kRarely)) params.bounces = 17 + number(9);
   spoil(params.shadow_lights[1], 0.02);
   if (chance(0.02)) params.shadow_light_count = 5 + number(9);
@@ -345,6 +414,10 @@ void HostileFrames::record() {
   params.decals = shown_decals_.data();
   params.decal_count = shown_decals_.size();
   params.normals = normals();
+  shown_tanks_.clear();
+  for (std::uint32_t i = below(3); i > 0 && !tanks_.empty(); --i) shown_tanks_.push_back(shown_tank());
+  params.tanks = shown_tanks_.data();
+  params.tank_count = shown_tanks_.size();
   params.shadow_light_count = lights_.empty() ? 0 : below(3);
   params.continues = below(2);
   params.seconds = within(0, 9);

@@ -31,6 +31,8 @@ class HostileFrames : public api::Hostile {
   void volume_create();
   void volume_read();
   void decal_create();
+  void tank_create();
+  void tank_change();
   void record();
 
   /// Mostly in a range.
@@ -41,6 +43,7 @@ class HostileFrames : public api::Hostile {
   brume_shown_volume shown_volume();
   brume_shown_decal shown_decal();
   brume_normals normals();
+  brume_shown_tank shown_tank();
   void spoil(brume_frame_params& params);
 
   gpu::HostApplication host_{1};
@@ -54,10 +57,12 @@ class HostileFrames : public api::Hostile {
   std::vector<brume_light> lights_;
   std::vector<brume_shown_volume> shown_;
   std::vector<brume_shown_decal> shown_decals_;
+  std::vector<brume_shown_tank> shown_tanks_;
   api::Pool<brume_device> devices_;
   api::Pool<brume_renderer> renderers_;
   api::Pool<brume_volume> volumes_;
   api::Pool<brume_decal> decals_;
+  api::Pool<brume_tank> tanks_;
 };
 
 }  // namespace brume::host

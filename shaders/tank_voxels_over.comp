@@ -1,0 +1,6 @@
+// As tank_voxels.comp, over the surfaces of a frame.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define TANK_OVER_SURFACES
+#include "lib/tank_voxels_main.glsl"

@@ -1,0 +1,175 @@
+#include "host/tanks.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "host/frame.hpp"
+#include "spheres/file.hpp"
+
+using namespace brume::api;
+
+namespace brume::host {
+namespace {
+
+constexpr std::size_t kMostTanks = 4;
+constexpr std::uint32_t kMostSamples = 64, kMostBounces = 16;
+constexpr std::uint32_t kMostPhotons = 1u << 22;
+
+spheres::Tank copied_tank(const brume_tank_params& params) {
+  spheres::Tank tank;
+  tank.size = {params.size[0], params.size[1], params.size[2]};
+  tank.voxel = params.voxel;
+  require(is_within(params.voxel, 1e-6f, 1e3f), "`voxel` must be from 10^-6 to 1000");
+  unwrap(spheres::check_tank_size(tank.size, params.sphere_count));
+  if (params.sphere_count == 0) return tank;
+  required(params.spheres, "spheres");
+  required(params.colors, "colors");
+  tank.spheres.resize(params.sphere_count);
+  for (std::size_t i = 0; i < tank.spheres.size(); ++i) {
+    const float* const sphere = params.spheres + 4 * i;
+    tank.spheres[i] = {{sphere[0], sphere[1], sphere[2]}, sphere[3]};
+  }
+  tank.colors.assign(params.colors, params.colors + params.sphere_count);
+  return tank;
+}
+
+std::shared_ptr<const render::TankContent> content_of(const brume_tank_params& params) {
+  auto content = std::make_shared<render::TankContent>();
+  if (params.file) {
+    require(params.sphere_count == 0, "`sphere_count` must be 0 beside a `file`");
+    content->tank = unwrap(spheres::load_tank(params.file), BRUME_ERROR_DATA);
+  } else {
+    content->tank = copied_tank(params);
+    if (const auto valid = spheres::check_tank(content->tank); !valid)
+      fail(result_of(valid.failure().code), "the tank: " + valid.failure().message);
+  }
+  content->bricks = spheres::list_bricks(content->tank);
+  return content;
+}
+
+scene::TankLight light_of(const brume_tank_light& light, std::size_t number) {
+  const std::string name = "light " + std::to_string(number);
+  scene::TankLight made;
+  made.position_world = position(light.position, (name + ".position").c_str());
+  made.radius = light.radius;
+  if (!is_within(made.radius, 0, 1000)) refuse(name + " must have a radius from 0 to 1000");
+  made.color = vec3_of(light.intensity);
+  made.intensity = 1;
+  if (!is_within(made.color, 0, 1e9f)) refuse(name + " must have an intensity from 0 to 10^9");
+  return made;
+}
+
+void add_glass(const brume_tank_lighting& lighting, scene::TankScene& scene) {
+  if (lighting.glass_index == 0) return;
+  require(is_within(lighting.glass_index, 1, 4), "`glass_index` must be from 1 to 4, or 0");
+  scene::TankGlass& glass = scene.glass.emplace();
+  glass.index = lighting.glass_index;
+  glass.position_world = position(lighting.glass_position, "glass_position");
+  glass.radii = vec3_of(lighting.glass_radii);
+  require(is_within(glass.radii, 1e-4f, 1e4f), "`glass_radii` must be from 0.0001 to 10000");
+}
+
+scene::TankScene scene_of(const brume_tank_lighting& lighting) {
+  scene::TankScene scene;
+  require(lighting.light_count <= scene::kMostTankLights, "at most 16 lights of a tank");
+  if (lighting.light_count > 0) required(lighting.lights, "lights");
+  for (std::size_t i = 0; i < lighting.light_count; ++i)
+    scene.lights.push_back(light_of(lighting.lights[i], i));
+  scene.sky.ambient = vec3_of(lighting.ambient);
+  require(is_within(scene.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
+  require(lighting.bounces <= kMostBounces, "`bounces` must be at most 16");
+  scene.bounces = lighting.bounces;
+  scene.fog.extinction = lighting.fog_extinction;
+  require(is_within(scene.fog.extinction, 0, 1e6f), "`fog_extinction` must be from 0 to 10^6");
+  scene.fog.color = vec3_of(lighting.fog_color);
+  require(is_within(scene.fog.color, 0, 1e6f), "`fog_color` must be from 0 to 10^6");
+  add_glass(lighting, scene);
+  require(lighting.photons <= kMostPhotons, "`photons` must be at most 2^22");
+  scene.photons = lighting.photons;
+  return scene;
+}
+
+std::shared_ptr<const render::TankLight> lit(const render::TankContent& content,
+                                             const brume_tank_lighting& lighting) {
+  auto light = std::make_shared<render::TankLight>();
+  light->scene = scene_of(lighting);
+  if (!light->scene.glass || lighting.photons == 0) return light;
+  const planning::TankPlan plan = planning::plan_tank(light->scene, content.tank, 0, glm::uvec2(1));
+  spheres::LightPathOptions options;
+  options.count = lighting.photons;
+  light->paths =
+      spheres::trace_light_paths(content.tank, content.bricks, planning::light_path_scene(plan), options);
+  return light;
+}
+
+planning::TankPlacement placement_of(const brume_shown_tank& shown, const std::string& name) {
+  planning::TankPlacement placement;
+  placement.position_world = position(shown.position, (name + ".position").c_str());
+  const glm::dvec3 x(vec3_of(shown.x_axis)), y(vec3_of(shown.y_axis)), z(vec3_of(shown.z_axis));
+  const double scale = glm::length(x);
+  constexpr double kTolerance = 1e-3;
+  const auto is_alike = [&](double length) { return std::abs(length - scale) <= kTolerance * scale; };
+  const auto is_across = [&](double dot) { return std::abs(dot) <= kTolerance * scale * scale; };
+  // False for what is not a number.
+  const bool fits = scale > 1e-6 && scale < 1e6 && is_alike(glm::length(y)) && is_alike(glm::length(z)) &&
+                    is_across(glm::dot(x, y)) && is_across(glm::dot(x, z)) && is_across(glm::dot(y, z)) &&
+                    glm::dot(glm::cross(x, y), z) > 0;
+  if (!fits) refuse(name + " must have right-handed axes at right angles, of one length");
+  // Exactly at right angles.
+  const glm::dvec3 right = x / scale, up = glm::normalize(y - glm::dot(y, right) * right);
+  placement.axes = {glm::vec3(right), glm::vec3(up), glm::vec3(glm::cross(right, up))};
+  placement.scale = static_cast<float>(scale);
+  return placement;
+}
+
+}  // namespace
+
+std::vector<render::TankInput> tanks_of(Call& call, const brume_frame_params& params) {
+  require(params.tank_count <= kMostTanks, "at most 4 tanks");
+  if (params.tank_count > 0) required(params.tanks, "tanks");
+  std::vector<render::TankInput> tanks;
+  for (std::size_t i = 0; i < params.tank_count; ++i) {
+    const brume_shown_tank& shown = params.tanks[i];
+    const std::string name = "tank " + std::to_string(i);
+    const brume_tank& tank = call.handle(shown.tank);
+    if (shown.view > BRUME_TANK_VOXELS) refuse(name + ": `view` must be a brume_tank_view");
+    if (shown.samples < 1 || shown.samples > kMostSamples)
+      refuse(name + ": `samples` must be from 1 to " + std::to_string(kMostSamples));
+    render::TankInput input{tank.content, nullptr, placement_of(shown, name),
+                            static_cast<scene::TankView>(shown.view), shown.samples,
+                            // What a picture may have is far below the numbers that remain.
+                            params.jitter_index % 4096 * kMostSamples, shown.continues != 0};
+    call.read(tank, [&] { input.light = tank.light; });
+    tanks.push_back(std::move(input));
+  }
+  return tanks;
+}
+
+}  // namespace brume::host
+
+extern "C" {
+
+brume_result brume_tank_create(brume_context* context, const brume_tank_params* params,
+                               brume_tank** tank) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_context& owner = call.handle(context);
+    required(tank, "tank");
+    auto content = brume::host::content_of(required_params(params, brume_tank_defaults()));
+    auto light = brume::host::lit(*content, brume_tank_lighting_defaults());
+    create(tank, owner.settings, std::move(content), std::move(light));
+  });
+}
+
+brume_result brume_tank_destroy(brume_tank* tank) BRUME_NOEXCEPT {
+  return destroy(__func__, tank);
+}
+
+brume_result brume_tank_set_lighting(brume_tank* tank, const brume_tank_lighting* lighting) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_tank& of = call.handle(tank);
+    auto light = brume::host::lit(*of.content, required_params(lighting, brume_tank_lighting_defaults()));
+    call.change(of, [&] { of.light = std::move(light); });
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,105 @@
+#include "render/tank_layer.hpp"
+
+#include <algorithm>
+
+#include "core/same_bytes.hpp"
+#include "planning/device_camera.hpp"
+#include "planning/view_frustum.hpp"
+
+namespace brume::render {
+namespace {
+
+/// For how many frames a tank that is not shown stays on the device.
+constexpr std::uint64_t kKeptFrames = 256;
+/// Of a picture: floats count them, and more change nothing.
+constexpr std::uint32_t kMostSamples = 1u << 16;
+
+bool same_picture(const planning::TankPlan& a, const planning::TankPlan& b) {
+  return same_bytes(a.constants, b.constants) &&
+         std::ranges::equal(a.lights, b.lights, same_bytes<shared::TankLight>);
+}
+
+/// Glass may be anywhere.
+bool may_be_seen(const TankInput& tank, const planning::ViewFrustum& frustum) {
+  const float radius = 0.5f * tank.placement.scale * glm::length(planning::size_of(tank.content->tank));
+  return tank.light->scene.glass || frustum.may_intersect({tank.placement.position_world, radius});
+}
+
+}  // namespace
+
+TankLayer::TankLayer(gpu::Context& context, gpu::CommandStream& stream, glm::uvec2 size_px)
+    : context_(context), stream_(stream), layer_pass_(context), size_px_(size_px) {
+  resize(size_px);
+}
+
+void TankLayer::resize(glm::uvec2 size_px) {
+  // Images of the frame's size are never refused.
+  const gpu::Memory::Unlimited always(context_.memory());
+  size_px_ = size_px;
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  layers_ = gpu::Image(context_, info);
+  for (Slot& slot : slots_) slot.sampler.resize(size_px);
+}
+
+/// That of the same tank which no other of this frame has, or a new one.
+TankLayer::Slot& TankLayer::slot_of(const TankInput& tank) {
+  const auto found = std::ranges::find_if(
+      slots_, [&](const Slot& slot) { return slot.content == tank.content && slot.frame < frame_; });
+  if (found != slots_.end()) return *found;
+  Slot& made = slots_.emplace_back(context_, stream_, *tank.content);
+  made.content = tank.content;
+  const gpu::Memory::Unlimited always(context_.memory());
+  made.sampler.resize(size_px_);
+  return made;
+}
+
+void TankLayer::plan(const TankInput& tank, const scene::Camera& camera) {
+  Slot& slot = slot_of(tank);
+  const bool continues = tank.continues && slot.frame + 1 == frame_ && slot.light == tank.light &&
+                         slot.view == tank.view && slot.sampler.samples() > 0;
+  slot.frame = frame_;
+  shown_.push_back(&slot);
+  planning::TankPlan plan =
+      planning::plan_tank_in_frame(tank.light->scene, tank.content->tank, tank.placement, camera, size_px_);
+  if (slot.light != tank.light) slot.sampler.set_photons(tank.light->paths);
+  slot.light = tank.light;
+  if (slot.view != tank.view) slot.sampler.set_kind(tank.view);
+  slot.view = tank.view;
+  if (!continues || !same_picture(plan, slot.plan)) {
+    slot.sampler.set_view(plan, tank.index);
+    slot.plan = std::move(plan);
+  }
+  slot.samples = std::min(tank.samples, kMostSamples - slot.sampler.samples());
+}
+
+void TankLayer::plan(std::span<const TankInput> tanks, const scene::Camera& camera) {
+  ++frame_;
+  shown_.clear();
+  std::erase_if(slots_, [&](const Slot& slot) { return slot.frame + kKeptFrames < frame_; });
+  std::vector<const TankInput*> far_first;
+  for (const TankInput& tank : tanks) far_first.push_back(&tank);
+  const auto distance = [&](const TankInput* tank) {
+    return glm::distance(tank->placement.position_world, camera.position_world);
+  };
+  std::ranges::stable_sort(far_first, std::ranges::greater(), distance);
+  const planning::ViewFrustum frustum(planning::device_camera(camera, size_px_));
+  for (const TankInput* tank : far_first)
+    if (may_be_seen(*tank, frustum)) plan(*tank, camera);
+}
+
+void TankLayer::record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth,
+                                const gpu::Image& blue_noise) {
+  for (Slot* slot : shown_) slot->sampler.record_samples(recorder, blue_noise, slot->samples, &depth);
+}
+
+void TankLayer::record_layers(gpu::Recorder& recorder, const gpu::Image& media) {
+  layer_pass_.begin(recorder, layers_);
+  for (const Slot* slot : shown_) layer_pass_.add(recorder, slot->sampler.radiance(), layers_);
+  layer_pass_.add(recorder, media, layers_);
+}
+
+}  // namespace brume::render

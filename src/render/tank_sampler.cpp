@@ -1,0 +1,134 @@
+#include "render/tank_sampler.hpp"
+
+#include <algorithm>
+
+#include "core/same_bytes.hpp"
+
+namespace brume::render {
+namespace {
+
+gpu::Image picture_image(gpu::Context& context, glm::uvec2 size_px, VkFormat format) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+}  // namespace
+
+TankSampler::TankSampler(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
+                         const spheres::BrickLists& lists, bool with_ids)
+    : context_(context),
+      stream_(stream),
+      volume_(context, stream, tank, lists),
+      spheres_pass_(context),
+      constants_(context, sizeof(shared::TankConstants),
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+  gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
+  set_photons({});
+  if (with_ids) {
+    volume_.add_ids(context);
+    find_voxels();
+  }
+}
+
+void TankSampler::resize(glm::uvec2 size_px) {
+  samples_ = rows_ = 0;
+  sum_ = picture_image(context_, size_px, VK_FORMAT_R32G32B32A32_SFLOAT);
+  radiance_ = picture_image(context_, size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
+}
+
+void TankSampler::set_kind(scene::TankView kind) {
+  samples_ = rows_ = 0;
+  kind_ = kind;
+  if (kind != scene::TankView::voxels || voxels_) return;
+  volume_.add_colors(context_);
+  voxels_.emplace(context_, volume_.size);
+  find_voxels();
+}
+
+void TankSampler::find_voxels() {
+  if (!sphere_voxels_pass_) sphere_voxels_pass_.emplace(context_);
+  stream_.run([&](gpu::Recorder& recorder) {
+    const gpu::Scope scope(recorder, "sphere_voxels");
+    sphere_voxels_pass_->record(recorder, volume_);
+  });
+}
+
+void TankSampler::set_lighting(scene::TankLighting lighting) {
+  samples_ = rows_ = 0;
+  lighting_ = lighting;
+  if (voxels_) voxels_->is_lit = false;
+}
+
+void TankSampler::set_view(const planning::TankPlan& plan, std::uint32_t index) {
+  BRUME_ASSERT(plan.lights.size() <= scene::kMostTankLights, "too many lights");
+  const bool same_light = plan.constants.air.ambient == plan_.constants.air.ambient &&
+                          std::ranges::equal(plan.lights, plan_.lights, same_bytes<shared::TankLight>);
+  if (voxels_ && !same_light) voxels_->is_lit = false;
+  plan_ = plan;
+  samples_ = rows_ = 0;
+  index_ = index;
+  if (kind_ == scene::TankView::voxels && !voxels_->is_lit)
+    voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
+}
+
+void TankSampler::set_photons(const spheres::LightPaths& paths) {
+  samples_ = rows_ = 0;
+  replace_photons(paths);
+}
+
+void TankSampler::replace_photons(const spheres::LightPaths& paths) {
+  photon_grid_ = paths.photons.empty() ? shared::PhotonGrid{0, 0} : paths.grid;
+  passes::upload_list(context_, stream_, photons_, paths.photons);
+  passes::upload_list(context_, stream_, photon_cells_, paths.cells);
+}
+
+void TankSampler::record_upload(gpu::Recorder& recorder) {
+  shared::TankConstants constants = plan_.constants;
+  constants.photons = photon_grid_;
+  recorder.upload(constants_, 0, std::as_bytes(std::span(&constants, 1)));
+  if (!plan_.lights.empty())
+    recorder.upload(lights_, 0, std::as_bytes(std::span<const shared::TankLight>(plan_.lights)));
+}
+
+void TankSampler::record_light(gpu::Recorder& recorder) {
+  if (voxels_->is_lit) return;
+  voxels_->light_pass.record(recorder, volume_, voxels_->light, plan_.constants.air.ambient);
+  voxels_->is_lit = true;
+}
+
+void TankSampler::record_dispatch(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
+                                  std::uint32_t rows, const gpu::Image* surfaces) {
+  record_upload(recorder);
+  if (kind_ == scene::TankView::voxels) record_light(recorder);
+  const passes::TankInputs inputs{volume_, constants_, lights_, photons_, photon_cells_, blue_noise};
+  const passes::TankTargets targets{sum_, radiance_, surfaces};
+  const shared::TankSamples samples{samples_, count, rows_, index_};
+  const gpu::Scope scope(recorder, "tank");
+  if (kind_ == scene::TankView::voxels)
+    voxels_->pass.record(recorder, inputs, voxels_->light, targets, samples, rows);
+  else
+    spheres_pass_.record(recorder, inputs, targets, samples, rows);
+}
+
+void TankSampler::record_samples(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
+                                 const gpu::Image* surfaces) {
+  BRUME_ASSERT(rows_ == 0, "a sample is incomplete");
+  record_dispatch(recorder, blue_noise, count, sum_.info().size.y, surfaces);
+  samples_ += count;
+}
+
+void TankSampler::record_rows(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t rows) {
+  const std::uint32_t height = sum_.info().size.y;
+  BRUME_ASSERT(rows > 0 && rows_ + rows <= height && (rows % kRows == 0 || rows_ + rows == height),
+               "rows that are no multiple of a workgroup's");
+  record_dispatch(recorder, blue_noise, 1, rows, nullptr);
+  rows_ += rows;
+  if (rows_ < height) return;
+  rows_ = 0;
+  ++samples_;
+}
+
+}  // namespace brume::render

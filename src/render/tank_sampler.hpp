@@ -1,0 +1,90 @@
+// Samples of a tank's picture on a device, which are added up: over its own air, or over the surfaces of a
+// frame.
+#pragma once
+
+#include <optional>
+
+#include "passes/tank.hpp"
+#include "passes/tank_light.hpp"
+#include "planning/tank_plan.hpp"
+#include "scene/tank_scene.hpp"
+#include "spheres/light_paths.hpp"
+
+namespace brume::render {
+
+class TankSampler {
+ public:
+  /// Of a workgroup: what parts of a sample are multiples of.
+  static constexpr std::uint32_t kRows = 8;
+
+  /// Uploads the tank; resize must follow. `context` and `stream` must outlive it, `tank` and its `lists`
+  /// need not. Throws resource_limit when the device has too little memory.
+  /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
+  /// and slower on every device so far (docs/performance.md).
+  TankSampler(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
+              const spheres::BrickLists& lists, bool with_ids = false);
+
+  // When the device is done with what was recorded before; all throw resource_limit, and the picture begins
+  // again but for replace_photons.
+  /// Pictures of another size.
+  void resize(glm::uvec2 size_px);
+  /// What stands for the spheres from the next picture on; voxels need more memory.
+  void set_kind(scene::TankView kind);
+  /// How voxels are lit from the next picture on.
+  void set_lighting(scene::TankLighting lighting);
+  /// What the samples from the next one on show. `index`: of the first one; those of other indices have other
+  /// noise.
+  void set_view(const planning::TankPlan& plan, std::uint32_t index = 0);
+  /// Light that comes through the glass, from the next picture on: that of the view's lights.
+  void set_photons(const spheres::LightPaths& paths);
+  /// Other paths of the same light, for the samples from now on: the picture goes on.
+  void replace_photons(const spheres::LightPaths& paths);
+
+  /// Records `count` more samples of each pixel. `surfaces`: as passes::TankTargets.
+  void record_samples(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
+                      const gpu::Image* surfaces = nullptr);
+  /// Records a part of one more sample of each pixel: as many rows, from the top to the bottom; with the last
+  /// ones the sample is complete.
+  void record_rows(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t rows);
+  /// So far, of every pixel.
+  std::uint32_t samples() const { return samples_; }
+  /// Of one more sample.
+  std::uint32_t rows() const { return rows_; }
+
+  const gpu::Image& radiance() const { return radiance_; }  ///< Half floats; the mean of all samples.
+  const gpu::Image& sum() const { return sum_; }            ///< Floats: of the radiance of all samples.
+  const passes::TankVolume& volume() const { return volume_; }
+
+ private:
+  void find_voxels();
+  void record_upload(gpu::Recorder& recorder);
+  void record_light(gpu::Recorder& recorder);
+  void record_dispatch(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
+                       std::uint32_t rows, const gpu::Image* surfaces);
+
+  /// What the voxel view needs besides the tank's volume.
+  struct Voxels {
+    Voxels(gpu::Context& context, const glm::ivec3& size)
+        : light_pass(context), pass(context), light(passes::make_voxel_light(context, glm::uvec3(size))) {}
+    passes::TankLightPass light_pass;
+    passes::TankVoxelsPass pass;
+    gpu::Image light;
+    bool is_lit = false;
+  };
+
+  gpu::Context& context_;
+  gpu::CommandStream& stream_;
+  passes::TankVolume volume_;
+  passes::TankSpheresPass spheres_pass_;
+  std::optional<passes::SphereVoxelsPass> sphere_voxels_pass_;  ///< From the first need of voxels on.
+  std::optional<Voxels> voxels_;                                ///< From the first picture of voxels on.
+  gpu::Image sum_, radiance_;
+  gpu::Buffer constants_, lights_, photons_, photon_cells_;
+  planning::TankPlan plan_;
+  shared::PhotonGrid photon_grid_{0, 0};
+  scene::TankView kind_ = scene::TankView::spheres;
+  scene::TankLighting lighting_ = scene::TankLighting::maps;
+  std::uint32_t samples_ = 0, rows_ = 0, index_ = 0;
+};
+
+}  // namespace brume::render
