@@ -43,7 +43,8 @@ class ExhaustFrame {
   void use_particles(std::uint32_t count) {
     const grids::SliceAtlas atlas =
         grids::load_slice_atlas(scene_file("thruster/thruster.json")).value_or_throw();
-    frame_.input().slices = std::make_shared<std::vector<grids::DenseVolume>>(1, atlas.channels);
+    frame_.input().slices = std::make_shared<const grids::DenseVolumes>(
+        1, std::make_shared<const grids::DenseVolume>(atlas.channels));
     const Box<double>& box = atlas.channels.front().box;
     planning::ParticleInput particles;
     particles.world_from_uvw =

@@ -33,7 +33,7 @@ float size_of_carried(const scenario::Scenario& scenario, const scene::Carrier& 
   for (std::size_t i = 0; i < timeline.decals.size() && box.empty(); ++i)
     if (timeline.decals[i].carrier == carrier.name) {
       const scenario::SliceVolume& slices = scenario.slices.of_decals[i];
-      const Box<double>& grid = (*scenario.slices.volumes)[slices.volume].front().box;
+      const Box<double>& grid = (*scenario.slices.volumes)[slices.volume]->front().box;
       box = scenario::transformed(scenario::world_from_file({}, timeline.decals[i], 0) * slices.file_from_box,
                                   {glm::vec3(grid.low), glm::vec3(grid.high)});
     }

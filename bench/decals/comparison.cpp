@@ -29,7 +29,7 @@ DecalBox decal_box(const scenario::Scenario& scenario, double seconds) {
   if (scenario.timeline.decals.empty()) throw Error(ErrorCode::bad_input, "the timeline has no [[decal]]");
   const scene::DecalOptions& options = scenario.timeline.decals.front();
   const scenario::SliceVolume& slices = scenario.slices.of_decals.front();
-  const Box<double>& box = (*scenario.slices.volumes)[slices.volume].front().box;
+  const Box<double>& box = (*scenario.slices.volumes)[slices.volume]->front().box;
   const glm::dmat4 world_from_box(scenario::world_from_file(scenario.timeline.carriers, options, seconds) *
                                   slices.file_from_box);
   glm::dmat4 box_from_uvw(1);

@@ -1,6 +1,6 @@
-// The C interface of what frames show besides smoke: volumes of files and tanks of spheres. Each is made
-// once, and shown in any frame of any renderer (brume_vulkan.h, which includes this header). Library:
-// libbrume.
+// The C interface of what frames show besides smoke: volumes of files, decals of baked occlusion, and tanks of
+// spheres. Each is made once, and shown in any frame of any renderer (brume_vulkan.h, which includes this
+// header). Library: libbrume.
 //
 // Everything that brume.h says of results, handles, threads and structs holds here.
 #ifndef BRUME_BRUME_ASSETS_H
@@ -13,6 +13,7 @@ extern "C" {
 #endif
 
 typedef struct brume_volume brume_volume;
+typedef struct brume_decal brume_decal;
 typedef struct brume_tank brume_tank;
 
 // ---- Volumes ----
@@ -104,6 +105,74 @@ static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume*
   return shown;
 }
 
+// ---- Decals ----
+
+/// Baked occlusion around a mesh: how much it hides of the hemisphere above what faces up, along y of the
+/// box, and above what faces down. Of a file (`brume bake occlusion`, then `brume convert`), or of
+/// arrays.
+typedef struct brume_decal_params {
+  uint32_t struct_size;
+  const void* next;
+  const char* file;  ///< As brume_volume_params::file, one frame; null: the arrays.
+  /// Name of a grid for both directions; null or empty: the grids "up" and "down", or else the first grid.
+  const char* grid;
+  /// Where `file` is null: size[0] * size[1] * size[2] finite numbers, 0: nothing is hidden, 1: all; voxel
+  /// (i, j, k) is i + size[0] * (j + size[1] * k). They are copied.
+  const float* up;
+  const float* down;  ///< The same of what faces down; null: as `up`.
+  uint32_t size[3];   ///< Voxels along x, y and z, at least 1; 2^26 in all at most.
+  brume_point low;    ///< Of the box of all voxels, in the decal's space.
+  brume_point high;   ///< Above `low` along each axis.
+} brume_decal_params;
+
+static inline brume_decal_params brume_decal_defaults(void) {
+  brume_decal_params params = {sizeof(brume_decal_params),
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               BRUME_NULL,
+                               {0, 0, 0},
+                               {-1.0f, -1.0f, -1.0f},
+                               {1.0f, 1.0f, 1.0f}};
+  return params;
+}
+
+/// Loads a decal. Errors: BRUME_ERROR_DATA as brume_volume_create; BRUME_ERROR_LIMIT for too many voxels.
+BRUME_API brume_result brume_decal_create(brume_context* context, const brume_decal_params* params,
+                                          brume_decal** decal) BRUME_NOEXCEPT;
+/// What frames in flight show of it stays with their renderers.
+BRUME_API brume_result brume_decal_destroy(brume_decal* decal) BRUME_NOEXCEPT;
+
+/// A decal in a frame: where it is and how it darkens. Its box must lie within 10^6 m of the world's origin
+/// and have edges of at least 10^-6 m.
+typedef struct brume_shown_decal {
+  const brume_decal* decal;            ///< One may be shown several times.
+  brume_point x_axis, y_axis, z_axis;  ///< Of its space in the world; they must span space.
+  brume_point position;                ///< Of its origin [m].
+  float strength;                      ///< Fraction of the occlusion that darkens, [0, 1].
+  float gamma;       ///< Exponent of the occlusion in the middle of y; below 1 darkens, [0.1, 10].
+  float correction;  ///< How much of `gamma` applies there, [0, 1].
+  float falloff;     ///< How fast that fades towards the ends of y, [0, 100].
+  float fade;        ///< Part of the box, at each side, over which the decal fades out, [0, 0.5].
+  float scatter;     ///< How far noise scatters the samples [voxels], [0, 4].
+} brume_shown_decal;
+
+static inline brume_shown_decal brume_shown_decal_defaults(const brume_decal* decal) {
+  brume_shown_decal shown = {decal,
+                             {1.0f, 0.0f, 0.0f},
+                             {0.0f, 1.0f, 0.0f},
+                             {0.0f, 0.0f, 1.0f},
+                             {0.0f, 0.0f, 0.0f},
+                             1.0f,
+                             1.0f,
+                             1.0f,
+                             1.0f,
+                             0.05f,
+                             0.5f};
+  return shown;
+}
+
 // ---- Tanks of spheres ----
 
 /// A box of voxels that holds balls of colour: a file, or arrays.
@@ -187,9 +256,9 @@ typedef struct brume_shown_tank {
   const brume_tank* tank;              ///< One may be shown several times.
   brume_point x_axis, y_axis, z_axis;  ///< Of the tank's space in the world: at right angles, right-handed,
                                        ///< of one length, which scales the tank.
-  brume_point position;  ///< Of its middle [m].
-  uint32_t view;         ///< brume_tank_view
-  uint32_t samples;      ///< Paths of each pixel in this frame, [1, 64].
+  brume_point position;                ///< Of its middle [m].
+  uint32_t view;                       ///< brume_tank_view
+  uint32_t samples;                    ///< Paths of each pixel in this frame, [1, 64].
   /// 1: the host's surfaces are those of the frame before; where camera, tank and light are, too, the samples
   /// of all these frames are averaged.
   uint32_t continues;

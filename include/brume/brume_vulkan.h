@@ -3,7 +3,7 @@
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in the host's command buffer
-//   context --> volume, tank ---------'
+//   context --> volume, decal, tank --'
 //
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
@@ -183,6 +183,28 @@ typedef struct brume_depth {
   uint32_t reversed;     ///< 1: the depth is 1 at near_plane and 0 at far_plane.
 } brume_depth;
 
+typedef enum brume_normal_encoding {
+  BRUME_NORMALS_SIGNED = 0,    ///< x, y and z in r, g and b, of any length.
+  BRUME_NORMALS_UNSIGNED = 1,  ///< 2 rgb - 1 is that.
+  /// r and g in [-1, 1] are x and y of the octahedron |x| + |y| + |z| = 1; its half of z < 0 is folded over
+  /// the other: (x, y) becomes ((1 - |y|) sign(x), (1 - |x|) sign(y)).
+  BRUME_NORMALS_OCTAHEDRAL = 2,
+  BRUME_NORMALS_OCTAHEDRAL_UNSIGNED = 3  ///< 2 rg - 1 is that.
+} brume_normal_encoding;
+
+/// The normals of the surfaces that the host drew, which decals darken.
+typedef struct brume_normals {
+  /// Of the renderer's size, of a format that shaders read as floats, with VK_IMAGE_USAGE_SAMPLED_BIT; null:
+  /// the normals are those of the planes through the depths of neighbouring pixels, and face the camera. So
+  /// is one that is 0 or not finite.
+  VkImageView view;
+  VkImageLayout layout;  ///< One in which it can be sampled. Stage: compute shaders, sampled reads.
+  uint32_t encoding;     ///< brume_normal_encoding.
+  uint32_t of_view;      ///< 1: along the camera's right, up, and towards the viewer; 0: of the world.
+  /// 1: decals do not darken surfaces where its alpha is 0: what moves, and what they were baked of.
+  uint32_t alpha_receives;
+} brume_normals;
+
 /// The host's picture, which smoke is blended over.
 typedef struct brume_picture {
   VkImageView view;  ///< Of the renderer's size, with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT; null: none.
@@ -229,7 +251,7 @@ typedef struct brume_frame_params {
   uint64_t completed;        ///< The last frame whose commands the device has completed; 0: none.
   brume_camera camera;       ///< That of the depth and the picture.
   brume_depth depth;         ///< What hides smoke.
-  brume_picture picture;     ///< What smoke is blended over.
+  brume_picture picture;     ///< What smoke is blended over, and decals darken.
   brume_smoke_look look;     ///< Extinction is the field's: what players see is what queries find.
   double seconds;            ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
   /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
@@ -247,10 +269,13 @@ typedef struct brume_frame_params {
   size_t volume_count;                ///< Of `volumes`.
   /// Lights for brume_renderer_shadows, by their number: those of the renderer, then those of the frame.
   uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
-  uint32_t shadow_light_count;    ///< [0, BRUME_MAX_SHADOW_LIGHTS].
-  brume_quality quality;          ///< What the frame may save.
-  const brume_shown_tank* tanks;  ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
-  size_t tank_count;              ///< Of `tanks`.
+  uint32_t shadow_light_count;      ///< [0, BRUME_MAX_SHADOW_LIGHTS].
+  brume_quality quality;            ///< What the frame may save.
+  const brume_shown_decal* decals;  ///< At most 32; what they leave of the light multiplies.
+  size_t decal_count;               ///< Of `decals`.
+  brume_normals normals;            ///< Of the surfaces that they darken.
+  const brume_shown_tank* tanks;    ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
+  size_t tank_count;                ///< Of `tanks`.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -278,15 +303,19 @@ static inline brume_frame_params brume_frame_defaults(void) {
       0,
       {0.0f, 0.0f, 0, 0.0f, 0.0f, 0},
       BRUME_NULL,
+      0,
+      {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, BRUME_NORMALS_SIGNED, 0, 0},
+      BRUME_NULL,
       0};
   return params;
 }
 
 /// Records the smoke of a field, as of its last update, volumes and tanks in front of the host's surfaces,
-/// and blends them over the host's picture p: exposure * radiance + transmittance * p. `field` may be null:
-/// no smoke, and no level. Field, volumes and tanks may change as soon as the function returns. Errors:
-/// BRUME_ERROR_MISMATCH for a field with other masks; BRUME_ERROR_LIMIT when the device has too little
-/// memory; BRUME_ERROR_DEVICE.
+/// and blends them over the host's picture p: exposure * radiance + transmittance * p; with decals exposure *
+/// radiance + transmittance * (1 - occlusion) * p. `field` may be null: no smoke, and no level. Field,
+/// volumes, decals and tanks may change as soon as the function returns. Errors: BRUME_ERROR_MISMATCH for a
+/// field with other masks; BRUME_ERROR_LIMIT when the device has too little memory, or the decals of a frame
+/// more voxels than one image holds; BRUME_ERROR_DEVICE.
 BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
@@ -310,6 +339,13 @@ BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer,
 /// brume_renderer_resize. Either pointer may be null.
 BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                               VkImageView* view) BRUME_NOEXCEPT;
+
+/// The occlusion of the last frame by its decals: half floats, in R which fraction of the light that it
+/// reflects the surface of the pixel loses, 0 without a surface; the other channels are the renderer's own.
+/// In VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. BRUME_ERROR_ORDER unless the last frame had
+/// decals, in view or not; another image after each frame. Either pointer may be null.
+BRUME_API brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
+                                                VkImageView* view) BRUME_NOEXCEPT;
 
 /// The time that a pass took.
 typedef struct brume_timing {

@@ -33,6 +33,18 @@ class Volume : public detail::Handle<brume_volume, brume_volume_destroy> {
   brume_shown_volume shown() const { return brume_shown_volume_defaults(get()); }
 };
 
+/// A brume_decal.
+class Decal : public detail::Handle<brume_decal, brume_decal_destroy> {
+ public:
+  /// brume_decal_create.
+  Decal(const Context& context, const brume_decal_params& params)
+      : Handle(detail::created<brume_decal>(
+            [&](brume_decal** out) { return brume_decal_create(context.get(), &params, out); })) {}
+
+  /// brume_shown_decal_defaults.
+  brume_shown_decal shown() const { return brume_shown_decal_defaults(get()); }
+};
+
 /// A brume_tank.
 class Tank : public detail::Handle<brume_tank, brume_tank_destroy> {
  public:
@@ -100,6 +112,8 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   Image smoke() const { return image(brume_renderer_smoke); }
   /// brume_renderer_shadows.
   Image shadows() const { return image(brume_renderer_shadows); }
+  /// brume_renderer_occlusion.
+  Image occlusion() const { return image(brume_renderer_occlusion); }
   /// brume_renderer_coarseness.
   Coarseness coarseness() const {
     std::uint32_t level = 0, dims_less = 0;

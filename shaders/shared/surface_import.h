@@ -8,6 +8,9 @@ SHARED_BINDING(kBindHostDepth, 96u);
 SHARED_BINDING(kBindImportedDepth, 97u);
 SHARED_BINDING(kBindMediaLayer, 98u);
 SHARED_BINDING(kBindSurfaceShadows, 99u);
+SHARED_BINDING(kBindHostNormals, 100u);
+SHARED_BINDING(kBindImportedNormals, 101u);
+SHARED_BINDING(kBindLayerOcclusion, 102u);
 
 /// A depth of the host is d = offset + scale / distance along the view axis.
 struct SurfaceImportParams {
@@ -18,6 +21,21 @@ struct SurfaceImportParams {
 };
 SHARED_SIZE(SurfaceImportParams, 20);
 
+/// How a host stores normals: as they are; n as (n + 1) / 2; the upper half of an octahedron, and its lower half folded
+/// over it, in x and y (Meyer et al. 2010, "On Floating-Point Normal Vectors"); that likewise from 0 to 1.
+SHARED_CONST uint kNormalsSigned = 0u;
+SHARED_CONST uint kNormalsUnsigned = 1u;
+SHARED_CONST uint kNormalsOctahedral = 2u;
+SHARED_CONST uint kNormalsOctahedralUnsigned = 3u;
+SHARED_CONST uint kNormalsOfDepth = 4u;  // there are none
+
+struct SurfaceNormalParams {
+  uint encoding;        // kNormals...
+  uint of_view;         // 1: along right, up and against forward; 0: of the world
+  uint alpha_receives;  // 1: surfaces of alpha 0 have no decals
+};
+SHARED_SIZE(SurfaceNormalParams, 12);
+
 /// Lights whose shadows a host may ask for, and the number of none.
 SHARED_CONST uint kMaxSurfaceShadows = 4u;
 SHARED_CONST uint kNoLight = 0xffffffffu;
@@ -27,11 +45,11 @@ struct SurfaceShadowParams {
 };
 SHARED_SIZE(SurfaceShadowParams, 16);
 
-/// What the media's radiance is multiplied by.
 struct MediaLayerParams {
-  float exposure;
+  float exposure;   // multiplies the media's radiance
+  uint has_decals;  // 1: they darken the picture
 };
-SHARED_SIZE(MediaLayerParams, 4);
+SHARED_SIZE(MediaLayerParams, 8);
 
 SHARED_END
 #endif

@@ -37,6 +37,8 @@ const char* kind_name(Kind kind) {
       return "renderer";
     case Kind::volume:
       return "volume";
+    case Kind::decal:
+      return "decal";
     case Kind::tank:
       return "tank";
   }

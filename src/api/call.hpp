@@ -62,6 +62,7 @@ enum class Kind : std::uint32_t {
   device,
   renderer,
   volume,
+  decal,
   tank
 };
 

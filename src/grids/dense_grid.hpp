@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct DenseGrid {
 
 /// The channels of one volume, of one size and box.
 using DenseVolume = std::vector<DenseGrid>;
+/// Volumes that others may hold, too.
+using DenseVolumes = std::vector<std::shared_ptr<const DenseVolume>>;
 
 /// A fog volume of float32 of the same voxels, all of them active.
 Grid to_grid(const DenseGrid& dense, const glm::dmat4& world_from_box = glm::dmat4(1));

@@ -87,10 +87,13 @@ void add_triangles(const brume_renderer_params& params, scene::Mesh& mesh) {
 }
 
 bool can_be_sampled(VkImageLayout layout) {
+  return layout == VK_IMAGE_LAYOUT_GENERAL || layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL ||
+         layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL;
+}
+
+bool depth_can_be_sampled(VkImageLayout layout) {
+  if (can_be_sampled(layout)) return true;
   switch (layout) {
-    case VK_IMAGE_LAYOUT_GENERAL:
-    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL:
     case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
     case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
     case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
@@ -146,6 +149,12 @@ glm::vec3 vec3_of(const float (&c)[3]) {
   return {c[0], c[1], c[2]};
 }
 
+bool spans_space(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
+  const double lengths = glm::length(x) * glm::length(y) * glm::length(z);
+  // False for what is not a number.
+  return lengths > 1e-18 && lengths < 1e18 && std::abs(glm::dot(x, glm::cross(y, z))) > 1e-9 * lengths;
+}
+
 glm::vec3 position(const brume_point& p, const char* name) {
   const glm::vec3 v = vec3_of(p);
   if (!is_within(v, -kMostMetres, kMostMetres))
@@ -185,24 +194,26 @@ scene::Scene scene_of(const brume_renderer_params& params) {
 
 passes::HostDepthRange depth_range(const brume_depth& depth) {
   require(depth.view != VK_NULL_HANDLE, "`depth.view` is null");
-  require(can_be_sampled(depth.layout), "`depth.layout` must be one in which depth can be sampled");
+  require(depth_can_be_sampled(depth.layout), "`depth.layout` must be one in which depth can be sampled");
   require(depth.near_plane > 0 && depth.near_plane < kMostMetres,
           "`depth.near_plane` must be above 0 and below 16384");
   require(depth.far_plane > depth.near_plane, "`depth.far_plane` must be above near_plane");
   return {depth.near_plane, depth.far_plane, depth.reversed != 0};
 }
 
+passes::HostNormals host_normals(const brume_normals& normals) {
+  require(normals.encoding <= BRUME_NORMALS_OCTAHEDRAL_UNSIGNED,
+          "`normals.encoding` must be a brume_normal_encoding");
+  require(normals.view == VK_NULL_HANDLE || can_be_sampled(normals.layout),
+          "`normals.layout` must be one in which normals can be sampled");
+  return {nullptr, normals.encoding, normals.of_view != 0, normals.alpha_receives != 0};
+}
+
 void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
                      planning::FrameInput& input) {
-  // Lists keep their memory from frame to frame.
-  planning::FrameInput fresh;
-  fresh.environment.flashes = std::move(input.environment.flashes);
-  fresh.environment.flashes.clear();
-  fresh.environment.glow = std::move(input.environment.glow);
-  fresh.environment.glow.clear();
-  fresh.volumes = std::move(input.volumes);
-  fresh.volumes.clear();
-  input = std::move(fresh);
+  auto slices = std::move(input.slices);
+  input.clear();
+  input.slices = std::move(slices);
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;

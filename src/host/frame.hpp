@@ -11,7 +11,7 @@
 
 namespace brume::api {
 
-// The sizes of 0.1.
+// The sizes of 0.1 and 0.2.
 template <>
 inline constexpr std::array kEarlierSizes<brume_device_params>{
     std::uint32_t{offsetof(brume_device_params, memory_user)}};
@@ -20,7 +20,8 @@ inline constexpr std::array kEarlierSizes<brume_renderer_params>{
     std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};
 template <>
 inline constexpr std::array kEarlierSizes<brume_frame_params>{
-    std::uint32_t{offsetof(brume_frame_params, volumes)}};
+    std::uint32_t{offsetof(brume_frame_params, volumes)},
+    std::uint32_t{offsetof(brume_frame_params, decals)}};
 
 }  // namespace brume::api
 
@@ -31,14 +32,18 @@ bool is_within(float value, float low, float high);
 bool is_within(glm::vec3 v, float low, float high);
 glm::vec3 vec3_of(const brume_point& p);
 glm::vec3 vec3_of(const float (&c)[3]);
+/// Whether axes are finite and span space.
+bool spans_space(const glm::dvec3& x_axis, const glm::dvec3& y_axis, const glm::dvec3& z_axis);
 
 /// All throw a CallFailure for what brume_vulkan.h does not allow.
 glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
-/// Sets all of `input`, without volumes; its lists keep their memory. What it points to is the field's.
-/// `field`: null: no smoke.
+/// Of decals; without an image, which is set where there is a view.
+passes::HostNormals host_normals(const brume_normals& normals);
+/// Sets all of `input`, without volumes and decals; its lists keep their memory, and `slices` remain. What it
+/// points to is the field's. `field`: null: no smoke.
 void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
                      planning::FrameInput& input);
 

@@ -35,6 +35,14 @@ struct VolumeData {
   std::mutex mutex;  ///< Held while frames are chosen.
 };
 
+/// A volume of baked occlusion.
+struct DecalData {
+  std::shared_ptr<const grids::DenseVolume> volume;  ///< Of what faces up, and of what faces down.
+  glm::dmat4 space_from_box{1};  ///< From the box of its voxels to the space that the host places.
+  glm::vec3 middle{0};           ///< As planning::DecalInput.
+  float radius = 0;
+};
+
 }  // namespace brume::host
 
 struct brume_device : brume::api::Handle {
@@ -51,6 +59,15 @@ struct brume_volume : brume::api::Handle {
       : Handle(kKind, std::move(of)), data(std::move(of_volume)) {}
 
   std::shared_ptr<brume::host::VolumeData> data;
+};
+
+struct brume_decal : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::decal;
+  brume_decal(std::shared_ptr<brume::api::Settings> of, brume::host::DecalData of_decal)
+      : Handle(kKind, std::move(of)),
+        data(std::make_shared<const brume::host::DecalData>(std::move(of_decal))) {}
+
+  const std::shared_ptr<const brume::host::DecalData> data;  ///< No other holds it.
 };
 
 struct brume_tank : brume::api::Handle {
@@ -77,6 +94,8 @@ struct brume_renderer : brume::api::Handle {
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;
   brume::planning::FrameInput input;  ///< Of the last frame.
+  /// Of the volumes of `input.slices`, while they exist.
+  std::vector<std::weak_ptr<const brume::host::DecalData>> sliced;
   brume::passes::MediaLayerPass layer;
   /// From the first frame on that asks for shadows.
   std::optional<brume::passes::SurfaceShadowPass> shadow_pass;

@@ -1,5 +1,6 @@
 #include "api/smoke_field.hpp"
 #include "core/same_bytes.hpp"
+#include "host/decals.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
 #include "host/tanks.hpp"
@@ -134,6 +135,7 @@ void reserve(brume_renderer& of, const brume_frame_params& params) {
   if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
   if (params.picture.view) of.layer.reserve(params.picture.format);
   if (params.shadow_light_count > 0) reserve_shadows(of);
+  if (params.decal_count > 0) of.renderer->reserve_decals();
   if (params.tank_count > 0 && !of.tanks)
     of.tanks.emplace(of.device->context, of.recording, of.options.size_px);
 }
@@ -144,7 +146,8 @@ const gpu::Image& layers_of(const brume_renderer& of) {
 }
 
 void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
-          std::span<const render::TankInput> tanks, const passes::HostDepthRange& range) {
+          std::span<const render::TankInput> tanks, const passes::HostDepthRange& range,
+          passes::HostNormals normals) {
   reserve(of, params);
   render::Renderer& renderer = *of.renderer;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
@@ -159,8 +162,11 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
       {VK_NULL_HANDLE, params.depth.view, VK_FORMAT_D32_SFLOAT, size_px, params.depth.layout});
+  const gpu::Image of_normals(
+      {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
+  if (params.normals.view) normals.image = &of_normals;
   renderer.record_media_over(of.recording.recorder(), plan,
-                             {depth, range, of.has_tanks ? &*of.tanks : nullptr});
+                             {depth, range, normals, of.has_tanks ? &*of.tanks : nullptr});
   if (of.has_tanks) of.tanks->record_layers(of.recording.recorder(), renderer.media());
   if (params.shadow_light_count > 0) {
     draw_shadows(of, params, plan);
@@ -170,7 +176,8 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
   const gpu::Scope timed(of.recording.recorder(), "layer");
-  of.layer.record(of.recording.recorder(), layers_of(of), params.picture.exposure, picture);
+  of.layer.record(of.recording.recorder(), {layers_of(of), renderer.occlusion(), params.picture.exposure},
+                  picture);
 }
 
 void check_shadow_lights(const brume_renderer& of, const brume_frame_params& params) {
@@ -185,17 +192,19 @@ void check_shadow_lights(const brume_renderer& of, const brume_frame_params& par
 void record(Call& call, brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   check_frame(of, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
+  const passes::HostNormals normals = host_normals(params.normals);
   planning::FrameInput& input = of.input;
   set_frame_input(params, field ? &*field->field : nullptr, input);
   check_shadow_lights(of, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
+  add_decals(call, params, of);
   const std::vector<render::TankInput> tanks = tanks_of(call, params);
   // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame;
   of.device->completed = params.completed;
   of.recording.begin(params.commands, params.frame, params.completed);
   try {
-    draw(of, params, input, tanks, range);
+    draw(of, params, input, tanks, range, normals);
     of.recording.end();
   } catch (...) {
     // What it holds may be half of what it planned: the next frame makes another.
@@ -318,6 +327,19 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
       if (!of.has_shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
       if (image) *image = of.shadows.handle();
       if (view) *view = of.shadows.view();
+    });
+  });
+}
+
+brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
+                                      VkImageView* view) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_renderer& of = call.handle(renderer);
+    call.read(of, [&] {
+      const brume::gpu::Image* occlusion = of.renderer ? of.renderer->occlusion() : nullptr;
+      if (!occlusion) fail(BRUME_ERROR_ORDER, "a frame with `decals` must be recorded first");
+      if (image) *image = occlusion->handle();
+      if (view) *view = occlusion->view();
     });
   });
 }

@@ -34,14 +34,6 @@ scene::VolumeOptions options_of(const brume_volume_params& params) {
   return options;
 }
 
-/// A failure to load is that of the file, also where brume-vdb is missing.
-template <typename T>
-T loaded(Result<T> result) {
-  if (!result && result.failure().code == ErrorCode::no_device)
-    fail(BRUME_ERROR_DATA, result.failure().message);
-  return unwrap(std::move(result), BRUME_ERROR_DATA);
-}
-
 std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
   auto data = std::make_shared<VolumeData>();
   data->options = options_of(params);
@@ -58,15 +50,12 @@ std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
 
 void place(const brume_shown_volume& shown, const std::string& name, scene::VolumeOptions& options) {
   options.position_world = position(shown.position, (name + ".position").c_str());
-  const glm::dvec3 x(vec3_of(shown.x_axis)), y(vec3_of(shown.y_axis)), z(vec3_of(shown.z_axis));
-  const double lengths = glm::length(x) * glm::length(y) * glm::length(z);
-  // False for what is not a number.
-  const bool spans =
-      lengths > 1e-18 && lengths < 1e18 && std::abs(glm::dot(x, glm::cross(y, z))) > 1e-9 * lengths;
-  if (!spans) refuse(name + " must have finite axes that span space");
-  options.x_axis = glm::vec3(x);
-  options.y_axis = glm::vec3(y);
-  options.z_axis = glm::vec3(z);
+  const glm::vec3 x = vec3_of(shown.x_axis), y = vec3_of(shown.y_axis), z = vec3_of(shown.z_axis);
+  if (!spans_space(glm::dvec3(x), glm::dvec3(y), glm::dvec3(z)))
+    refuse(name + " must have finite axes that span space");
+  options.x_axis = x;
+  options.y_axis = y;
+  options.z_axis = z;
 }
 
 void set_look(const brume_shown_volume& shown, const std::string& name, scene::VolumeOptions& options) {

@@ -14,4 +14,12 @@ using ShownVolumes = std::vector<scenario::VolumeAt>;
 /// CallFailure for what brume_assets.h does not allow.
 ShownVolumes add_volumes(api::Call& call, const brume_frame_params& params, planning::FrameInput& input);
 
+/// What was read from a file. A failure is that of the file, also where brume-vdb is missing.
+template <typename T>
+T loaded(Result<T> result) {
+  if (!result && result.failure().code == ErrorCode::no_device)
+    api::fail(BRUME_ERROR_DATA, result.failure().message);
+  return api::unwrap(std::move(result), BRUME_ERROR_DATA);
+}
+
 }  // namespace brume::host

@@ -21,7 +21,7 @@ DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
 void DecalPass::upload(gpu::Recorder& recorder, std::span<const shared::Decal> decals) {
   BRUME_ASSERT(decals.size() <= shared::kMaxDecals, std::to_string(decals.size()));
   decal_count_ = static_cast<std::uint32_t>(decals.size());
-  recorder.upload(decals_, 0, std::as_bytes(decals));
+  if (!decals.empty()) recorder.upload(decals_, 0, std::as_bytes(decals));
 }
 
 void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,

@@ -79,6 +79,11 @@ GBuffer GBuffer::imported(gpu::Context& context, glm::uvec2 size) {
   return made;
 }
 
+void GBuffer::add_imported_normals(gpu::Context& context) {
+  normal_metallic =
+      target_image(context, glm::uvec2(depth.info().size), kFormats[1], VK_IMAGE_USAGE_STORAGE_BIT);
+}
+
 GBufferPass::DepthFirst::DepthFirst(gpu::Context& context)
     : depth(context, pipeline_info(shaders::gbuffer_vert, nullptr)),
       dull(context, dull_info()),

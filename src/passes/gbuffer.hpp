@@ -19,6 +19,8 @@ struct GBuffer {
   GBuffer(gpu::Context& context, glm::uvec2 size_px);
   /// Of surfaces that a host draws (SurfaceImport): depth, and an emission of 0.
   static GBuffer imported(gpu::Context& context, glm::uvec2 size_px);
+  /// Adds the normals of such surfaces, for SurfaceNormalPass. Throws resource_limit.
+  void add_imported_normals(gpu::Context& context);
 
  private:
   GBuffer() = default;

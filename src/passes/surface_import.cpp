@@ -6,7 +6,6 @@
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/smoke_shadow.h"
-#include "shared/surface_import.h"
 
 namespace brume::passes {
 namespace {
@@ -36,6 +35,25 @@ void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth
                 },
                 params_of(range, near_z, size_px));
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+}
+
+SurfaceNormalPass::SurfaceNormalPass(gpu::Context& context)
+    : pipeline_(context, shaders::surface_normals_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
+
+void SurfaceNormalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const HostNormals& normals,
+                               const GBuffer& target) const {
+  const gpu::Image& given = normals.image ? *normals.image : target.depth;  // not read
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindDepth, gpu::sampled(target.depth, nearest_)},
+                    {shared::kBindHostNormals, gpu::sampled(given, nearest_)},
+                    {shared::kBindImportedNormals, gpu::stored(target.normal_metallic)},
+                },
+                shared::SurfaceNormalParams{normals.image ? normals.encoding : shared::kNormalsOfDepth,
+                                            normals.of_view ? 1u : 0u, normals.alpha_receives ? 1u : 0u});
+  const glm::uvec3 size = target.normal_metallic.info().size;
+  recorder.dispatch_threads(pipeline_, size.x, size.y);
 }
 
 SurfaceShadowPass::SurfaceShadowPass(gpu::Context& context)
@@ -69,16 +87,17 @@ void MediaLayerPass::reserve(VkFormat format) {
   pipelines_.try_emplace(format, context_, info);
 }
 
-void MediaLayerPass::record(gpu::Recorder& recorder, const gpu::Image& media, float exposure,
-                            const gpu::Image& picture) const {
+void MediaLayerPass::record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture) const {
   const gpu::GraphicsPipeline& pipeline = pipelines_.at(picture.info().format);
-  recorder.prepare_for_draws({gpu::sampled(media, nearest_)});
+  const gpu::Image& occlusion = layer.occlusion ? *layer.occlusion : layer.media;  // not read
+  recorder.prepare_for_draws({gpu::sampled(layer.media, nearest_), gpu::sampled(occlusion, nearest_)});
   gpu::Recorder::Attachments attachments;
   attachments.colours = {&picture};
   attachments.keep = 1;
   recorder.begin_rendering(attachments, glm::uvec2(picture.info().size));
-  recorder.bind_for_draws(pipeline, {{shared::kBindMediaLayer, gpu::sampled(media, nearest_)}});
-  const shared::MediaLayerParams params{exposure};
+  recorder.bind_for_draws(pipeline, {{shared::kBindMediaLayer, gpu::sampled(layer.media, nearest_)},
+                                     {shared::kBindLayerOcclusion, gpu::sampled(occlusion, nearest_)}});
+  const shared::MediaLayerParams params{layer.exposure, layer.occlusion ? 1u : 0u};
   recorder.push(pipeline, std::as_bytes(std::span(&params, 1)));
   recorder.draw(3);
   recorder.end_rendering();

@@ -6,6 +6,7 @@
 #include "gpu/recorder.hpp"
 #include "passes/gbuffer.hpp"
 #include "passes/smoke_shadow.hpp"
+#include "shared/surface_import.h"
 
 namespace brume::passes {
 
@@ -24,6 +25,28 @@ class SurfaceImport {
   /// `near_z`: of the frame's camera. Where the host's depth is that of far_plane there is no surface.
   void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
               float near_z, const GBuffer& target) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler nearest_;
+};
+
+/// The normals of a host's surfaces.
+struct HostNormals {
+  const gpu::Image* image = nullptr;  ///< Of the frame's size; null: they follow from the depth.
+  std::uint32_t encoding = shared::kNormalsSigned;  ///< One of shared::kNormals....
+  bool of_view = false;                             ///< Along right, up and against forward.
+  bool alpha_receives = false;                      ///< Surfaces where its alpha is 0 have no decals.
+};
+
+class SurfaceNormalPass {
+ public:
+  explicit SurfaceNormalPass(gpu::Context& context);
+
+  /// Writes the normals of GBuffer::imported, after SurfaceImport::record. Where the host's normal is 0 or
+  /// not finite it is that of the plane through the depths around, which faces the camera.
+  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const HostNormals& normals,
+              const GBuffer& target) const;
 
  private:
   gpu::ComputePipeline pipeline_;
@@ -58,10 +81,15 @@ class MediaLayerPass {
 
   /// Makes the pipeline for pictures of a format that can be blended, outside of a recording.
   void reserve(VkFormat format);
+  /// What lies over the picture, of its size.
+  struct Layer {
+    const gpu::Image& media;
+    const gpu::Image* occlusion;  ///< DecalPass::occlusion; null: 0.
+    float exposure;
+  };
   /// Replaces a picture p of a reserved format, in the layout for attachments, by exposure * radiance +
-  /// transmittance * p, its alpha by transmittance * alpha. `media` has the same size.
-  void record(gpu::Recorder& recorder, const gpu::Image& media, float exposure,
-              const gpu::Image& picture) const;
+  /// transmittance * (1 - occlusion) * p, its alpha by transmittance * (1 - occlusion) * alpha.
+  void record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture) const;
 
  private:
   gpu::Context& context_;

@@ -17,14 +17,15 @@ glm::dmat4 uvw_from_world(const glm::dmat4& world_from_uvw) {
 
 }  // namespace
 
-std::vector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum& frustum) {
+FrameVector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum& frustum, Allocator memory) {
   if (input.decals.size() > shared::kMaxDecals)
     throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.decals.size()) +
                                           " decals; at most " + std::to_string(shared::kMaxDecals));
-  std::vector<PlacedDecal> placed;
+  FrameVector<PlacedDecal> placed(memory);
+  placed.reserve(input.decals.size());
   for (const DecalInput& in : input.decals) {
     BRUME_ASSERT(input.slices && in.volume < input.slices->size(), std::to_string(in.volume));
-    const grids::DenseGrid& grid = (*input.slices)[in.volume].front();
+    const grids::DenseGrid& grid = (*input.slices)[in.volume]->front();
     glm::dmat4 box_from_uvw(1);
     for (int axis = 0; axis < 3; ++axis) box_from_uvw[axis][axis] = grid.box.high[axis] - grid.box.low[axis];
     box_from_uvw[3] = glm::dvec4(grid.box.low, 1);

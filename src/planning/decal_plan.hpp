@@ -1,9 +1,7 @@
 // The decals of a frame as the device samples them.
 #pragma once
 
-#include <span>
-#include <vector>
-
+#include "core/frame_memory.hpp"
 #include "planning/frame_input.hpp"
 #include "planning/view_frustum.hpp"
 #include "shared/decal.h"
@@ -16,8 +14,8 @@ struct PlacedDecal {
   std::size_t volume = 0;  ///< DecalInput::volume.
 };
 
-/// Those of the decals that may be in view. Throws bad_input for more than shared::kMaxDecals and for a
-/// transform without an inverse.
-std::vector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum& frustum);
+/// Those of the decals that may be in view, in `memory`. Throws bad_input for more than shared::kMaxDecals
+/// and for a transform without an inverse.
+FrameVector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum& frustum, Allocator memory);
 
 }  // namespace brume::planning

@@ -176,12 +176,32 @@ struct FrameInput {
   SmokeInput smoke;
   std::vector<VolumeInput> volumes;  ///< At most shared::kMaxVolumes; they may overlap.
   /// Volumes that are sampled without a march; uploaded when they are others than before. null: none.
-  std::shared_ptr<const std::vector<grids::DenseVolume>> slices;
+  std::shared_ptr<const grids::DenseVolumes> slices;
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
   std::vector<ParticleInput> particles;
   Quality quality;
   DebugRequest debug;
+
+  /// Makes it a new one, whose lists keep their memory.
+  void clear();
 };
+
+inline void FrameInput::clear() {
+  FrameInput fresh;
+  const auto keep = [](auto& list, auto& from) {
+    from.clear();
+    list = std::move(from);
+  };
+  keep(fresh.environment.flashes, environment.flashes);
+  keep(fresh.environment.glow, environment.glow);
+  keep(fresh.level.hidden_objects, level.hidden_objects);
+  keep(fresh.level.grenades, level.grenades);
+  keep(fresh.level.moved, level.moved);
+  keep(fresh.volumes, volumes);
+  keep(fresh.decals, decals);
+  keep(fresh.particles, particles);
+  *this = std::move(fresh);
+}
 
 }  // namespace brume::planning

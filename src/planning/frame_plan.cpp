@@ -59,7 +59,7 @@ void plan_visible_media(FramePlan& plan, PlanHistory& history, std::span<const s
     lit[i] = plan.residency[i].lit_by_preview;
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
-  plan.decals = plan_decals(plan.input, plan.frustum);
+  plan.decals = plan_decals(plan.input, plan.frustum, memory);
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
@@ -147,6 +147,7 @@ FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Al
       lights(memory),
       visibility{.slots = FrameVector<std::uint32_t>(memory)},
       media{.volumes = FrameVector<PlacedVolume>(memory)},
+      decals(memory),
       lit_media{.volumes = FrameVector<PlacedVolume>(memory)},
       changed_objects(memory),
       holes{.holes = FrameVector<shared::Hole>(memory), .reaches = FrameVector<shared::HoleReach>(memory)},

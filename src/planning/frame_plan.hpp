@@ -40,7 +40,8 @@ struct FramePlan {
   /// The plan of a frame in which nothing is visible; its lists are in `memory`, as those of copies are not.
   FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory = {});
 
-  const FrameInput& input;  ///< Outlives the plan.
+  const FrameInput& input;   ///< Outlives the plan.
+  std::uint64_t number = 0;  ///< Of a renderer's plans, by which it knows the one that is valid.
   glm::uvec2 size_px{1};
 
   // What is visible.
@@ -51,7 +52,7 @@ struct FramePlan {
   const smoke::SmokeBricks* smoke = nullptr;
   SmokeVisibility visibility;
   MediaPlan media;
-  std::vector<PlacedDecal> decals;
+  FrameVector<PlacedDecal> decals;
   /// The media as light is found in them and shadows are cast by them: volumes may have other resolutions.
   MediaPlan lit_media;
   std::vector<shared::ParticleSystem> particles;  ///< In view.

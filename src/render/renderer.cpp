@@ -133,6 +133,7 @@ void Renderer::invalidate() {
   // The shadow maps are as the last frame left them.
   std::vector<std::uint32_t> hidden_objects = std::move(history_.hidden_objects);
   history_ = planning::PlanHistory();
+  ++plan_number_;
   history_.hidden_objects = std::move(hidden_objects);
 }
 
@@ -163,6 +164,7 @@ FramePlan Renderer::try_plan() {
     upload_slices(input_);
     FramePlan plan = planning::plan_frame(input_, plan_target(), history_);
     reserve(plan);
+    plan.number = ++plan_number_;
     return plan;
   } catch (...) {
     // What the plan counts as updated is not.
@@ -190,18 +192,25 @@ void Renderer::upload_slices(const FrameInput& input) {
   if (input.slices == loaded_slices_ && slices_) return;
   std::vector<std::span<const grids::DenseGrid>> volumes;
   if (input.slices)
-    for (const grids::DenseVolume& volume : *input.slices) volumes.emplace_back(volume);
+    for (const auto& volume : *input.slices) volumes.emplace_back(*volume);
   if (volumes.empty() && !slices_) return;
   slices_.emplace(passes::SliceTextures::create(context_, stream_, volumes).value_or_throw());
   loaded_slices_ = input.slices;
+}
+
+void Renderer::reserve_decals() {
+  if (!decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
+  if (!surface_import_) return;
+  if (!normal_pass_) normal_pass_.emplace(context_);
+  if (!targets_.gbuffer.normal_metallic) targets_.gbuffer.add_imported_normals(context_);
 }
 
 /// Makes room for a plan.
 void Renderer::reserve(FramePlan& plan) {
   scene_.reserve(plan);
   smoke_.reserve(plan, history_);
+  if (!plan.decals.empty()) reserve_decals();
   if (surface_import_) return;
-  if (!plan.decals.empty() && !decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
   if (!plan.particles.empty()) {
     if (!particle_pass_) particle_pass_.emplace(context_);
     particle_pass_->reserve(plan.particles, targets_.size_px,
@@ -227,6 +236,7 @@ void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recor
 }
 
 FrameResources Renderer::resources(const FramePlan& plan) {
+  BRUME_ASSERT(plan.number == plan_number_, "a plan that another one or invalidate() has replaced");
   const bool counts_steps = plan.input.debug.view == planning::DebugView::steps;
   return {frame_, scene_, targets_, blue_noise_, counts_steps ? &debug_view_->counters() : nullptr};
 }
@@ -286,7 +296,7 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
   scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
-  if (host && host->tanks) host->tanks->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
+  if (host) record_on_surfaces(recorder, plan, *host);
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
@@ -309,10 +319,8 @@ void Renderer::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan,
 
 void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   record_accumulate(recorder, plan, in);
-  has_decals_ = !plan.input.decals.empty();
-  occlusion_ = nullptr;
   const bool is_debug_view = plan.input.debug.view != planning::DebugView::none;
-  if (decal_pass_ && (plan.decals.empty() || is_debug_view)) decal_pass_->invalidate_past();
+  begin_decals(plan, !is_debug_view);
   if (is_debug_view && antialias_pass_) antialias_pass_->invalidate_past();
   if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
@@ -342,7 +350,8 @@ void Renderer::record_antialias(gpu::Recorder& recorder, const FramePlan& plan) 
 }
 
 void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {
-  std::vector<shared::Decal> decals;
+  FrameVector<shared::Decal> decals(&recorder.memory());
+  decals.reserve(plan.decals.size());
   for (const planning::PlacedDecal& placed : plan.decals) {
     decals.push_back(placed.decal);
     decals.back().occlusion = (*slices_)[placed.volume];
@@ -350,10 +359,34 @@ void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   decal_pass_->upload(recorder, decals);
 }
 
+void Renderer::begin_decals(const FramePlan& plan, bool shows) {
+  has_decals_ = !plan.input.decals.empty();
+  occlusion_ = nullptr;
+  if (decal_pass_ && (plan.decals.empty() || !shows)) decal_pass_->invalidate_past();
+}
+
 void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(),
                       plan.input.view.continues && smoke_.is_accumulated());
   occlusion_ = &decal_pass_->occlusion();
+}
+
+/// Decals are on the host's own surfaces, tanks are surfaces before them.
+void Renderer::record_on_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& host) {
+  begin_decals(plan, true);
+  if (has_decals_) scope(recorder, "decals", [&] { record_decals_on(recorder, plan, host.normals); });
+  if (host.tanks) host.tanks->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
+}
+
+/// Where none is in view the host has an image, too: of 0.
+void Renderer::record_decals_on(gpu::Recorder& recorder, const FramePlan& plan,
+                                const passes::HostNormals& normals) {
+  if (plan.decals.empty())
+    decal_pass_->upload(recorder, {});
+  else
+    normal_pass_->record(recorder, frame_, normals, targets_.gbuffer);
+  record_decals(recorder, plan);
+  if (plan.decals.empty()) decal_pass_->invalidate_past();
 }
 
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

@@ -30,8 +30,8 @@ struct RendererOptions {
   /// Smooths edges over the frames of a film (View::continues), each of which shows another point of every
   /// pixel (planning::film_sample).
   bool antialias = false;
-  /// The surfaces are a host's: frames are recorded by record_media_over alone, and there are no decals,
-  /// particles and debug views.
+  /// The surfaces are a host's: frames are recorded by record_media_over alone, and there are no particles
+  /// and debug views.
   bool media_alone = false;
 };
 
@@ -39,7 +39,8 @@ struct RendererOptions {
 struct HostSurfaces {
   const gpu::Image& depth;  ///< Of the renderer's size.
   passes::HostDepthRange range;
-  TankLayer* tanks = nullptr;  ///< Planned for this frame, surfaces, too; null: none.
+  passes::HostNormals normals = {};  ///< For decals.
+  TankLayer* tanks = nullptr;        ///< Planned for this frame, surfaces, too; null: none.
 };
 
 class Renderer {
@@ -80,8 +81,10 @@ class Renderer {
   void record_sweeps(gpu::Recorder& recorder, const FramePlan& plan);
   void record_rays(gpu::Recorder& recorder, const FramePlan& plan);
   void record_picture(gpu::Recorder& recorder, const FramePlan& plan);
-  /// Records the media of the last plan in front of a host's surfaces: media(). Where
-  /// RendererOptions::media_alone.
+  /// Makes room for decals, as `plan` does where there are any: for frames whose images no limit refuses.
+  void reserve_decals();
+  /// Records the media of the last plan in front of a host's surfaces, media(), and the decals on them,
+  /// occlusion(). Where RendererOptions::media_alone.
   void record_media_over(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& surfaces);
   /// Plans and records a frame, and what `then` records after it, and waits until the device has drawn it.
   /// Throws as `plan`.
@@ -102,7 +105,7 @@ class Renderer {
   /// Whether the last frame had decals, in view or not.
   bool has_decals() const { return has_decals_; }
   /// Half floats: in red, which fraction of their light the surfaces of the last frame lost to decals. Null
-  /// where none was in view.
+  /// where none was in view; over a host's surfaces, where there was none.
   const gpu::Image* occlusion() const { return occlusion_; }
   /// How coarse the smoke of the last frame is for want of memory: its voxels are 2^level voxels of the
   /// simulation wide.
@@ -122,7 +125,10 @@ class Renderer {
   FramePlan try_plan();
   void reserve(FramePlan& plan);
   void upload_decals(gpu::Recorder& recorder, const FramePlan& plan);
+  void begin_decals(const FramePlan& plan, bool shows);
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
+  void record_on_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces& host);
+  void record_decals_on(gpu::Recorder& recorder, const FramePlan& plan, const passes::HostNormals& normals);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);
   void record_surfaces(gpu::Recorder& recorder, const FramePlan& plan, const HostSurfaces* host);
@@ -149,19 +155,21 @@ class Renderer {
   const bool shading_displays_;
   std::optional<passes::DisplayPass>
       display_pass_;  ///< From the first frame on that is not displayed as it is shaded.
-  std::optional<passes::DecalPass> decal_pass_;  ///< From the first frame with decals on.
+  std::optional<passes::DecalPass> decal_pass_;           ///< From the first frame with decals on.
+  std::optional<passes::SurfaceNormalPass> normal_pass_;  ///< Likewise, of a host's surfaces.
   bool has_decals_ = false;
   const gpu::Image* occlusion_ = nullptr;
   std::optional<passes::SliceTextures> slices_;
-  std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
-  std::optional<passes::DebugViewPass> debug_view_;      ///< From the first frame with a debug view on.
-  std::optional<passes::AntialiasPass> antialias_pass_;  ///< Where RendererOptions::antialias.
-  std::optional<passes::AveragePass> average_pass_;      ///< From the first picture of several frames on.
-  std::optional<passes::ParticlePass> particle_pass_;    ///< From the first frame with particles in view.
+  std::shared_ptr<const grids::DenseVolumes> loaded_slices_;  ///< What `slices_` holds.
+  std::optional<passes::DebugViewPass> debug_view_;           ///< From the first frame with a debug view on.
+  std::optional<passes::AntialiasPass> antialias_pass_;       ///< Where RendererOptions::antialias.
+  std::optional<passes::AveragePass> average_pass_;    ///< From the first picture of several frames on.
+  std::optional<passes::ParticlePass> particle_pass_;  ///< From the first frame with particles in view.
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
   planning::PlanHistory history_;
   FrameInput input_;                                  // of the last plan, which refers to it
+  std::uint64_t plan_number_ = 0;                     // of the plan that is valid
   std::vector<std::uint32_t> hidden_objects_before_;  // the last plan, for one that fails
 };
 

@@ -21,7 +21,7 @@ struct SliceVolume {
 };
 
 struct SliceVolumes {
-  std::shared_ptr<const std::vector<grids::DenseVolume>> volumes;  ///< Null: none.
+  std::shared_ptr<const grids::DenseVolumes> volumes;  ///< Null: none.
   std::vector<SliceVolume> of_decals;  ///< Of each decal: two channels, occlusion of what faces up and down.
   /// Of each volume with masks: a channel of each; empty: it has none, or is too large for an image of
   /// slices.

@@ -23,6 +23,7 @@ TEST(CppInterface, IsTheCInterface) {
   // What has no frame.
   EXPECT_THROW(renderer.smoke(), api::Error);
   EXPECT_THROW(renderer.shadows(), api::Error);
+  EXPECT_THROW(renderer.occlusion(), api::Error);
   EXPECT_THROW(renderer.coarseness(), api::Error);
   EXPECT_TRUE(renderer.timings().empty());
   EXPECT_THROW(renderer.record(nullptr, brume_frame_defaults()), api::Error);
@@ -50,6 +51,13 @@ TEST(CppInterface, IsTheCInterface) {
   api::Tank tank(context, tank_params);
   tank.set_lighting(brume_tank_lighting_defaults());
   EXPECT_EQ(tank.shown().tank, tank.get());
+  constexpr std::array kOcclusion{0.25f, 0.5f};
+  brume_decal_params decal_params = brume_decal_defaults();
+  decal_params.up = kOcclusion.data();
+  decal_params.size[0] = 2;
+  decal_params.size[1] = decal_params.size[2] = 1;
+  const api::Decal decal(context, decal_params);
+  EXPECT_EQ(decal.shown().decal, decal.get());
   brume_volume_params volume_params = brume_volume_defaults();
   volume_params.file = "nowhere.brv";
   EXPECT_THROW(api::Volume(context, volume_params), api::Error);

@@ -47,12 +47,13 @@ struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
 
 #define BRUME_RECORDING_FUNCTIONS(X) \
   X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                           \
-  X(AllocateMemory)                                                                                         \
-  X(MapMemory)                                                                                              \
-  X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler) \
-      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines)  \
-          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                         \
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                          \
+  X(AllocateMemory)                                                                                        \
+  X(MapMemory)                                                                                             \
+  X(CreateBuffer)                                                                                          \
+  X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler)                \
+      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines) \
+          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                        \
               X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
@@ -88,8 +89,16 @@ class FaultTest : public testing::Test {
         recording_(gpu_),
         depth_(gpu_, depth_info()) {
     scenario_.timeline.doors.clear();
+    const float all = 1;
+    brume_decal_params params = brume_decal_defaults();
+    params.up = &all;
+    for (std::uint32_t& along : params.size) along = 1;
+    EXPECT_OK(brume_decal_create(context_.get(), &params, &decal_));
   }
-  ~FaultTest() override { host_.wait(); }
+  ~FaultTest() override {
+    host_.wait();
+    EXPECT_OK(brume_decal_destroy(decal_));
+  }
   void TearDown() override {
     host_.wait();
     for (const std::string& message : host_.take_messages()) ADD_FAILURE() << message;
@@ -110,7 +119,7 @@ class FaultTest : public testing::Test {
     return device;
   }
 
-  /// A frame of nothing but smoke: no surface anywhere.
+  /// A frame of nothing but smoke, and of a decal on no surface.
   brume_result draw(HostedSmoke& smoke, double seconds) {
     smoke.advance_to(seconds);
     brume_result result = BRUME_OK;
@@ -127,6 +136,9 @@ class FaultTest : public testing::Test {
       params.completed = completed;
       params.depth.view = depth_.view();
       params.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
+      const brume_shown_decal shown = brume_shown_decal_defaults(decal_);
+      params.decals = &shown;
+      params.decal_count = 1;
       Faults::commands = 0;
       result = brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
       EXPECT_EQ(Faults::commands > 0, result == BRUME_OK) << "a part of a frame was recorded";
@@ -146,6 +158,8 @@ class FaultTest : public testing::Test {
   gpu::HostRecording recording_;
   gpu::Image depth_;
   gpu::Buffer picture_;
+  api::Context context_;
+  brume_decal* decal_ = nullptr;
 };
 
 TEST_F(FaultTest, EveryCallMayFailOnce) {

@@ -1,6 +1,7 @@
 // A frame like those before allocates nothing, on the heap or on the device; and every allocation of others
 // may fail.
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <vector>
 
@@ -95,6 +96,30 @@ TEST_F(HeapTest, SteadyFramesOfHolesLightsShadowsAndBounces) {
     params.quality.light_update_fraction = 0.25f;
     params.quality.bounce_update_fraction = 0.125f;
   });
+}
+
+TEST_F(HeapTest, SteadyFramesOfDecals) {
+  make({48, 20, 48}, 0.25f);
+  smoke(1, {4, 0.6f, 5}, 2500, 6400);
+  const std::vector<float> up(60, 0.5f), down(60, 0.25f);
+  brume_decal_params params = brume_decal_defaults();
+  params.up = up.data();
+  params.down = down.data();
+  for (int axis = 0; axis < 3; ++axis) params.size[axis] = static_cast<std::uint32_t>(3 + axis);
+  std::array<brume_decal*, 2> decals{};
+  for (brume_decal*& decal : decals) ASSERT_OK(brume_decal_create(context_.get(), &params, &decal));
+  std::vector<brume_shown_decal> shown(9, brume_shown_decal_defaults(decals[0]));
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    shown[i].decal = decals[i % 2];
+    shown[i].position = {1 + static_cast<float>(i), 0.5f, 4};
+  }
+  int frame = 0;
+  expect_steady(300, [&](brume_frame_params& frame_params) {
+    frame_params.decals = shown.data();
+    // One of two decals is in none of some frames: both stay on the device.
+    frame_params.decal_count = ++frame % 3 == 0 ? 1 : shown.size();
+  });
+  for (brume_decal* decal : decals) EXPECT_OK(brume_decal_destroy(decal));
 }
 
 /// A function of the driver whose own allocations are not counted: it does not expect that they fail.

@@ -58,6 +58,7 @@ class HostedPair : public testing::Test {
     copies_.clear();
     radiances_.clear();
     shadows_.clear();
+    occlusions_.clear();
     whole_.reset();
     recording_.reset();
     gpu_.reset();
@@ -74,6 +75,7 @@ class HostedPair : public testing::Test {
       if (!whole_) {
         render::RendererOptions options{.size_px = kSize};
         options.smoke.march_scale = march_scale;
+        options.smoke.temporal = HostedSmoke::is_temporal;
         whole_ = std::make_unique<render::Renderer>(*gpu_, *recording_, scenario_.scene, options);
       }
       planning::FrameInput input = planning::frame_input(scenario_, *simulation_, seconds, holes_);
@@ -85,6 +87,10 @@ class HostedPair : public testing::Test {
       if (reads_radiance_) {
         radiances_.push_back(readback_buffer(*gpu_));
         recording_->recorder().read_back(whole_->radiance(), radiances_.back());
+      }
+      if (reads_occlusion_ && whole_->occlusion()) {
+        occlusions_.push_back(readback_buffer(*gpu_));
+        recording_->recorder().read_back(*whole_->occlusion(), occlusions_.back());
       }
       recording_->end();
       record_interface(commands, frame, completed, seconds);
@@ -107,10 +113,18 @@ class HostedPair : public testing::Test {
     ASSERT_OK(brume_renderer_smoke(smoke_->renderer, &image, nullptr));
     copies_.push_back(readback_buffer(*gpu_));
     host_->copy(commands, image, {kSize.x, kSize.y}, copies_.back().handle());
-    if (!reads_shadows_) return;
-    ASSERT_OK(brume_renderer_shadows(smoke_->renderer, &image, nullptr));
-    shadows_.push_back(readback_buffer(*gpu_));
-    host_->copy(commands, image, {kSize.x, kSize.y}, shadows_.back().handle());
+    const auto copy = [&](std::deque<gpu::Buffer>& to) {
+      to.push_back(readback_buffer(*gpu_));
+      host_->copy(commands, image, {kSize.x, kSize.y}, to.back().handle());
+    };
+    if (reads_shadows_) {
+      ASSERT_OK(brume_renderer_shadows(smoke_->renderer, &image, nullptr));
+      copy(shadows_);
+    }
+    if (reads_occlusion_ && params.decal_count > 0) {
+      ASSERT_OK(brume_renderer_occlusion(smoke_->renderer, &image, nullptr));
+      copy(occlusions_);
+    }
   }
   /// Frame i of both within 1/255; what the interface drew.
   Texels expect_same(std::size_t i) const {
@@ -129,11 +143,12 @@ class HostedPair : public testing::Test {
   std::unique_ptr<HostedSmoke> smoke_;
   std::deque<gpu::Buffer> copies_;  // of each frame two: whole, interface
   std::deque<gpu::Buffer> radiances_, shadows_;
+  std::deque<gpu::Buffer> occlusions_;  // of each frame two, where both have decals in view
 
   // How frames differ from those of the scenario.
   std::function<void(planning::FrameInput&)> change_input_;
   std::function<void(brume_frame_params&)> change_params_;
-  bool shows_field_ = true, reads_radiance_ = false, reads_shadows_ = false;
+  bool shows_field_ = true, reads_radiance_ = false, reads_shadows_ = false, reads_occlusion_ = false;
 };
 
 }  // namespace brume::host

@@ -88,7 +88,7 @@ inline std::vector<brume_light> lights_of(const scene::Scene& scene) {
 /// A renderer of the interface, on a host's device.
 struct HostedSmoke {
   enum class Failure { none, allowed };
-  static inline bool prepares_all = false;
+  static inline bool prepares_all = false, is_temporal = false;
 
   /// Where failure is allowed, made() tries again.
   HostedSmoke(const gpu::HostDevice& host, const scenario::Scenario& scenario, std::uint32_t march_scale,
@@ -126,6 +126,7 @@ struct HostedSmoke {
     params.height = kSize.y;
     params.march_scale = march_scale;
     params.prepare_all = prepares_all ? 1 : 0;
+    params.temporal = is_temporal ? 1 : 0;
     const std::vector<brume_light> lights = lights_of(scenario.scene);
     params.lights = lights.data();
     params.light_count = lights.size();

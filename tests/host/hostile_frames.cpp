@@ -23,11 +23,15 @@ HostileFrames::HostileFrames(unsigned seed, std::string file)
                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
       picture_(gpu_, image_of(VK_FORMAT_R16G16B16A16_SFLOAT, kSize, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
+      normals_(gpu_, image_of(VK_FORMAT_R16G16B16A16_SFLOAT, kSize,
+                              VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
       file_(std::move(file)) {}
 
 HostileFrames::~HostileFrames() {
   host_.wait();
   for (brume_volume* volume : volumes_) EXPECT_EQ(brume_volume_destroy(volume), BRUME_OK);
+  for (brume_decal* decal : decals_) EXPECT_EQ(brume_decal_destroy(decal), BRUME_OK);
   for (brume_tank* tank : tanks_) EXPECT_EQ(brume_tank_destroy(tank), BRUME_OK);
   for (brume_renderer* renderer : renderers_) EXPECT_EQ(brume_renderer_destroy(renderer), BRUME_OK);
   for (brume_device* device : devices_) EXPECT_EQ(brume_device_destroy(device), BRUME_OK);
@@ -42,7 +46,9 @@ void HostileFrames::begin_frame(VkCommandBuffer commands, std::uint64_t frame, s
   if (frame > 1) return;
   completed_ = 0;
   recording_.begin(commands, frame, completed);
-  recording_.recorder().clear(depth_, {});
+  // A surface, and what no normal is.
+  recording_.recorder().clear(depth_, {{0.02f, 0, 0, 0}});
+  recording_.recorder().clear(normals_, {{NAN, 1, 0, 0}});
   gpu::Recorder::Attachments attachments;
   attachments.colours = {&picture_};
   recording_.recorder().begin_rendering(attachments, kSize);
@@ -52,12 +58,12 @@ void HostileFrames::begin_frame(VkCommandBuffer commands, std::uint64_t frame, s
 }
 
 void HostileFrames::run_frames(int frames) {
-  static constexpr std::array<Step, 11> kSteps{
+  static constexpr std::array<Step, 12> kSteps{
       &HostileFrames::device,        &HostileFrames::renderer_create, &HostileFrames::renderer_change,
       &HostileFrames::renderer_read, &HostileFrames::volume_create,   &HostileFrames::volume_read,
-      &HostileFrames::tank_create,   &HostileFrames::tank_change,     &HostileFrames::record,
-      &HostileFrames::record,        &HostileFrames::record};
-  constexpr int kStepsOfFrame = 30;
+      &HostileFrames::decal_create,  &HostileFrames::tank_create,     &HostileFrames::tank_change,
+      &HostileFrames::record,        &HostileFrames::record,          &HostileFrames::record};
+  constexpr int kStepsOfFrame = 33;
   run(2000);  // states and fields
   for (int i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
     host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
@@ -168,6 +174,7 @@ void HostileFrames::renderer_read() {
   };
   read_image("brume_renderer_smoke", brume_renderer_smoke);
   read_image("brume_renderer_shadows", brume_renderer_shadows);
+  read_image("brume_renderer_occlusion", brume_renderer_occlusion);
   auto level = output<std::uint32_t>(), dims_less = output<std::uint32_t>();
   const brume_result result =
       brume_renderer_coarseness(handle(renderers_), level.pointer(), dims_less.pointer());
@@ -200,6 +207,59 @@ void HostileFrames::volume_read() {
   read<brume_volume_info>("brume_volume_describe", volumes_, brume_volume_describe);
   checked("brume_volume_destroy", brume_volume_destroy(wrong_handle<brume_volume>()), true);
   EXPECT_NE(brume_vulkan_features(), nullptr);
+}
+
+void HostileFrames::decal_create() {
+  checked("brume_decal_destroy", brume_decal_destroy(wrong_handle<brume_decal>()), true);
+  if (decals_.size() > 1 && !chance(0.2)) return;
+  const std::vector<float> values(8, chance(0.1) ? NAN : 0.5f);
+  brume_decal_params params = brume_decal_defaults();
+  if (chance(0.3)) params.file = chance(0.3) ? "/nowhere/decal.brv" : file_.c_str();
+  if (chance(0.2)) params.grid = chance(0.5) ? "nothing" : "";
+  if (!params.file || chance(0.1)) params.up = chance(0.1) ? nullptr : values.data();
+  if (!params.file && chance(0.5)) params.down = values.data();
+  for (std::uint32_t& along : params.size) along = 2;
+  // Fewer values than are there, or more than an image holds.
+  if (chance(0.2)) params.size[below(3)] = chance(0.5) ? below(2) : (1u << 26) + number(9);
+  if (chance(0.1)) params.size[below(3)] = 1u << 31;
+  spoil(params.low.y, 0.1);
+  if (chance(0.1)) params.high = params.low;
+  auto out = output<brume_decal*>();
+  const brume_result result = brume_decal_create(handle(contexts_), spoiled(params), out.pointer());
+  if (!checked("brume_decal_create", result, out.untouched())) return;
+  decals_.push_back(out.value());
+  if (decals_.size() <= 3) return;
+  EXPECT_TRUE(checked("brume_decal_destroy", brume_decal_destroy(decals_.front()), true));
+  decals_.erase(decals_.begin());
+}
+
+brume_shown_decal HostileFrames::shown_decal() {
+  brume_shown_decal shown = brume_shown_decal_defaults(handle(decals_));
+  shown.position = point(9);
+  shown.x_axis.x = within(1, 9);
+  spoil(shown.x_axis.y);
+  if (chance(0.01)) shown.y_axis = shown.x_axis;
+  if (chance(0.01)) shown.z_axis.z = 1e-30f;
+  spoil(shown.position.z);
+  spoil(shown.strength);
+  spoil(shown.gamma);
+  spoil(shown.correction);
+  spoil(shown.falloff);
+  spoil(shown.fade);
+  spoil(shown.scatter);
+  return shown;
+}
+
+brume_normals HostileFrames::normals() {
+  brume_normals normals = brume_frame_defaults().normals;
+  if (chance(0.5)) normals.view = normals_.view();
+  normals.layout = VK_IMAGE_LAYOUT_GENERAL;
+  if (chance(0.02)) normals.layout = static_cast<VkImageLayout>(chance(0.5) ? 0 : number(999));
+  normals.encoding = below(4);
+  spoil(normals.encoding);
+  normals.of_view = below(3);
+  normals.alpha_receives = below(3);
+  return normals;
 }
 
 brume_shown_volume HostileFrames::shown_volume() {
@@ -319,6 +379,7 @@ void HostileFrames::spoil(brume_frame_params& params) {
   if (chance(0.02)) params.picture.format = static_cast<VkFormat>(number(200));
   if (chance(0.02)) params.light_count = count(lights_.size());
   if (chance(0.02)) params.volume_count = count(shown_.size());
+  if (chance(0.02)) params.decal_count = chance(0.5) ? 33 : count(shown_decals_.size());
   if (chance(0.02)) params.tank_count = count(shown_tanks_.size());
   if (chance(kRarely)) params.bounces = 17 + number(9);
   spoil(params.shadow_lights[1], 0.02);
@@ -348,6 +409,11 @@ void HostileFrames::record() {
   for (std::uint32_t i = below(3); i > 0 && !volumes_.empty(); --i) shown_.push_back(shown_volume());
   params.volumes = shown_.data();
   params.volume_count = shown_.size();
+  shown_decals_.clear();
+  for (std::uint32_t i = below(4); i > 0 && !decals_.empty(); --i) shown_decals_.push_back(shown_decal());
+  params.decals = shown_decals_.data();
+  params.decal_count = shown_decals_.size();
+  params.normals = normals();
   shown_tanks_.clear();
   for (std::uint32_t i = below(3); i > 0 && !tanks_.empty(); --i) shown_tanks_.push_back(shown_tank());
   params.tanks = shown_tanks_.data();

@@ -30,6 +30,7 @@ class HostileFrames : public api::Hostile {
   void renderer_read();
   void volume_create();
   void volume_read();
+  void decal_create();
   void tank_create();
   void tank_change();
   void record();
@@ -40,23 +41,27 @@ class HostileFrames : public api::Hostile {
   void spoil(Number& number, double probability = 0.01);
   brume_light light();
   brume_shown_volume shown_volume();
+  brume_shown_decal shown_decal();
+  brume_normals normals();
   brume_shown_tank shown_tank();
   void spoil(brume_frame_params& params);
 
   gpu::HostApplication host_{1};
   gpu::Context gpu_;
   gpu::HostRecording recording_;
-  gpu::Image depth_, picture_;
+  gpu::Image depth_, picture_, normals_;
   std::string file_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   std::uint64_t number_ = 0, completed_ = 0;
   bool has_drawn_ = false;  ///< Over the picture, in this frame.
   std::vector<brume_light> lights_;
   std::vector<brume_shown_volume> shown_;
+  std::vector<brume_shown_decal> shown_decals_;
   std::vector<brume_shown_tank> shown_tanks_;
   api::Pool<brume_device> devices_;
   api::Pool<brume_renderer> renderers_;
   api::Pool<brume_volume> volumes_;
+  api::Pool<brume_decal> decals_;
   api::Pool<brume_tank> tanks_;
 };
 

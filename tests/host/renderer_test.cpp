@@ -78,7 +78,7 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
   EXPECT_EQ(brume_renderer_smoke(smoke_->renderer, nullptr, nullptr), BRUME_ERROR_ORDER);
 }
 
-// A caller with the header of 0.1, whose struct ended before the volumes.
+// Callers with the header of 0.1, whose struct ended before the volumes, and of 0.2, which had no decals.
 TEST_F(RendererTest, DrawsTheFramesOfAnEarlierHeader) {
   make_sides(1, 1);
   draw_both(2.0, 1);
@@ -87,9 +87,13 @@ TEST_F(RendererTest, DrawsTheFramesOfAnEarlierHeader) {
     std::memset(&params.volumes, 0xa5, sizeof params - offsetof(brume_frame_params, volumes));
   };
   draw_both(2.0, 1);
+  change_params_ = [](brume_frame_params& params) {
+    params.struct_size = offsetof(brume_frame_params, decals);
+    std::memset(&params.decals, 0xa5, sizeof params - offsetof(brume_frame_params, decals));
+  };
+  draw_both(2.0, 1);
   host_->wait();
-  expect_same(0);
-  expect_same(1);
+  for (std::size_t frame = 0; frame < 3; ++frame) expect_same(frame);
   brume_renderer_params params = brume_renderer_defaults();
   params.struct_size = offsetof(brume_renderer_params, prepare_all);
   params.prepare_all = ~0u;

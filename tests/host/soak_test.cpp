@@ -1,5 +1,6 @@
 // Many frames of a host, in which everything changes: nothing is submitted, nothing leaks; and worlds whose
 // smoke is out of view, or more than there is memory for.
+#include <array>
 #include <random>
 
 #include "tests/host/yard.hpp"
@@ -13,7 +14,23 @@ constexpr int kFrames = 10'000;
 constexpr int kFrames = 40;
 #endif
 
-class SoakTest : public YardTest {};
+class SoakTest : public YardTest {
+ protected:
+  static constexpr std::size_t kDecals = 3;
+  ~SoakTest() override {
+    for (brume_decal* decal : decals_) EXPECT_OK(brume_decal_destroy(decal));
+  }
+  /// Another decal in the place of one.
+  void make_decal(std::size_t i, std::uint32_t edge) {
+    const std::vector<float> up(std::size_t{edge} * edge * edge, 0.5f);
+    brume_decal_params params = brume_decal_defaults();
+    params.up = up.data();
+    for (std::uint32_t& along : params.size) along = edge;
+    EXPECT_OK(brume_decal_destroy(decals_[i]));
+    ASSERT_OK(brume_decal_create(context_.get(), &params, &decals_[i]));
+  }
+  std::array<brume_decal*, kDecals> decals_{};
+};
 
 TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
   make({48, 20, 32}, 0.25f);
@@ -33,9 +50,20 @@ TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
     // Memory is short for a while, in which the size changes, too.
     if (i % 40 == 25) limit(device_bytes() * 3 / 4);
     if (i % 40 == 38) limit(UINT64_MAX);
+    if (i % 10 == 0) make_decal(static_cast<std::size_t>(i / 10) % kDecals, 8 + number(24));
     advance(tick);
     const float turn = 0.01f * static_cast<float>(i);
-    draw({6 + 3 * std::cos(turn), 1.5f, 4}, {std::sin(3 * turn), 0, std::cos(3 * turn)}, tick / 64.0);
+    const std::size_t first_decal = i / 5 % 4;  // none at 3
+    draw({6 + 3 * std::cos(turn), 1.5f, 4}, {std::sin(3 * turn), 0, std::cos(3 * turn)}, tick / 64.0,
+         [&](brume_frame_params& params) {
+           std::vector<brume_shown_decal> shown;
+           for (std::size_t decal = first_decal; decal < kDecals; ++decal)
+             if (decals_[decal]) shown.push_back(brume_shown_decal_defaults(decals_[decal]));
+           for (brume_shown_decal& decal : shown) decal.position = {6, 1, 4};
+           params.decals = shown.data();
+           params.decal_count = shown.size();
+           ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+         });
     std::uint64_t& most = i < kFrames / 2 ? first_half : second_half;
     most = std::max<std::uint64_t>(most, memory_.bytes);
     ASSERT_FALSE(HasFatalFailure());

@@ -105,9 +105,13 @@ class DecalFixture : public gpu::GpuTest {
 
   std::vector<planning::PlacedDecal> plan(const std::vector<planning::DecalInput>& decals) const {
     planning::FrameInput input;
-    input.slices = std::make_shared<const std::vector<grids::DenseVolume>>(volumes_);
+    grids::DenseVolumes slices;
+    for (const grids::DenseVolume& volume : volumes_)
+      slices.push_back(std::make_shared<const grids::DenseVolume>(volume));
+    input.slices = std::make_shared<const grids::DenseVolumes>(std::move(slices));
     input.decals = decals;
-    return planning::plan_decals(input, planning::ViewFrustum(camera_));
+    const auto placed = planning::plan_decals(input, planning::ViewFrustum(camera_), {});
+    return {placed.begin(), placed.end()};
   }
 
   /// The next frame has no past.

@@ -132,7 +132,8 @@
   X(86, AntialiasParams) \
   X(87, SurfaceImportParams) \
   X(88, MediaLayerParams) \
-  X(89, SurfaceShadowParams)
+  X(89, SurfaceShadowParams) \
+  X(90, SurfaceNormalParams)
 // clang-format on
 
 #endif

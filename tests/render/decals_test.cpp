@@ -56,7 +56,7 @@ class DecalFramesTest : public VolumeFixture {
     grid.box = {glm::dvec3(-2.5, -2, -2.5), glm::dvec3(2.5, 2, 2.5)};
     grid.values.assign(8, value);
     scenario.slices.volumes =
-        std::make_shared<const std::vector<grids::DenseVolume>>(1, grids::DenseVolume{grid, grid});
+        std::make_shared<const grids::DenseVolumes>(1, std::make_shared<const grids::DenseVolume>(2, grid));
     scenario.slices.of_decals = {scenario::SliceVolume()};
   }
 

@@ -179,7 +179,8 @@ TEST_F(FrameLayersTest, DecalsHaveTheirOcclusionAsALayer) {
   grid.size = glm::uvec3(1);
   grid.box = {glm::dvec3(-5), glm::dvec3(5)};
   grid.values = {0.5f};
-  input_.slices = std::make_shared<const std::vector<grids::DenseVolume>>(1, grids::DenseVolume{grid, grid});
+  input_.slices =
+      std::make_shared<const grids::DenseVolumes>(1, std::make_shared<const grids::DenseVolume>(2, grid));
   input_.decals.resize(1);
   const Layers layers = draw();
   const auto occlusion = read_back<passes::Half4>(*renderer().occlusion());

@@ -20,7 +20,8 @@ class ParticleFramesTest : public VolumeFixture {
     grids::DenseGrid mask;
     mask.size = {4, 4, 4};
     mask.values.assign(64, 1);
-    input_.slices = std::make_shared<std::vector<grids::DenseVolume>>(1, grids::DenseVolume{mask});
+    input_.slices =
+        std::make_shared<const grids::DenseVolumes>(1, std::make_shared<const grids::DenseVolume>(1, mask));
   }
   static planning::ParticleInput cube(glm::vec3 centre) {
     planning::ParticleInput input;
