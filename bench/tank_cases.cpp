@@ -4,7 +4,9 @@
 #include "bench/bench.hpp"
 #include "bench/lens_points.h"
 #include "brume_bench_shaders.hpp"
+#include "passes/blue_noise.hpp"
 #include "planning/tank_plan.hpp"
+#include "render/tank_layer.hpp"
 #include "render/tank_renderer.hpp"
 #include "scenario/tank.hpp"
 #include "spheres/brick_lists.hpp"
@@ -147,6 +149,47 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
   return std::vector{m};
 }
 
+/// The same in a frame, over its surfaces, of which there are none.
+Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture) {
+  const glm::uvec2 size = is_slow(bench) ? glm::uvec2(640, 360) : kPicture;
+  const spheres::Tank& tank = tank_of(picture.spheres, picture.opacity);
+  render::TankInput input;
+  input.content =
+      std::make_shared<const render::TankContent>(render::TankContent{tank, spheres::list_bricks(tank)});
+  scene::TankScene scene = scene::scene_of_tank_file({});
+  scene.bounces = picture.bounces;
+  input.light = std::make_shared<const render::TankLight>(render::TankLight{scene, {}});
+  input.view = picture.view;
+  scene::Camera camera;
+  camera.position_world = {0, 0, 1.6f};
+  camera.vertical_fov = 0.7f;
+  gpu::CommandRunner runner(bench.context());
+  const auto image = [&](VkFormat format) {
+    gpu::ImageInfo info;
+    info.format = format;
+    info.size = {size, 1};
+    info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return gpu::Image(bench.context(), info);
+  };
+  const gpu::Image depth = image(VK_FORMAT_R32_SFLOAT), media = image(VK_FORMAT_R16G16B16A16_SFLOAT);
+  gpu::Image blue_noise;
+  runner.run([&](gpu::Recorder& recorder) {
+    blue_noise = passes::make_blue_noise(bench.context(), recorder);
+    recorder.clear(media, {});
+  });
+  render::TankLayer layer(bench.context(), runner, size);
+  layer.plan(std::span(&input, 1), camera);
+  Measurement m =
+      time_pass(bench, runner, picture.name, {"tank", "tank_layers"}, [&](gpu::Recorder& recorder) {
+        recorder.clear(depth, {});
+        layer.record_surfaces(recorder, depth, blue_noise);
+        layer.record_layers(recorder, media);
+      });
+  m.details = {{"width", double(size.x)}, {"height", double(size.y)}};
+  for (const auto& scope : runner.timings()) m.details[std::string(scope.name)] = scope.milliseconds;
+  return std::vector{m};
+}
+
 Result<std::vector<Measurement>> lens_case(Bench& bench, std::uint32_t blades) {
   constexpr std::uint32_t kThreads = 1u << 20, kPoints = 64;
   gpu::CommandRunner runner(bench.context());
@@ -202,6 +245,12 @@ std::vector<Case> tank_cases() {
       {{"tank/voxels", scene::TankView::voxels}, "painted voxels"}};
   for (const auto& [picture, what] : pictures)
     cases.push_back({picture.name, what, [picture](Bench& b) { return picture_case(b, picture); }});
+  const std::vector<std::pair<Picture, const char*>> frames{
+      {{"tank/frame"}, "exact spheres in a host's frame at 1080p, direct light"},
+      {{"tank/frame_scattered", scene::TankView::spheres, 2}, "the same with two bounces"},
+      {{"tank/frame_voxels", scene::TankView::voxels}, "painted voxels in a host's frame"}};
+  for (const auto& [picture, what] : frames)
+    cases.push_back({picture.name, what, [picture](Bench& b) { return frame_case(b, picture); }});
   for (const std::uint32_t blades : {6u, 5u, 9u})
     cases.push_back({"lens/" + std::to_string(blades), "2^26 points of a lens by the remap and by rejection",
                      [blades](Bench& b) { return lens_case(b, blades); }});

@@ -1,10 +1,8 @@
 // A level of boxes, a camera, and smoke between them.
 #pragma once
 
-#include <brume/brume_vulkan.h>
-#include <brume/brume.hpp>
-
 #include <array>
+#include <brume/brume_vulkan.hpp>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -52,21 +50,11 @@ inline Camera camera_at(double seconds) {
 /// The smoke: all that a host adds.
 struct Smoke {
   Smoke(const brume_device_params& host, std::uint32_t width, std::uint32_t height)
-      : level(context, triangles()), world(level), field(level) {
-    brume::api::check(brume_device_create(context.get(), &host, &device));
-    const brume_light light{
-        BRUME_LIGHT_POINT, {kLight.x, kLight.y, kLight.z}, {0, -1, 0}, {60, 40, 22}, 0, 0};
-    brume_renderer_params params = brume_renderer_defaults();
-    params.width = width;
-    params.height = height;
-    params.lights = &light;
-    params.light_count = 1;
-    params.points = points.data();
-    params.point_count = points.size();
-    params.indices = indices.data();
-    params.index_count = indices.size();
-    brume::api::check(brume_renderer_create(device, &params, &renderer));
-
+      : level(context, triangles()),
+        world(level),
+        field(level),
+        device(context, host),
+        renderer(device, renderer_params(width, height)) {
     brume_event grenade = brume_event_defaults(BRUME_EVENT_SMOKE, 0);
     grenade.u.smoke.voxels = 9000;
     grenade.u.smoke.from = brume::api::position(0, 1.5, 6);
@@ -76,12 +64,6 @@ struct Smoke {
     shot.u.shot.toward = brume::api::position(0, 1.2, 0);
     world.append({grenade, shot});
   }
-  ~Smoke() {
-    brume_renderer_destroy(renderer);
-    brume_device_destroy(device);
-  }
-  Smoke(const Smoke&) = delete;
-  Smoke& operator=(const Smoke&) = delete;
 
   /// Two triangles a side, three corners each.
   brume_triangles_params triangles() {
@@ -99,6 +81,21 @@ struct Smoke {
       }
     brume_triangles_params params = brume_triangles_defaults();
     params.layout = {{64, 24, 64}, 0.25f, {-8, -1, -8}};
+    params.points = points.data();
+    params.point_count = points.size();
+    params.indices = indices.data();
+    params.index_count = indices.size();
+    return params;
+  }
+
+  brume_renderer_params renderer_params(std::uint32_t width, std::uint32_t height) const {
+    static constexpr brume_light light{
+        BRUME_LIGHT_POINT, {kLight.x, kLight.y, kLight.z}, {0, -1, 0}, {60, 40, 22}, 0, 0};
+    brume_renderer_params params = brume_renderer_defaults();
+    params.width = width;
+    params.height = height;
+    params.lights = &light;
+    params.light_count = 1;
     params.points = points.data();
     params.point_count = points.size();
     params.indices = indices.data();
@@ -126,7 +123,7 @@ struct Smoke {
     params.ambient[2] = 0.09f;
     params.look.erosion = 0.7f;
     params.seconds = seconds;
-    brume::api::check(brume_renderer_record(renderer, field.get(), &params));
+    renderer.record(&field, params);
   }
 
   std::vector<brume_point> points;
@@ -135,6 +132,6 @@ struct Smoke {
   brume::api::Level level;
   brume::api::World world;
   brume::api::Field field;
-  brume_device* device = nullptr;
-  brume_renderer* renderer = nullptr;
+  brume::api::Device device;
+  brume::api::Renderer renderer;
 };

@@ -1,5 +1,5 @@
-// The pixels of a picture of a tank: the mean of its samples. With TANK_OVER_SURFACES the tank is part of a frame: paths
-// end at its surfaces, and what is behind the tank is not in the picture, but how much of it is seen.
+// The pixels of a picture of a tank: the mean of its samples. With TANK_OVER_SURFACES the tank is part of a frame:
+// paths end at its surfaces, and what is behind the tank is not in the picture, but how much of it is seen.
 #ifndef TANK_PICTURE_GLSL
 #define TANK_PICTURE_GLSL
 #include "lib/tank_air.glsl"

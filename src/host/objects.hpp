@@ -1,4 +1,4 @@
-// The objects behind the handles of brume_vulkan.h.
+// The objects behind the handles of brume_assets.h and brume_vulkan.h.
 #pragma once
 
 #include <brume/brume_vulkan.h>

@@ -6,7 +6,7 @@
 
 namespace brume::host {
 
-/// The tanks of a frame. Throws a CallFailure for what brume_vulkan.h does not allow.
+/// The tanks of a frame. Throws a CallFailure for what brume_assets.h does not allow.
 std::vector<render::TankInput> tanks_of(api::Call& call, const brume_frame_params& params);
 
 }  // namespace brume::host

@@ -11,7 +11,7 @@ namespace brume::host {
 using ShownVolumes = std::vector<scenario::VolumeAt>;
 
 /// Adds the volumes of a frame, and the light of what glows in them. Loads what they wait for. Throws a
-/// CallFailure for what brume_vulkan.h does not allow.
+/// CallFailure for what brume_assets.h does not allow.
 ShownVolumes add_volumes(api::Call& call, const brume_frame_params& params, planning::FrameInput& input);
 
 /// What was read from a file. A failure is that of the file, also where brume-vdb is missing.

@@ -97,6 +97,7 @@ void TankLayer::record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth
 }
 
 void TankLayer::record_layers(gpu::Recorder& recorder, const gpu::Image& media) {
+  const gpu::Scope timed(recorder, "tank_layers");
   layer_pass_.begin(recorder, layers_);
   for (const Slot* slot : shown_) layer_pass_.add(recorder, slot->sampler.radiance(), layers_);
   layer_pass_.add(recorder, media, layers_);

@@ -28,7 +28,9 @@ TEST(HostileFrames, ArgumentsGiveResultsInEveryFunction) {
   for (const std::string& message : hostile.take_messages()) ADD_FAILURE() << message;
 
   std::set<std::string> declared, called;
-  const std::string text = *read_text_file(BRUME_SOURCE_DIR "/include/brume/brume_vulkan.h");
+  std::string text;
+  for (const char* header : {"brume_assets.h", "brume_vulkan.h"})
+    text += *read_text_file(std::string(BRUME_SOURCE_DIR "/include/brume/") + header);
   for (std::size_t at = 0; (at = text.find("BRUME_API brume_result ", at)) != text.npos; ++at) {
     const std::size_t name = at + std::string("BRUME_API brume_result ").size();
     declared.insert(text.substr(name, text.find('(', name) - name));

@@ -30,12 +30,13 @@ TEST(VulkanHeader, CompilesWithoutAWarning) {
     if (run_shell(std::string("command -v ") + compiler).status == 0)
       expect_runs("echo '#include <brume/brume_vulkan.h>' | " + std::string(compiler) + flags +
                   "-std=c11 -x c -");
-  expect_runs("echo '#include <brume/brume_vulkan.h>' | g++" + flags + "-std=c++17 -x c++ -");
+  for (const char* header : {"brume_vulkan.h", "brume_vulkan.hpp"})
+    expect_runs("echo '#include <brume/" + std::string(header) + ">' | g++" + flags + "-std=c++17 -x c++ -");
 }
 
-TEST(VulkanLibrary, ExportsTheFunctionsOfBothHeadersAndNothingElse) {
+TEST(VulkanLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {
   std::set<std::string> declared, exported;
-  for (const char* header : {"/brume/brume.h", "/brume/brume_vulkan.h"}) {
+  for (const char* header : {"/brume/brume.h", "/brume/brume_assets.h", "/brume/brume_vulkan.h"}) {
     const std::string text = *read_text_file(kInclude + header);
     for (std::size_t at = 0; (at = text.find("BRUME_API ", at)) != text.npos; ++at) {
       const std::size_t bracket = text.find('(', at), name = text.rfind("brume_", bracket);
@@ -52,8 +53,10 @@ TEST(VulkanLibrary, ExportsTheFunctionsOfBothHeadersAndNothingElse) {
 }
 
 TEST(VulkanAbi, IsTheOneThatIsKept) {
-  const ShellRun run = api::abi_difference("brume_vulkan.h", "host/brume_vulkan.abi");
-  EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
+  for (const std::string header : {"brume_assets", "brume_vulkan"}) {
+    const ShellRun run = api::abi_difference(header + ".h", "host/" + header + ".abi");
+    EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
+  }
 }
 
 class HostExample : public testing::Test {
