@@ -1,6 +1,6 @@
-// The C interface of what frames show besides smoke: volumes of files, decals of baked occlusion, and tanks of
-// spheres. Each is made once, and shown in any frame of any renderer (brume_vulkan.h, which includes this
-// header). Library: libbrume.
+// The C interface of what frames show besides smoke: volumes of files, decals and tanks of spheres. Each is
+// made once, and shown in any frame of any renderer (brume_vulkan.h, which includes this header). Library:
+// libbrume.
 //
 // Everything that brume.h says of results, handles, threads and structs holds here.
 #ifndef BRUME_BRUME_ASSETS_H

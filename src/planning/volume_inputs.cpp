@@ -125,8 +125,8 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
     const bool is_particles =
         frame.particles && options[i].particles > 0 && i < slices.size() && slices[i].has_value();
     if (is_particles) {
-      input.particles.push_back(
-          particles_of(options[i], *slices[i], *(*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
+      input.particles.push_back(particles_of(options[i], *slices[i],
+                                             *(*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
       input.particles.back().index = i;
       add_glow(options[i], volumes[i], seconds, input);
     } else {

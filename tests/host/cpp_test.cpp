@@ -51,11 +51,11 @@ TEST(CppInterface, IsTheCInterface) {
   api::Tank tank(context, tank_params);
   tank.set_lighting(brume_tank_lighting_defaults());
   EXPECT_EQ(tank.shown().tank, tank.get());
-  constexpr std::array kOcclusion{0.25f, 0.5f};
+  const float occluded = 1;
   brume_decal_params decal_params = brume_decal_defaults();
-  decal_params.up = kOcclusion.data();
-  decal_params.size[0] = 2;
-  decal_params.size[1] = decal_params.size[2] = 1;
+  EXPECT_THROW(api::Decal(context, decal_params), api::Error);
+  decal_params.up = &occluded;
+  for (std::uint32_t& along : decal_params.size) along = 1;
   const api::Decal decal(context, decal_params);
   EXPECT_EQ(decal.shown().decal, decal.get());
   brume_volume_params volume_params = brume_volume_defaults();
