@@ -324,20 +324,24 @@ TEST_F(Render, NumbersInLayers) {
 TEST_F(Render, NumberedLayersResume) {
   const Arguments whole{"-o",      "f_%d.exr", "--frames", "0-2",    "--size", "32x18",
                         "--march", "quarter",  "--resume", "--json", "-"};
+  std::string reasons;
   const auto drawn = [&] {
     const Outcome run = render(whole);
     EXPECT_EQ(run.exit_code, 0) << run.error;
+    reasons = run.error;
     return nlohmann::json::parse(run.out)["frames"].get<int>();
   };
   EXPECT_EQ(drawn(), 3);
   const auto expected = contents(folder_);
   EXPECT_EQ(drawn(), 0);
   const std::string& frame = expected.at("f_1.exr");
+  folder_.write("f_0.exr", expected.at("f_0.exr") + "more");
   folder_.write("f_1.exr", frame.substr(0, frame.size() - 4));
   std::string damaged = expected.at("f_2.exr");
   damaged[damaged.size() * 3 / 4] ^= 1;
   folder_.write("f_2.exr", damaged);
-  EXPECT_EQ(drawn(), 2);
+  EXPECT_EQ(drawn(), 3);
+  EXPECT_EQ(reasons, "brume: frame 0: damaged\nbrume: frame 1: truncated\nbrume: frame 2: damaged\n");
   EXPECT_EQ(contents(folder_), expected);
 }
 
