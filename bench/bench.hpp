@@ -98,7 +98,8 @@ std::vector<Case> all_cases();
 /// Runs the cases whose name equals one of `names` or begins with it and a slash; all cases if the list is
 /// empty. `starting` is called with the name of each case before it runs. Fails with usage, listing all
 /// cases, for a name that matches none, and for a device where no case is on one; with no_device where all
-/// are skipped. Throws no_device if a GPU case finds no device.
+/// are skipped. Throws no_device before the first case
+/// where a GPU case would find no device.
 Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,
                    const std::function<void(const std::string&)>& starting);
 

@@ -167,6 +167,12 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   return statistics;
 }
 
+// A shard of more shards than frames requires no device, but the same options.
+Json no_frames(const RenderOptions& options, const Loaded& loaded) {
+  check_raycast(options, loaded.scenario);
+  return {{"mode", options.mode}, {"frames", 0}};
+}
+
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const Stopwatch watch;
   Plan plan = make_plan(arguments, options, common.outputs);
@@ -178,8 +184,9 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   common.outputs.reads(scenario::files_of(loaded.scenario));
   stop_if_interrupted();
   warn_of_times(options, plan, duration_of(loaded));
-  const Json frames = is_reference(options) ? render_reference(options, plan, common, loaded)
-                                            : render_realtime(options, plan, common, loaded);
+  const Json frames = !has_frames(plan, duration_of(loaded)) ? no_frames(options, loaded)
+                      : is_reference(options)                ? render_reference(options, plan, common, loaded)
+                                                             : render_realtime(options, plan, common, loaded);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
                   {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})}};

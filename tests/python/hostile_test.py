@@ -1,7 +1,11 @@
 """Arguments that make no sense raise Python's exceptions, in one line, and change nothing."""
 
+import copy
+import inspect
 import os
+import shutil
 import unittest
+from pathlib import Path
 
 import brume
 import numpy as np
@@ -18,6 +22,33 @@ class Hostile(unittest.TestCase):
             with self.assertRaises(kinds) as caught:
                 call(*arguments, **named)
             self.assertTrue(str(caught.exception))
+
+
+class UnmadeTest(Hostile):
+    def test_objects_without_init(self):
+        level, world = two_rooms(), smoky_world()
+        scenario = brume.load(SOURCE / "scenes/single.toml")
+        for made in (level, world, scenario, brume.Sender(), brume.Receiver(), brume.Smoke, brume.Renderer):
+            kind = made if isinstance(made, type) else type(made)
+            for bare in (kind.__new__(kind), copy.copy(kind.__new__(kind))):
+                for name in dir(kind):
+                    if isinstance(inspect.getattr_static(kind, name), property):
+                        self.refuse(getattr, bare, name, kinds=TypeError)
+                if "__repr__" in vars(kind):
+                    self.refuse(repr, bare, kinds=TypeError)
+        unmade = {kind: kind.__new__(kind) for kind in (brume.Level, brume.World, brume.Scenario, brume.Sender,
+                                                        brume.Receiver, brume.Renderer)}
+        self.refuse(brume.World, unmade[brume.Level], kinds=TypeError)
+        self.refuse(unmade[brume.Level].save, "/tmp/none.vxl", kinds=TypeError)
+        self.refuse(brume.Renderer, unmade[brume.Scenario], kinds=TypeError)
+        self.refuse(brume.Sender().push, unmade[brume.World], kinds=TypeError)
+        self.refuse(brume.Receiver().restore, unmade[brume.World], kinds=TypeError)
+        self.refuse(unmade[brume.Sender].push, world, kinds=TypeError)
+        self.refuse(unmade[brume.Receiver].receive, b"", kinds=TypeError)
+        self.refuse(unmade[brume.World].step, kinds=TypeError)
+        self.refuse(unmade[brume.World].density, kinds=TypeError)
+        self.refuse(unmade[brume.Renderer].draw, 0, kinds=TypeError)
+        self.refuse(copy.copy(world).save, kinds=TypeError)
 
 
 class QueryTest(Hostile):
@@ -233,6 +264,22 @@ class FileTest(Hostile):
             os.mkdir(folder + "/a.brv")
             self.refuse(brume.write_grids, folder + "/a.brv", grid, kinds=IsADirectoryError)
             self.refuse(brume.write_grids, folder + "/a.txt", grid)
+
+    def test_conversions_never_replace_their_input(self):
+        with work_folder() as folder:
+            path = Path(folder)
+            brume.write_grids(path / "a.brv", brume.Grid(np.ones((2, 2, 2), np.float32)))
+            brume.convert(path / "a.brv", path / "b.json")
+            shutil.copy(path / "b.json", path / "c.json")  # Of b.raw, too.
+            os.link(path / "a.brv", path / "hard.brv")
+            os.symlink("a.brv", path / "soft.brv")
+            before = {file.name: file.read_bytes() for file in path.iterdir()}
+            for source, target in (("a.brv", "a.brv"), ("a.brv", "hard.brv"), ("a.brv", "soft.brv"),
+                                   ("soft.brv", "a.brv"), ("b.json", "b.json"), ("c.json", "b.json"),
+                                   ("a.brv", "../" + path.name + "/a.brv")):
+                with self.assertRaisesRegex(ValueError, "is the input"):
+                    brume.convert(path / source, path / target)
+            self.assertEqual({file.name: file.read_bytes() for file in path.iterdir()}, before)
 
     def test_messages_are_those_of_the_program(self):
         with work_folder() as folder:
