@@ -9,9 +9,8 @@
 
 namespace {
 
-/// Class.__new__(Class) without __init__, as copy.copy calls it, makes an object of nothing. Before such an
-/// object reaches a function, pybind11 gives it memory that nothing initializes: that raises TypeError
-/// instead.
+/// Class.__new__(Class) makes an object without __init__. Before such an object reaches a function, pybind11
+/// gives it memory that nothing initializes: that raises TypeError instead.
 void refuse_unmade_objects(const pybind11::module_& module) {
   for (const auto& [name, member] : module.attr("__dict__").cast<pybind11::dict>()) {
     if (!PyType_Check(member.ptr())) continue;

@@ -161,11 +161,12 @@ void Outputs::frame_done(std::uint32_t frame) {
   const std::lock_guard lock(mutex_);
   BRUME_ASSERT(frames_ && frame >= frames_->first && frame <= frames_->last, std::to_string(frame));
   frames_->done[frame - frames_->first] = true;
+  unit_.reset();
 }
 
-void Outputs::set_unit(const Outputs* unit) {
+void Outputs::begin_unit(std::shared_ptr<const Outputs> unit) {
   const std::lock_guard lock(mutex_);
-  unit_ = unit;
+  unit_ = std::move(unit);
 }
 
 bool Outputs::is_written(const Output& output) const {
@@ -190,7 +191,7 @@ std::string Outputs::frame_state(const std::string& unit) const {
 
 // Which files of the frame that is being made are written; empty if none are.
 std::string Outputs::unit_state() const {
-  if (unit_ == nullptr) return "";
+  if (!unit_) return "";
   const std::lock_guard lock(unit_->mutex_);
   if (std::string text = unit_->state(); !text.empty()) return text;
   const std::string files = unit_->written_unlocked();

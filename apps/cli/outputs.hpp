@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -63,9 +64,9 @@ class Outputs {
   void up_to_date(const std::filesystem::path& file);
   /// States that a frame of the sequence is complete: written, or already there.
   void frame_done(std::uint32_t frame);
-  /// The files of the frame that is being made, if it has several: explanations name those that are written.
-  /// nullptr: none is being made. `unit` must live until the next call.
-  void set_unit(const Outputs* unit);
+  /// The files of the frame that is being made, if it has several: until frame_done, explanations name those
+  /// that are written.
+  void begin_unit(std::shared_ptr<const Outputs> unit);
   /// Whether frames depend on those before: only --resume then continues the sequence.
   void set_frames_depend(bool depend) { frames_depend_ = depend; }
   /// Whether the command has --resume to continue the sequence; yes unless it says otherwise.
@@ -119,7 +120,7 @@ class Outputs {
   std::set<FileIdentity> named_twice_;
   std::vector<Output> outputs_;
   std::optional<Frames> frames_;
-  const Outputs* unit_ = nullptr;
+  std::shared_ptr<const Outputs> unit_;
   std::string film_state_;  ///< " after 3 of 48 frames; ..."; empty: no film.
   bool force_ = false, frames_depend_ = false, resumable_ = true;
 };

@@ -133,22 +133,6 @@ std::optional<std::uint32_t> whole_number(std::string_view text) {
   return value;
 }
 
-// The files of a unit, as long as it is being made.
-class UnitOutputs {
- public:
-  explicit UnitOutputs(CommonOptions& common) : whole_(common.outputs) {
-    files_.set_force(common.force);
-    whole_.set_unit(&files_);
-  }
-  UnitOutputs(const UnitOutputs&) = delete;
-  ~UnitOutputs() { whole_.set_unit(nullptr); }
-  Outputs& operator*() { return files_; }
-
- private:
-  Outputs& whole_;
-  Outputs files_;
-};
-
 }  // namespace
 
 Shard parse_shard(const std::string& option, const std::string& text) {
@@ -216,8 +200,10 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
     if (reasons[i].empty()) continue;
     stop_if_interrupted();
     const Unit unit = unit_of(job, static_cast<std::uint32_t>(part->first + i));
-    UnitOutputs outputs(common);
-    (*outputs).writes("", key_path(unit.output), FileKind::unit_key);
+    const auto outputs = std::make_shared<Outputs>();
+    outputs->set_force(common.force);
+    common.outputs.begin_unit(outputs);
+    outputs->writes("", key_path(unit.output), FileKind::unit_key);
     run(unit, *outputs);
     save_key(unit, key, *outputs);
     common.outputs.frame_done(*unit.number);
