@@ -42,8 +42,9 @@ CLI::Option* text_option(CLI::Option* option) {
 }
 
 [[noreturn]] void refuse(const std::string& message, const CLI::App* command) {
-  throw Error(ErrorCode::usage,
-              message + "; see brume " + (command ? command->get_name() + " " : "") + "--help");
+  const CLI::App* const program = command ? command->get_parent() : nullptr;
+  throw Error(ErrorCode::usage, message + "; see " + (program ? program->get_name() : "brume") + " " +
+                                    (command ? command->get_name() + " " : "") + "--help");
 }
 
 /// All names of a command's options, with dashes.

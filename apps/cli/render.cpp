@@ -177,7 +177,7 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   const Stopwatch watch;
   Plan plan = make_plan(arguments, options, common.outputs);
   if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
-  Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
+  Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, Json::list({})};
   set_shutter(options, plan, loaded.scenario);
   if (plan.kind == TargetKind::sequence && !plan.frames)
     declare_frames(options, plan, frames_of(plan, duration_of(loaded)), common.outputs);

@@ -33,6 +33,7 @@
 #include "scenario/scenario.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/volumes.hpp"
+#include "scene/load.hpp"
 #include "volume/parts.hpp"
 
 namespace brume::mpi {
@@ -222,7 +223,7 @@ struct Prepared {
 };
 
 void declare_files(const Options& options, const Process& process, cli::Outputs& outputs) {
-  if (!options.output.ends_with(".png"))
+  if (scene::lower_extension(options.output) != ".png")
     throw Error(ErrorCode::usage, "-o " + options.output + ": expected a .png file");
   if (!process.is_first()) return;
   outputs.writes("-o", options.output, cli::FileKind::png);

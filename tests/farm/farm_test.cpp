@@ -150,11 +150,19 @@ TEST_F(Farm, HelpIsItsOwnText) {
 TEST_F(Farm, AnInterruptionSaysWhatRemainsAndEndsItsProcesses) {
   const std::vector<std::string> options{"room.toml", "out", "--local", "2",      "--shards", "3",
                                          "--fps",     "12",  "--",      "--size", "32x18"};
+  // The second shard waits for the signal.
+  fs::create_directory(folder_.path() / "bin");
+  std::ofstream(folder_.path() / "bin/brume")
+      << "#!/bin/sh\ncase \"$*\" in\n*'--shard 2/3') echo > " << folder_.path().string()
+      << "/waiting; exec sleep 3600 ;;\nesac\nexec " BRUME_BUILD_DIR "/brume \"$@\"\n";
+  fs::permissions(folder_.path() / "bin/brume", fs::perms::owner_all);
   RunOptions interrupted;
-  interrupted.signal = SIGINT;
-  interrupted.signal_when = [&] { return fs::exists(folder_.path() / "out/frames/000000.png"); };
-  const Outcome run = run_farm(folder_, options, BRUME_BUILD_DIR, interrupted);
-  EXPECT_EQ(run.exit_code, 128 + SIGINT) << run.error;
+  interrupted.signal = SIGTERM;  // SIGINT is ignored where the tests run in the background.
+  interrupted.signal_when = [&] {
+    return fs::exists(folder_.path() / "waiting") && fs::exists(folder_.path() / "out/frames/000000.png");
+  };
+  const Outcome run = run_farm(folder_, options, (folder_.path() / "bin").string(), interrupted);
+  EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.error;
   std::size_t frames = 0;
   for (const auto& entry : fs::directory_iterator(folder_.path() / "out/frames"))
     frames += entry.path().extension() == ".png" ? 1 : 0;
