@@ -272,7 +272,8 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   folder_.write("f_3.png", damaged);
   EXPECT_EQ(drawn(whole), 3);
   EXPECT_EQ(reasons,
-            "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
+            "brume: frame 1: truncated; made again\nbrume: frame 2: of another number; made again\nbrume: "
+            "frame 3: damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Damage beside the pixels: the checksum before the end's 12 bytes, and bytes after the end.
@@ -281,19 +282,19 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   folder_.write("f_1.png", damaged);
   folder_.write("f_2.png", expected.at("f_2.png") + std::string(50, '\0'));
   EXPECT_EQ(drawn(whole), 2);
-  EXPECT_EQ(reasons, "brume: frames 1-2: damaged\n");
+  EXPECT_EQ(reasons, "brume: frames 1-2: damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
   Arguments other = whole;
   other.insert(other.end(), {"--step", "2"});
   EXPECT_EQ(drawn(other), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings\n");
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings; made again\n");
   EXPECT_EQ(drawn(whole), 4);
   EXPECT_EQ(contents(folder_), expected);
   folder_.write("room.obj", room_obj() + "# changed\n");
   EXPECT_EQ(drawn(whole), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs\n");
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs; made again\n");
   EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
 }
 
@@ -341,7 +342,9 @@ TEST_F(Render, NumberedLayersResume) {
   damaged[damaged.size() * 3 / 4] ^= 1;
   folder_.write("f_2.exr", damaged);
   EXPECT_EQ(drawn(), 3);
-  EXPECT_EQ(reasons, "brume: frame 0: damaged\nbrume: frame 1: truncated\nbrume: frame 2: damaged\n");
+  EXPECT_EQ(reasons,
+            "brume: frame 0: damaged; made again\nbrume: frame 1: truncated; made again\nbrume: frame 2: "
+            "damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 }
 

@@ -92,24 +92,27 @@ TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
   fs::remove(folder_.path() / "s_1.json");
   folder_.write("s_2.json", whole.at("s_1.json"));
   folder_.write("s_3.png", whole.at("s_3.png").substr(0, 40));
-  check("brume: frame 1: missing\nbrume: frames 2-3: damaged\n");
+  check("brume: frame 1: missing\nbrume: frames 2-3: damaged; made again\n");
   fs::remove(folder_.path() / "s_2.png.key");
   folder_.write("s_3.png.key", whole.at("s_1.png.key"));
-  check("brume: frame 2: without a key\nbrume: frame 3: of another number\n");
+  check("brume: frame 2: without a key; made again\nbrume: frame 3: of another number; made again\n");
   folder_.write("s_1.png.key", whole.at("s_1.png.key").substr(0, 30));
   folder_.write("s_3.png.key", "BRUMEKEY");
-  check("brume: frame 1: of other settings, another program\nbrume: frame 3: without a key\n");
+  check(
+      "brume: frame 1: of other settings, another program; made again\nbrume: frame 3: without a key; made "
+      "again\n");
 
   // Inputs by their contents, not by their times.
   const Files clouds = files("cloud_");
   folder_.write("cloud_1.brv", clouds.at("cloud_1.brv"));
   check("");
   folder_.write("cloud_2.brv", clouds.at("cloud_1.brv"));
-  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frame 2: of other inputs\n");
+  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frame 2: of other inputs; made again\n");
   EXPECT_EQ(files("s_").at("s_2.png"), whole.at("s_1.png"));
   folder_.write("cloud_2.brv", clouds.at("cloud_2.brv"));
-  check("brume: frame 2: of other inputs\n");
-  EXPECT_EQ(run(slices_, {"--resume", "--padding", "1"}).error, "brume: frames 1-3: of other settings\n");
+  check("brume: frame 2: of other inputs; made again\n");
+  EXPECT_EQ(run(slices_, {"--resume", "--padding", "1"}).error,
+            "brume: frames 1-3: of other settings; made again\n");
 }
 
 TEST_F(Units, ConversionsOfASequence) {

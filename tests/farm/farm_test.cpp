@@ -47,7 +47,7 @@ TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
   ASSERT_EQ(second.exit_code, 0) << second.error;
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == alone);
   expect_in(log(), ": frame 4: missing\n");
-  expect_in(log(), ": frame 9: truncated\n");
+  expect_in(log(), ": frame 9: truncated; made again\n");
 }
 
 // The encoder's output depends on its number of threads.
