@@ -89,7 +89,7 @@ TEST_F(CommandLineTest, ValuesMayHaveTheNamesOfCommands) {
   EXPECT_EQ(refusal({"bench", "render"}).rfind("no benchmark \"render\"; expected one of", 0), 0u);
 }
 
-TEST_F(CommandLineTest, BenchmarksThatCannotRunAreNoSuccess) {
+TEST_F(CommandLineTest, ADeviceIsMissedWhereThereIsWorkForIt) {
   RunOptions without_motel, without_device;
   without_motel.environment = {{"BRUME_MOTEL", "none"}};
   without_device.environment = {{"VK_ICD_FILENAMES", "none"}, {"VK_DRIVER_FILES", "none"}};
@@ -101,6 +101,8 @@ TEST_F(CommandLineTest, BenchmarksThatCannotRunAreNoSuccess) {
   const Outcome device = run_brume(folder, {"bench", "fill/1800", "lens/5"}, without_device);
   EXPECT_EQ(device.exit_code, 5) << device.error;
   EXPECT_EQ(device.out, "") << "it is missed before the first case";
+  const Arguments idle{"render", "room.obj", "-o", "f_%d.png", "--frames", "0-2", "--shard", "1/9"};
+  EXPECT_EQ(run_brume(folder, idle, without_device).exit_code, 0) << "it has no frame";
   const Outcome some = run_brume(folder, {"bench", "voxelize", "--repetitions", "1"}, without_motel);
   EXPECT_EQ(some.exit_code, 0) << some.error;
   EXPECT_NE(some.out.find("skipped: voxelize/motel: "), std::string::npos) << some.out;
