@@ -73,19 +73,16 @@ Measurement summarize(const std::string& name, const std::string& unit, const st
 }
 
 std::vector<Case> all_cases() {
-  std::vector<Case> cases = cpu_cases();
-  for (Case& one : edit_cases()) cases.push_back(std::move(one));
-  for (Case& one : live_cases()) cases.push_back(std::move(one));
-  for (Case& one : volume_cases()) cases.push_back(std::move(one));
-  for (Case& one : sight_cases()) cases.push_back(std::move(one));
-  for (Case& one : sim_cases()) cases.push_back(std::move(one));
-  for (Case& one : wire_cases()) cases.push_back(std::move(one));
-  for (Case& one : gpu_cases()) cases.push_back(std::move(one));
-  for (Case& one : cloud_cases()) cases.push_back(std::move(one));
-  for (Case& one : particle_cases()) cases.push_back(std::move(one));
-  for (Case& one : decal_cases()) cases.push_back(std::move(one));
-  for (Case& one : tank_cases()) cases.push_back(std::move(one));
-  for (Case& one : scaling_cases()) cases.push_back(std::move(one));
+  std::vector<Case> cases;
+  for (const auto& of_processor :
+       {cpu_cases, edit_cases, live_cases, volume_cases, sight_cases, sim_cases, wire_cases})
+    for (Case& one : of_processor()) cases.push_back(std::move(one));
+  for (const auto& of_device :
+       {gpu_cases, cloud_cases, particle_cases, decal_cases, tank_cases, scaling_cases})
+    for (Case& one : of_device()) {
+      one.on_device = !one.name.starts_with("tank/pack/");
+      cases.push_back(std::move(one));
+    }
   return cases;
 }
 
@@ -105,12 +102,21 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
     for (const Case& one : cases) message.append(" ").append(one.name);
     return Failure{ErrorCode::usage, message};
   }
+  const bool on_device = std::any_of(
+      cases.begin(), cases.end(), [&](const Case& one) { return one.on_device && matches(one.name, names); });
+  if (!options.device.empty() && !on_device)
+    return Failure{ErrorCode::usage, "--device: these benchmarks run on the processor; remove the option"};
+  // A device that is missing ends the run before minutes of measurements, not after them.
+  if (on_device) Bench(options).context();
+
   Bench bench(options);
   Report report;
   for (const Case& one : cases) {
     if (!matches(one.name, names)) continue;
     if (starting) starting(one.name);
+    const bool had_context = bench.has_context();
     auto measured = one.run(bench);
+    BRUME_ASSERT(one.on_device || bench.has_context() == had_context, one.name);
     if (!measured) {
       if (measured.failure().code != ErrorCode::bad_input) return measured.failure();
       report.skipped.push_back(one.name + ": " + measured.failure().message);
@@ -118,6 +124,8 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
     }
     for (Measurement& m : *measured) report.results.push_back(std::move(m));
   }
+  if (report.results.empty())
+    return Failure{ErrorCode::no_device, "nothing is measured: " + report.skipped.front()};
   if (bench.has_context()) {
     report.device = bench.context().info().name;
     report.driver = bench.context().info().driver;

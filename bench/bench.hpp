@@ -77,6 +77,7 @@ struct Case {
   std::string name, what;
   /// Returns the measurements; bad_input if its data is missing, which skips the case.
   std::function<Result<std::vector<Measurement>>(Bench&)> run;
+  bool on_device = false;  ///< Whether it calls Bench::context.
 };
 std::vector<Case> cpu_cases();
 std::vector<Case> volume_cases();
@@ -96,7 +97,9 @@ std::vector<Case> all_cases();
 
 /// Runs the cases whose name equals one of `names` or begins with it and a slash; all cases if the list is
 /// empty. `starting` is called with the name of each case before it runs. Fails with usage, listing all
-/// cases, for a name that matches none. Throws no_device if a GPU case finds no device.
+/// cases, for a name that matches none, and for a device where no case is on one; with no_device where all
+/// are skipped. Throws no_device before the first case
+/// where a GPU case would find no device.
 Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,
                    const std::function<void(const std::string&)>& starting);
 

@@ -64,6 +64,17 @@ grids::GridFile load_file(const fs::path& path, const Names& names) {
   return file;
 }
 
+/// An output that is one of the files that are read, by whatever name.
+void refuse_input(const fs::path& input, const fs::path& output) {
+  std::vector<fs::path> written{output};
+  if (grids::is_raw_description(output)) written.push_back(grids::raw_path_of(output));
+  std::error_code ignored;
+  for (const fs::path& read : of_file(grids::files_of(input), input))
+    for (const fs::path& file : written)
+      if (fs::equivalent(read, file, ignored))
+        refuse("output", file.string() + ": is the input; name another file");
+}
+
 void save_file(const fs::path& path, const grids::GridFile& file) {
   released([&] {
     if (!grids::is_raw_description(path))
@@ -98,13 +109,14 @@ void bind_grids(py::module_& module) {
   module.def(
       "convert",
       [](const fs::path& input, const fs::path& output, const Names& names) {
+        refuse_input(input, output);
         save_file(output, load_file(input, names));
       },
       "input"_a, "output"_a, py::kw_only(), "names"_a = py::none(),
       R"(Converts a volume file to another format, as brume convert does, voxel by voxel and without arrays.
 
 input: .vdb, .nvdb, .brv, or .json that describes a raw array.
-output: .vdb, .nvdb, .brv, or .json beside which a .raw file is written; completely or not at all.
+output: .vdb, .nvdb, .brv, or .json beside which a .raw file is written; completely or not at all. Never the input.
 names: the grids to take; default: all.
 
 .vdb and .nvdb require the program brume-vdb: that of the environment variable BRUME_VDB, which the import of the

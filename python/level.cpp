@@ -104,7 +104,7 @@ Level load_level(const fs::path& path, float voxel_size, int margin) {
 }
 
 void save_level(const Level& level, const fs::path& path) {
-  if (path.extension() != ".vxl") refuse("path", path.string() + ": expected the suffix .vxl");
+  if (scene::lower_extension(path) != ".vxl") refuse("path", path.string() + ": expected the suffix .vxl");
   released([&] {
     const scenario::Voxels& v = *level.voxels;
     of_file(voxel::save_vxl(path, {v.grid, v.planes, v.triangles}, 0), path, FileUse::write);

@@ -13,6 +13,7 @@
 #include "python/scenario.hpp"
 #include "render/playback.hpp"
 #include "render/volume_room.hpp"
+#include "scene/load.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 
@@ -132,7 +133,7 @@ void save_picture(const std::filesystem::path& path, const py::array& picture) {
   if (picture.ndim() != 3 || (picture.shape(2) != 3 && picture.shape(2) != 4))
     refuse("picture",
            "expected the shape (height, width, 3) or (height, width, 4), got " + shape_text(picture));
-  if (path.extension() != ".png") refuse("path", path.string() + ": expected the suffix .png");
+  if (scene::lower_extension(path) != ".png") refuse("path", path.string() + ": expected the suffix .png");
   for (int axis = 0; axis < 2; ++axis)
     if (picture.shape(axis) < 1 || picture.shape(axis) > py::ssize_t{image::kMaxAxis})
       refuse("picture", "expected 1 to " + std::to_string(image::kMaxAxis) + " pixels along each axis");

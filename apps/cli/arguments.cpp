@@ -34,9 +34,17 @@ CLI::Option* number_option(CLI::Option* option, const NumberRange& range) {
   return option->transform(number_check(range));
 }
 
+/// An empty text is no value, although a shell can give it: it would count as an option that is not given.
+CLI::Option* text_option(CLI::Option* option) {
+  return option->check(CLI::Validator(
+      [](const std::string& text) -> std::string { return text.empty() ? "expected a value, found ''" : ""; },
+      ""));
+}
+
 [[noreturn]] void refuse(const std::string& message, const CLI::App* command) {
-  throw Error(ErrorCode::usage,
-              message + "; see brume " + (command ? command->get_name() + " " : "") + "--help");
+  const CLI::App* const program = command ? command->get_parent() : nullptr;
+  throw Error(ErrorCode::usage, message + "; see " + (program ? program->get_name() : "brume") + " " +
+                                    (command ? command->get_name() + " " : "") + "--help");
 }
 
 /// All names of a command's options, with dashes.
@@ -216,12 +224,12 @@ const Argument& Argument::hidden() const {
 }
 
 Argument Arguments::add_option(const std::string& name, std::string& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(text_option(app_->add_option(name, value, help)));
 }
 
 Argument Arguments::add_option(const std::string& name, std::vector<std::string>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(text_option(app_->add_option(name, value, help)));
 }
 
 Argument Arguments::add_option(const std::string& name, std::uint32_t& value, const std::string& help) const {

@@ -10,6 +10,7 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/outputs.hpp"
+#include "apps/cli/units.hpp"
 #include "grids/slice_atlas.hpp"
 
 namespace brume::cli {
@@ -21,6 +22,9 @@ struct AtlasOptions {
   std::uint32_t padding = 0;
   bool mips = false;
 };
+
+/// Lies beside every image.
+inline const FileBeside kAtlasDescription{".json", FileKind::slice_atlas};
 
 /// Declares -o and the options of the image.
 void declare_atlas_options(const Arguments& arguments, AtlasOptions& options);

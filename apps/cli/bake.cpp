@@ -188,6 +188,11 @@ void add_shape_options(const Arguments& arguments, BakeOptions& options) {
       .type_name("X");
 }
 
+std::vector<FileBeside> description_beside(const std::string& output) {
+  if (kind_of(output) != FileKind::png) return {};
+  return {kAtlasDescription};
+}
+
 }  // namespace
 
 Command add_bake(CommandLine& program) {
@@ -219,7 +224,8 @@ Command add_bake(CommandLine& program) {
   declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] {
     run_units(arguments, options->units, *common,
-              {"", "-o", options->output, kind_of(options->output), device_of(*options)},
+              {"", "-o", options->output, kind_of(options->output), device_of(*options),
+               description_beside(options->output)},
               [&](const Unit& unit, Outputs& outputs) {
                 if (unit.number && options->shape != kShapes.front())
                   arguments.refuse("--frames", "is for the shape pyroclastic: others have no seed");

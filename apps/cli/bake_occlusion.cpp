@@ -174,7 +174,12 @@ Command add_bake_occlusion(CommandLine& program) {
   command.run = [bake, arguments, common = command.common] {
     expect_suffix("-o", bake->atlas.output, {".png", ".exr"});
     run_units(arguments, bake->units, *common,
-              {bake->input, "-o", bake->atlas.output, target_file_kind(bake->atlas.output), {}},
+              {bake->input,
+               "-o",
+               bake->atlas.output,
+               target_file_kind(bake->atlas.output),
+               {},
+               {kAtlasDescription}},
               [&](const Unit& unit, Outputs& outputs) {
                 OcclusionBake one = *bake;
                 one.input = unit.input;

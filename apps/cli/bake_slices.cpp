@@ -268,7 +268,12 @@ Command add_bake_slices(CommandLine& program) {
   command.run = [options, arguments, common = command.common] {
     expect_suffix("-o", options->atlas.output, {".png", ".exr"});
     run_units(arguments, options->units, *common,
-              {options->input, "-o", options->atlas.output, target_file_kind(options->atlas.output), {}},
+              {options->input,
+               "-o",
+               options->atlas.output,
+               target_file_kind(options->atlas.output),
+               {},
+               {kAtlasDescription}},
               [&](const Unit& unit, Outputs& outputs) {
                 SliceOptions one = *options;
                 one.input = unit.input;

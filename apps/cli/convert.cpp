@@ -108,6 +108,12 @@ FileKind output_kind(const fs::path& path) {
   return suffix == ".obj" ? FileKind::obj : suffix == ".ply" ? FileKind::ply : kind_of(path);
 }
 
+// The array of a description.
+std::vector<FileBeside> array_beside(const fs::path& output) {
+  if (!grids::is_raw_description(output)) return {};
+  return {{grids::raw_path_of(output).extension().string(), FileKind::raw}};
+}
+
 void refuse_idle_for_film(const Arguments& arguments) {
   for (const char* option : {"--shard", "--resume"})
     arguments.refuse(option, "a film is a single output; remove the option");
@@ -154,7 +160,12 @@ Command add_convert(CommandLine& program) {
     }
     arguments.refuse("--fps", "is for a film (.mp4)");
     run_units(arguments, options->units, *common,
-              {options->input, "OUTPUT", options->output, output_kind(options->output), {}},
+              {options->input,
+               "OUTPUT",
+               options->output,
+               output_kind(options->output),
+               {},
+               array_beside(options->output)},
               [&](const Unit& unit, Outputs& outputs) { convert_one(*options, arguments, unit, outputs); });
   };
   return command;

@@ -126,6 +126,12 @@ void Outputs::writes_frames(const std::string& option, const fs::path& pattern, 
   frames_ = Frames{pattern, first, last, std::vector<bool>(std::size_t{last} - first + 1)};
 }
 
+void Outputs::will_write(const std::string& option, const fs::path& file, FileKind kind) {
+  const FileIdentity identity = identity_of(file);
+  check_place(option, file, identity, kind);
+  if (exists(identity)) options_.emplace(identity, option);
+}
+
 void Outputs::film_progress(const fs::path& film, std::uint32_t drawn, std::uint32_t frames) {
   const std::lock_guard lock(mutex_);
   film_state_ = " after " + std::to_string(drawn) + " of " + std::to_string(frames) + " frames; " +
@@ -155,6 +161,12 @@ void Outputs::frame_done(std::uint32_t frame) {
   const std::lock_guard lock(mutex_);
   BRUME_ASSERT(frames_ && frame >= frames_->first && frame <= frames_->last, std::to_string(frame));
   frames_->done[frame - frames_->first] = true;
+  unit_.reset();
+}
+
+void Outputs::begin_unit(std::shared_ptr<const Outputs> unit) {
+  const std::lock_guard lock(mutex_);
+  unit_ = std::move(unit);
 }
 
 bool Outputs::is_written(const Output& output) const {
@@ -163,10 +175,11 @@ bool Outputs::is_written(const Output& output) const {
 }
 
 // "6 of 144 frames written; continue with --resume or --frames 6-143"
-std::string Outputs::frame_state() const {
+std::string Outputs::frame_state(const std::string& unit) const {
   const auto& done = frames_->done;
   const auto count = std::count(done.begin(), done.end(), true);
   std::string text = std::to_string(count) + " of " + std::to_string(done.size()) + " frames written";
+  if (!unit.empty()) text += "; of the next, " + unit;
   if (count == std::ssize(done)) return text;
   const auto begin = std::find(done.begin(), done.end(), false) - done.begin();
   const auto next = static_cast<std::uint64_t>(begin) + frames_->first;
@@ -174,6 +187,15 @@ std::string Outputs::frame_state() const {
   if (!resumable_) return text + "; continue with " + rest;
   text += "; continue with --resume";
   return frames_depend_ || begin != count ? text : text + " or " + rest;
+}
+
+// Which files of the frame that is being made are written; empty if none are.
+std::string Outputs::unit_state() const {
+  if (!unit_) return "";
+  const std::lock_guard lock(unit_->mutex_);
+  if (std::string text = unit_->state(); !text.empty()) return text;
+  const std::string files = unit_->written_unlocked();
+  return files.empty() ? "" : "written: " + files;
 }
 
 // Which of several outputs are written; empty if all or none are.
@@ -193,8 +215,9 @@ std::string Outputs::state() const {
   if (frames_) {
     const bool all = std::find(frames_->done.begin(), frames_->done.end(), false) == frames_->done.end();
     const bool any = std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end();
+    const std::string unit = unit_state();
     ++(all ? done : open);
-    if (any && !all) return frame_state();
+    if (!all && (any || !unit.empty())) return frame_state(unit);
   }
   if (done == 0 || open == 0) return "";
   return "written: " + written_unlocked() + (missing.empty() ? "" : "; not written: " + missing);
@@ -211,6 +234,8 @@ Outputs::End Outputs::explain_interruption(int signal) const {
   const std::lock_guard lock(mutex_);
   if (const std::string text = state(); !text.empty())
     return {static_cast<int>(ErrorCode::partial), "interrupted; " + text};
+  if (const std::string files = written_unlocked(); !files.empty())
+    return {static_cast<int>(ErrorCode::partial), "interrupted; written: " + files};
   return {128 + signal, "interrupted" + film_state_};
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -56,10 +57,16 @@ class Outputs {
   void writes_frames(const std::string& option, const std::filesystem::path& pattern, FileKind kind,
                      std::uint32_t first, std::uint32_t last);
 
+  /// Checks a file that is declared later, before any work.
+  void will_write(const std::string& option, const std::filesystem::path& file, FileKind kind);
+
   /// States that a declared output needs no writing: it is up to date.
   void up_to_date(const std::filesystem::path& file);
   /// States that a frame of the sequence is complete: written, or already there.
   void frame_done(std::uint32_t frame);
+  /// The files of the frame that is being made, if it has several: until frame_done, explanations name those
+  /// that are written.
+  void begin_unit(std::shared_ptr<const Outputs> unit);
   /// Whether frames depend on those before: only --resume then continues the sequence.
   void set_frames_depend(bool depend) { frames_depend_ = depend; }
   /// Whether the command has --resume to continue the sequence; yes unless it says otherwise.
@@ -101,7 +108,8 @@ class Outputs {
   void check_place(const std::string& option, const std::filesystem::path& file, const FileIdentity& identity,
                    FileKind kind);
   bool is_written(const Output& output) const;
-  std::string frame_state() const;
+  std::string frame_state(const std::string& unit) const;
+  std::string unit_state() const;
   std::string state() const;
 
   std::string written_unlocked() const;
@@ -112,6 +120,7 @@ class Outputs {
   std::set<FileIdentity> named_twice_;
   std::vector<Output> outputs_;
   std::optional<Frames> frames_;
+  std::shared_ptr<const Outputs> unit_;
   std::string film_state_;  ///< " after 3 of 48 frames; ..."; empty: no film.
   bool force_ = false, frames_depend_ = false, resumable_ = true;
 };

@@ -167,19 +167,26 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   return statistics;
 }
 
+// A shard of more shards than frames requires no device, but the same options.
+Json no_frames(const RenderOptions& options, const Loaded& loaded) {
+  check_raycast(options, loaded.scenario);
+  return {{"mode", options.mode}, {"frames", 0}};
+}
+
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const Stopwatch watch;
   Plan plan = make_plan(arguments, options, common.outputs);
   if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
-  Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
+  Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, Json::list({})};
   set_shutter(options, plan, loaded.scenario);
   if (plan.kind == TargetKind::sequence && !plan.frames)
     declare_frames(options, plan, frames_of(plan, duration_of(loaded)), common.outputs);
   common.outputs.reads(scenario::files_of(loaded.scenario));
   stop_if_interrupted();
   warn_of_times(options, plan, duration_of(loaded));
-  const Json frames = is_reference(options) ? render_reference(options, plan, common, loaded)
-                                            : render_realtime(options, plan, common, loaded);
+  const Json frames = !has_frames(plan, duration_of(loaded)) ? no_frames(options, loaded)
+                      : is_reference(options)                ? render_reference(options, plan, common, loaded)
+                                                             : render_realtime(options, plan, common, loaded);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
                   {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})}};

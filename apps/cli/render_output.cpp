@@ -21,6 +21,10 @@ FrameRange frames_of(const Plan& plan, double duration) {
   return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
 }
 
+bool has_frames(const Plan& plan, double duration) {
+  return plan.kind != TargetKind::sequence || part_of(frames_of(plan, duration), plan.shard);
+}
+
 double picture_time(const RenderOptions& options, double duration) {
   return options.time.value_or(duration);
 }

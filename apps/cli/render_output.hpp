@@ -29,6 +29,8 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
 
 /// --frames, or all of a film.
 FrameRange frames_of(const Plan& plan, double duration);
+/// Whether there is something to draw: a shard may have no frame.
+bool has_frames(const Plan& plan, double duration);
 /// --time, or the end.
 double picture_time(const RenderOptions& options, double duration);
 /// Times behind the end of a timeline show its end.

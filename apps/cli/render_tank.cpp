@@ -129,7 +129,9 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
     declare_frames(options, plan, frames_of(plan, job.duration()), common.outputs);
   warn_of_times(options, plan, job.duration());
 
-  const Json frames = is_reference(options) ? render_by_paths(job) : render_on_device(job);
+  const Json frames = !has_frames(plan, job.duration()) ? Json{{"frames", 0}}
+                      : is_reference(options)           ? render_by_paths(job)
+                                                        : render_on_device(job);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
                   {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})},

@@ -89,15 +89,17 @@ std::string reason_of(const SequenceSettings& settings, std::uint32_t frame) {
   const std::string fault = difference(text.value_or(""), settings.key, frame);
   if (text && !fault.empty()) return fault;
   std::string failure;
+  bool is_intact = true;  // Beside its pixels.
   if (is_exr) {
-    if (const auto image = image::decode_exr(*bytes, ""); !image) failure = image.failure().message;
+    const auto length = image::exr_length(*bytes, "");
+    if (!length) failure = length.failure().message;
+    is_intact = length && *length == bytes->size();
   } else {
     if (const auto image = image::decode_image(*bytes, ""); !image) failure = image.failure().message;
+    is_intact = image::is_intact_png(*bytes);
   }
   if (!failure.empty()) return is_truncated(*bytes, is_exr, failure) ? "truncated" : "damaged";
-  // Beside its pixels.
-  if (!is_exr && !image::is_intact_png(*bytes)) return "damaged";
-  return fault;
+  return is_intact ? fault : "damaged";
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ void print_reasons(std::uint32_t first, const std::vector<std::string>& reasons)
     const auto high = first + static_cast<std::uint64_t>(end - reasons.begin()) - 1;
     const std::string numbers =
         low == high ? " " + std::to_string(low) : "s " + std::to_string(low) + "-" + std::to_string(high);
-    if (!begin->empty()) print_note("frame" + numbers + ": " + *begin);
+    const bool is_there = *begin != "missing";
+    if (!begin->empty()) print_note("frame" + numbers + ": " + *begin + (is_there ? "; made again" : ""));
     begin = end;
   }
 }

@@ -1,7 +1,9 @@
 #include "apps/cli/units.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
+#include <string_view>
 
 #include "apps/cli/console.hpp"
 #include "apps/cli/targets.hpp"
@@ -106,13 +108,29 @@ std::optional<FrameRange> units_of(const Arguments& arguments, const UnitOptions
   return options.shard.empty() ? range : part_of(range, parse_shard("--shard", options.shard));
 }
 
-// Declares all units at once: the outputs of one must not be the inputs of another.
+// Declares all units at once: the outputs of one must not be the inputs of another, and no work is done
+// before all of them can be written.
 void declare_files(const UnitJob& job, FrameRange range, Outputs& outputs) {
   if (!job.input.empty())
     for (std::uint32_t i = range.first; i <= range.last; ++i) outputs.reads(sequence_name(job.input, i));
   const std::string option = job.output_option == "OUTPUT" ? "" : job.output_option;
   outputs.writes_frames(option, job.output, job.kind, range.first, range.last);
+  for (std::uint32_t i = range.first; i <= range.last; ++i) {
+    const std::string output = sequence_name(job.output, i).string();
+    outputs.will_write("", key_path(output), FileKind::unit_key);
+    for (const auto& [suffix, kind] : job.beside)
+      outputs.will_write("", fs::path(output).replace_extension(suffix), kind);
+    stop_if_interrupted();
+  }
   outputs.set_frames_depend(true);
+}
+
+// Only digits.
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 }  // namespace
@@ -121,12 +139,9 @@ Shard parse_shard(const std::string& option, const std::string& text) {
   constexpr std::uint32_t kMost = 1'000'000;
   const std::size_t slash = text.find('/');
   if (slash != std::string::npos) {
-    const NumberRange range{1, kMost, true};
-    std::string ignored;
-    const auto number = checked_number(text.substr(0, slash), range, ignored);
-    const auto count = checked_number(text.substr(slash + 1), range, ignored);
-    if (number && count && *number <= *count)
-      return {static_cast<std::uint32_t>(*number), static_cast<std::uint32_t>(*count)};
+    const auto number = whole_number(std::string_view(text).substr(0, slash));
+    const auto count = whole_number(std::string_view(text).substr(slash + 1));
+    if (number && count && *number >= 1 && *number <= *count && *count <= kMost) return {*number, *count};
   }
   throw Error(ErrorCode::usage,
               option + " '" + text + "': expected PART/PARTS, from 1/" + "N to N/N, such as 3/16");
@@ -185,11 +200,12 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
     if (reasons[i].empty()) continue;
     stop_if_interrupted();
     const Unit unit = unit_of(job, static_cast<std::uint32_t>(part->first + i));
-    Outputs outputs;
-    outputs.set_force(common.force);
-    outputs.writes("", key_path(unit.output), FileKind::unit_key);
-    run(unit, outputs);
-    save_key(unit, key, outputs);
+    const auto outputs = std::make_shared<Outputs>();
+    outputs->set_force(common.force);
+    common.outputs.begin_unit(outputs);
+    outputs->writes("", key_path(unit.output), FileKind::unit_key);
+    run(unit, *outputs);
+    save_key(unit, key, *outputs);
     common.outputs.frame_done(*unit.number);
     progress.advance();
   }

@@ -32,6 +32,11 @@ struct UnitOptions {
 /// smoke_%04d.brv".
 void declare_units(const Arguments& arguments, UnitOptions& options, const std::string& numbered);
 
+/// A file that a unit writes beside its output: of the same name but for the suffix.
+struct FileBeside {
+  std::string suffix;  ///< ".raw"
+  FileKind kind = FileKind::json;
+};
 /// What a command does many times.
 struct UnitJob {
   std::string input;          ///< With %d or %04d if the output has one; empty: none.
@@ -39,6 +44,7 @@ struct UnitJob {
   std::string output;
   FileKind kind = FileKind::json;   ///< Of the output.
   std::vector<std::string> device;  ///< Names of what computes it.
+  std::vector<FileBeside> beside = {};
 };
 struct Unit {
   std::optional<std::uint32_t> number;  ///< Nothing: it is the only one.
@@ -49,7 +55,8 @@ using RunUnit = std::function<void(const Unit&, Outputs&)>;
 /// Runs the command once where the output has no number, otherwise for each number of the shard. The file
 /// "OUTPUT.key" beside each output says what it was made from (UnitKey, the names and hashes of the files
 /// read and written). With --resume those stay whose key, inputs and outputs are right, and the reasons for
-/// the others are printed. Throws Error, what `run` throws, and Interrupted.
+/// the others are printed. All files of all units are checked before the first one. Throws Error, what `run`
+/// throws, and Interrupted.
 void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
                const UnitJob& job, const RunUnit& run);
 

@@ -27,9 +27,13 @@
 #include "grids/files.hpp"
 #include "image/png.hpp"
 #include "planning/scenario_frame.hpp"
+#include "render/playback.hpp"
 #include "render/volume_part.hpp"
+#include "render/volume_room.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/simulation.hpp"
+#include "scenario/volumes.hpp"
+#include "scene/load.hpp"
 #include "volume/parts.hpp"
 
 namespace brume::mpi {
@@ -92,15 +96,24 @@ struct Subject {
   std::vector<std::uint32_t> order;  ///< Parts, the nearest first.
 };
 
-Subject load(const Options& options, const Process& process, cli::Outputs& outputs) {
-  if (!grids::is_grid_file(options.input))
-    throw Error(ErrorCode::usage, options.input + ": expected a volume: .vdb, .nvdb, .brv or .json");
-  outputs.reads(grids::files_of(options.input).value_or_throw());
+scenario::FirstViewOptions view_of(const Options& options) {
   scenario::FirstViewOptions view;
   if (!options.camera.empty()) view.camera = cli::parse_camera("--camera", options.camera);
   const glm::vec2 size_px(cli::parse_size("--size", options.size));
   view.aspect = size_px.x / size_px.y;
-  scenario::Scenario scenario = scenario::load_scenario(options.input, {}, view).value_or_throw();
+  return view;
+}
+
+scenario::Scenario load_scenario(const Options& options, cli::Outputs& outputs) {
+  if (!grids::is_grid_file(options.input))
+    throw Error(ErrorCode::usage, options.input + ": expected a volume: .vdb, .nvdb, .brv or .json");
+  outputs.reads(grids::files_of(options.input).value_or_throw());
+  return scenario::load_scenario(options.input, {}, view_of(options)).value_or_throw();
+}
+
+Subject load(const Options& options, const Process& process, cli::Outputs& outputs) {
+  scenario::Scenario scenario = load_scenario(options, outputs);
+  const scenario::FirstViewOptions view = view_of(options);
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   std::vector<shared::Hole> holes;
   const double end = double{scenario.timeline.duration};
@@ -159,14 +172,18 @@ render::Pixels composite(const Process& process, const render::Pixels& own,
   return front;
 }
 
-void report(const Options& options, const Process& process, Facts own, const std::string& device) {
+/// The facts of all processes, in the first one.
+std::vector<Facts> gather(const Process& process, Facts own) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   own.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   constexpr int kNumbers = sizeof(Facts) / sizeof(double);
   std::vector<Facts> all(static_cast<std::size_t>(process.count));
   MPI_Gather(&own, kNumbers, MPI_DOUBLE, all.data(), kNumbers, MPI_DOUBLE, 0, MPI_COMM_WORLD);
-  if (!process.is_first()) return;
+  return all;
+}
+
+void report(const Options& options, const std::vector<Facts>& all, const std::string& device) {
   cli::Json list = cli::Json::list({});
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -205,29 +222,18 @@ struct Prepared {
         renderer(context, runner, subject.scene, cli::parse_size("--size", options.size)) {}
 };
 
-std::unique_ptr<Prepared> prepare(const Options& options, const Process& process, const std::string& device,
-                                  cli::Outputs& outputs) {
-  if (!options.output.ends_with(".png"))
+void declare_files(const Options& options, const Process& process, cli::Outputs& outputs) {
+  if (scene::lower_extension(options.output) != ".png")
     throw Error(ErrorCode::usage, "-o " + options.output + ": expected a .png file");
-  if (process.is_first()) {
-    outputs.writes("-o", options.output, cli::FileKind::png);
-    outputs.writes("--json", options.json, cli::FileKind::json);
-  }
-  return std::make_unique<Prepared>(options, device, load(options, process, outputs));
+  if (!process.is_first()) return;
+  outputs.writes("-o", options.output, cli::FileKind::png);
+  outputs.writes("--json", options.json, cli::FileKind::json);
 }
 
-void render_parts(const Options& options, const Process& process, Prepared& prepared, Clock& clock,
-                  Facts facts) {
-  std::vector<float> depths = prepared.renderer.find_depths(prepared.subject.frame);
-  sum_depths(depths);
-  facts.light_seconds = clock.lap();
-  const render::Pixels own = prepared.renderer.march(depths);
-  facts.march_seconds = clock.lap();
-  facts.resident_bytes = resident_bytes();
-  facts.volume_bytes = static_cast<double>(prepared.renderer.volume_bytes());
-  const render::Pixels all = composite(process, own, prepared.subject.order);
-  if (process.is_first()) image::save_png(options.output, prepared.renderer.picture(all)).value_or_throw();
-  report(options, process, facts, prepared.context.info().name);
+std::unique_ptr<Prepared> prepare(const Options& options, const Process& process, const std::string& device,
+                                  cli::Outputs& outputs) {
+  declare_files(options, process, outputs);
+  return std::make_unique<Prepared>(options, device, load(options, process, outputs));
 }
 
 void declare(const cli::Arguments& arguments, Options& options) {
@@ -272,6 +278,79 @@ int together(const Process& process, const std::function<void()>& step) {
   return code;
 }
 
+/// Of the part of this process. What cannot be divided is a fault of the file: no option would change it.
+std::vector<float> find_depths(const Options& options, Prepared& prepared) {
+  try {
+    return prepared.renderer.find_depths(prepared.subject.frame);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::usage) throw;
+    throw Error(ErrorCode::bad_input,
+                options.input + ": " + error.failure().message + "; or render it by one process");
+  }
+}
+
+/// The exit code. What processes do together lies between the steps that each takes alone: where one fails,
+/// none waits for it.
+int render_parts(const Options& options, const Process& process) {
+  Clock clock;
+  cli::Outputs outputs;
+  std::unique_ptr<Prepared> prepared;
+  const std::string device = device_of(options);
+  int code = together(process, [&] { prepared = prepare(options, process, device, outputs); });
+  if (code != 0) return code;
+  Facts facts;
+  facts.load_seconds = clock.lap();
+
+  // The light in the whole.
+  std::vector<float> depths;
+  code = together(process, [&] { depths = find_depths(options, *prepared); });
+  if (code != 0) return code;
+  sum_depths(depths);
+  facts.light_seconds = clock.lap();
+
+  // The rays.
+  render::Pixels own;
+  code = together(process, [&] { own = prepared->renderer.march(depths); });
+  if (code != 0) return code;
+  facts.march_seconds = clock.lap();
+  facts.resident_bytes = resident_bytes();
+  facts.volume_bytes = static_cast<double>(prepared->renderer.volume_bytes());
+  const render::Pixels all = composite(process, own, prepared->subject.order);
+  code = together(process, [&] {
+    if (process.is_first()) image::save_png(options.output, prepared->renderer.picture(all)).value_or_throw();
+  });
+  if (code != 0) return code;
+  const std::vector<Facts> of_all = gather(process, facts);
+  return together(process, [&] {
+    if (process.is_first()) report(options, of_all, prepared->context.info().name);
+  });
+}
+
+/// As brume render does. The light is part of the march.
+void render_whole(const Options& options, const Process& process) {
+  Clock clock;
+  cli::Outputs outputs;
+  declare_files(options, process, outputs);
+  scenario::Scenario scenario = load_scenario(options, outputs);
+  const glm::uvec2 size_px = cli::parse_size("--size", options.size);
+  gpu::Context context({device_of(options), false});
+  if (scenario.volumes) scenario.volumes->limit(render::volume_room(context)).value_or_throw();
+  render::Playback playback(context, scenario, size_px);
+  if (!options.camera.empty()) playback.set_camera(cli::parse_camera("--camera", options.camera));
+  if (scenario.measure_exposure) playback.measure_exposure();
+  Facts facts;
+  facts.load_seconds = clock.lap();
+  const image::Image8 picture = playback.draw(double{scenario.timeline.duration}, 0);
+  facts.march_seconds = clock.lap();
+  facts.resident_bytes = resident_bytes();
+  if (scenario.volumes)
+    facts.volume_bytes =
+        static_cast<double>(std::uint64_t{scenario.volumes->first_frame(0).density.volume->slot_count()} *
+                            shared::kTexelsPerBrick * sizeof(std::uint16_t));
+  image::save_png(options.output, picture).value_or_throw();
+  report(options, gather(process, facts), context.info().name);
+}
+
 int run(int argc, char** argv) {
   const Process process;
   Options options;
@@ -293,22 +372,8 @@ int run(int argc, char** argv) {
       if (level == LogLevel::warning) cli::print_failure("warning: " + line);
     });
 
-  Clock clock;
-  cli::Outputs outputs;
-  std::unique_ptr<Prepared> prepared;
-  const std::string device = device_of(options);
-  code = together(process, [&] { prepared = prepare(options, process, device, outputs); });
-  if (code != 0) return code;
-  Facts facts;
-  facts.load_seconds = clock.lap();
-  try {
-    render_parts(options, process, *prepared, clock, facts);
-  } catch (const Error& error) {
-    // The others may wait for this process.
-    cli::print_failure("process " + std::to_string(process.rank) + ": " + error.failure().message);
-    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(error.failure().code));
-  }
-  return 0;
+  if (process.count > 1) return render_parts(options, process);
+  return together(process, [&] { render_whole(options, process); });
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 // The one source that includes OpenVDB.
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <sstream>
 
 #include "apps/vdb/formats.hpp"
@@ -289,6 +292,14 @@ struct Library {
   Library() { openvdb::initialize(); }
 };
 
+/// Writes to a stream whose errors are exceptions, as openvdb::io::File does to one whose errors it ignores.
+class Archive : public openvdb::io::Archive {
+ public:
+  void write_to(std::ostream& out, const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata) const {
+    write(out, grids, true, metadata);
+  }
+};
+
 }  // namespace
 
 std::vector<Metadata> read_vdb(const std::string& path, const grids::GridLimits& limits,
@@ -320,7 +331,16 @@ void write_vdb(const grids::GridFile& file, int output) {
   for (const Grid& grid : file.grids) list.push_back(kind_of_values(grid.type).write(grid));
   openvdb::MetaMap metadata;
   put_metadata(metadata, file.metadata);
-  openvdb::io::File("/proc/self/fd/" + std::to_string(output)).write(list, metadata);
+  // Its first errors end it: a full disk is one.
+  std::ofstream out;
+  out.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    out.open("/proc/self/fd/" + std::to_string(output), std::ios::binary);
+    Archive().write_to(out, list, metadata);
+    out.close();
+  } catch (const std::ios_base::failure&) {
+    throw Error(ErrorCode::resource_limit, std::string("cannot write: ") + std::strerror(errno));
+  }
 }
 
 }  // namespace brume::vdb

@@ -49,18 +49,22 @@ class MemoryIn : public Imf::IStream {
       : Imf::IStream(name.c_str()), bytes_(bytes) {}
   bool read(char to[], int count) override {
     const auto length = static_cast<std::uint64_t>(count);
-    if (count < 0 || at_ > bytes_.size() || length > bytes_.size() - at_)
-      throw IEX_NAMESPACE::InputExc("unexpected end of the file");
+    // Only a damaged offset leads beyond the end; a file that ends early ends within what is read.
+    if (count < 0 || at_ > bytes_.size()) throw IEX_NAMESPACE::InputExc("an offset is damaged");
+    if (length > bytes_.size() - at_) throw IEX_NAMESPACE::InputExc("it is truncated");
     std::memcpy(to, bytes_.data() + at_, length);
     at_ += length;
+    end_ = std::max(end_, at_);
     return at_ < bytes_.size();
   }
   std::uint64_t tellg() override { return at_; }
   void seekg(std::uint64_t at) override { at_ = at; }
+  /// Of all that was read.
+  std::uint64_t end() const { return end_; }
 
  private:
   std::span<const std::byte> bytes_;
-  std::uint64_t at_ = 0;
+  std::uint64_t at_ = 0, end_ = 0;
 };
 
 Imf::PixelType type_of(const Layer& layer) {
@@ -197,6 +201,16 @@ Result<LayeredImage> decode_exr(std::span<const std::byte> bytes, const std::str
     Imf::InputFile file(in);
     if (!file.isComplete()) return is_bad(name, "it is truncated");
     return read_layers(file, name);
+  });
+}
+
+Result<std::uint64_t> exr_length(std::span<const std::byte> bytes, const std::string& name) {
+  return reading<std::uint64_t>(name, [&]() -> Result<std::uint64_t> {
+    MemoryIn in(bytes, name);
+    Imf::InputFile file(in);
+    if (!file.isComplete()) return is_bad(name, "it is truncated");
+    if (const auto image = read_layers(file, name); !image) return image.failure();
+    return in.end();
   });
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -25,6 +26,10 @@ Result<void> save_exr(const std::filesystem::path& path, const LayeredImage& ima
 /// are no OpenEXR file, damaged or truncated, for more than kMaxAxis texels per axis, for deep, subsampled or
 /// integer channels, and for values that do not match the checksum of save_exr.
 Result<LayeredImage> decode_exr(std::span<const std::byte> bytes, const std::string& name);
+
+/// The length of a file up to the end of its image: bytes may follow. Reads all values, and fails as
+/// decode_exr does; the message of a file that ends early contains "truncated".
+Result<std::uint64_t> exr_length(std::span<const std::byte> bytes, const std::string& name);
 
 /// What the header of a part of a file says.
 struct ExrPart {

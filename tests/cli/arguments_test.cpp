@@ -89,6 +89,39 @@ TEST_F(CommandLineTest, ValuesMayHaveTheNamesOfCommands) {
   EXPECT_EQ(refusal({"bench", "render"}).rfind("no benchmark \"render\"; expected one of", 0), 0u);
 }
 
+TEST_F(CommandLineTest, ADeviceIsMissedWhereThereIsWorkForIt) {
+  RunOptions without_motel, without_device;
+  without_motel.environment = {{"BRUME_MOTEL", "none"}};
+  without_device.environment = {{"VK_ICD_FILENAMES", "none"}, {"VK_DRIVER_FILES", "none"}};
+  const std::filesystem::path folder = folder_.path();
+  const Outcome motel = run_brume(folder, {"bench", "frame/motel", "voxelize/motel"}, without_motel);
+  EXPECT_EQ(motel.exit_code, 5) << motel.error;
+  EXPECT_EQ(motel.error.rfind("brume: nothing is measured: voxelize/motel: none/Scene.txt: not found", 0), 0u)
+      << motel.error;
+  const Outcome device = run_brume(folder, {"bench", "fill/1800", "lens/5"}, without_device);
+  EXPECT_EQ(device.exit_code, 5) << device.error;
+  EXPECT_EQ(device.out, "") << "it is missed before the first case";
+  const Arguments idle{"render", "room.obj", "-o", "f_%d.png", "--frames", "0-2", "--shard", "1/9"};
+  EXPECT_EQ(run_brume(folder, idle, without_device).exit_code, 0) << "it has no frame";
+  const Outcome some = run_brume(folder, {"bench", "voxelize", "--repetitions", "1"}, without_motel);
+  EXPECT_EQ(some.exit_code, 0) << some.error;
+  EXPECT_NE(some.out.find("skipped: voxelize/motel: "), std::string::npos) << some.out;
+  EXPECT_EQ(refusal({"bench", "fill/1800", "wire", "--device", "0"}),
+            "--device: these benchmarks run on the processor; remove the option");
+}
+
+TEST_F(CommandLineTest, TextsAreNotEmpty) {
+  for (const Arguments& words : {std::vector<std::string>{"bench", "wire", "--json", ""},
+                                 {"bench", "wire", "--json="},
+                                 {"bench", ""},
+                                 {"render", "", "-o", "a.png"},
+                                 {"render", "room.obj", "-o", ""},
+                                 {"convert", "a.brv", ""},
+                                 {"convert", "a.brv", "b.brv", "--grid", ""},
+                                 {"sim", "room.obj", "--record", ""}})
+    EXPECT_NE(refusal(words).find("expected a value"), std::string::npos) << refusal(words);
+}
+
 TEST_F(CommandLineTest, NumbersAreFiniteAndInTheirRange) {
   const auto time = [&](const std::string& text) {
     return refusal({"render", "room.obj", "-o", "a.png", "--time", text});

@@ -85,6 +85,20 @@ TEST_F(Convert, ReplacesOnlyFilesOfTheSameKind) {
   expect_failure(folder_, {"convert", "smoke.brv", "smoke.brv"}, 2, {"is the input"});
 }
 
+// Every format, wherever in the file there is no more room.
+TEST_F(Convert, WritesAllOfAFileOrNothing) {
+  for (const std::string name : {"a.vdb", "a.nvdb", "a.brv"}) {
+    convert("smoke.brv", name);
+    const std::uint64_t whole = std::filesystem::file_size(folder_.path() / name);
+    std::filesystem::remove(folder_.path() / name);
+    for (const std::uint64_t bytes : {std::uint64_t{1000}, whole / 2, whole - 1}) {
+      RunOptions full;
+      full.file_bytes = bytes;
+      expect_failure(folder_, {"convert", "smoke.brv", name}, 4, {name + ": cannot write"}, full);
+    }
+  }
+}
+
 TEST_F(Convert, RefusesDamagedFilesAndBombs) {
   grids::save_grid_file(folder_.path() / "bomb.brv", {{grids::huge_tile()}, {}}).value_or_throw();
   expect_failure(folder_, {"convert", "bomb.brv", "a.vdb"}, 4, {"bomb.brv: ", "68719476736 active voxels"});

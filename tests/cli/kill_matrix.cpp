@@ -165,6 +165,9 @@ int KillMatrix::check_run(const Outcome& outcome, const std::vector<int>& codes,
     EXPECT_EQ(outcome.error.rfind("brume: ", 0), 0u) << outcome.error;
   }
   check_whole(killed);
+  if (!killed && outcome.exit_code > 128) {  // Nothing was written.
+    for (const auto& [name, bytes] : files()) EXPECT_TRUE(bytes == old_.at(name)) << name << " is written";
+  }
   check_completion();
   return outcome.exit_code == 0 ? 0 : 1;
 }

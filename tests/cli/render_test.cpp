@@ -272,7 +272,8 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   folder_.write("f_3.png", damaged);
   EXPECT_EQ(drawn(whole), 3);
   EXPECT_EQ(reasons,
-            "brume: frame 1: truncated\nbrume: frame 2: of another number\nbrume: frame 3: damaged\n");
+            "brume: frame 1: truncated; made again\nbrume: frame 2: of another number; made again\nbrume: "
+            "frame 3: damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Damage beside the pixels: the checksum before the end's 12 bytes, and bytes after the end.
@@ -281,19 +282,19 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   folder_.write("f_1.png", damaged);
   folder_.write("f_2.png", expected.at("f_2.png") + std::string(50, '\0'));
   EXPECT_EQ(drawn(whole), 2);
-  EXPECT_EQ(reasons, "brume: frames 1-2: damaged\n");
+  EXPECT_EQ(reasons, "brume: frames 1-2: damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
   Arguments other = whole;
   other.insert(other.end(), {"--step", "2"});
   EXPECT_EQ(drawn(other), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings\n");
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings; made again\n");
   EXPECT_EQ(drawn(whole), 4);
   EXPECT_EQ(contents(folder_), expected);
   folder_.write("room.obj", room_obj() + "# changed\n");
   EXPECT_EQ(drawn(whole), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs\n");
+  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs; made again\n");
   EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
 }
 
@@ -324,20 +325,26 @@ TEST_F(Render, NumbersInLayers) {
 TEST_F(Render, NumberedLayersResume) {
   const Arguments whole{"-o",      "f_%d.exr", "--frames", "0-2",    "--size", "32x18",
                         "--march", "quarter",  "--resume", "--json", "-"};
+  std::string reasons;
   const auto drawn = [&] {
     const Outcome run = render(whole);
     EXPECT_EQ(run.exit_code, 0) << run.error;
+    reasons = run.error;
     return nlohmann::json::parse(run.out)["frames"].get<int>();
   };
   EXPECT_EQ(drawn(), 3);
   const auto expected = contents(folder_);
   EXPECT_EQ(drawn(), 0);
   const std::string& frame = expected.at("f_1.exr");
+  folder_.write("f_0.exr", expected.at("f_0.exr") + "more");
   folder_.write("f_1.exr", frame.substr(0, frame.size() - 4));
   std::string damaged = expected.at("f_2.exr");
   damaged[damaged.size() * 3 / 4] ^= 1;
   folder_.write("f_2.exr", damaged);
-  EXPECT_EQ(drawn(), 2);
+  EXPECT_EQ(drawn(), 3);
+  EXPECT_EQ(reasons,
+            "brume: frame 0: damaged; made again\nbrume: frame 1: truncated; made again\nbrume: frame 2: "
+            "damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 }
 

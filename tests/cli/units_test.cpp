@@ -1,5 +1,6 @@
 // Bakes and conversions of many numbered files: --frames, --shard and --resume.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <map>
@@ -91,24 +92,27 @@ TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
   fs::remove(folder_.path() / "s_1.json");
   folder_.write("s_2.json", whole.at("s_1.json"));
   folder_.write("s_3.png", whole.at("s_3.png").substr(0, 40));
-  check("brume: frame 1: missing\nbrume: frames 2-3: damaged\n");
+  check("brume: frame 1: missing\nbrume: frames 2-3: damaged; made again\n");
   fs::remove(folder_.path() / "s_2.png.key");
   folder_.write("s_3.png.key", whole.at("s_1.png.key"));
-  check("brume: frame 2: without a key\nbrume: frame 3: of another number\n");
+  check("brume: frame 2: without a key; made again\nbrume: frame 3: of another number; made again\n");
   folder_.write("s_1.png.key", whole.at("s_1.png.key").substr(0, 30));
   folder_.write("s_3.png.key", "BRUMEKEY");
-  check("brume: frame 1: of other settings, another program\nbrume: frame 3: without a key\n");
+  check(
+      "brume: frame 1: of other settings, another program; made again\nbrume: frame 3: without a key; made "
+      "again\n");
 
   // Inputs by their contents, not by their times.
   const Files clouds = files("cloud_");
   folder_.write("cloud_1.brv", clouds.at("cloud_1.brv"));
   check("");
   folder_.write("cloud_2.brv", clouds.at("cloud_1.brv"));
-  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frame 2: of other inputs\n");
+  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frame 2: of other inputs; made again\n");
   EXPECT_EQ(files("s_").at("s_2.png"), whole.at("s_1.png"));
   folder_.write("cloud_2.brv", clouds.at("cloud_2.brv"));
-  check("brume: frame 2: of other inputs\n");
-  EXPECT_EQ(run(slices_, {"--resume", "--padding", "1"}).error, "brume: frames 1-3: of other settings\n");
+  check("brume: frame 2: of other inputs; made again\n");
+  EXPECT_EQ(run(slices_, {"--resume", "--padding", "1"}).error,
+            "brume: frames 1-3: of other settings; made again\n");
 }
 
 TEST_F(Units, ConversionsOfASequence) {
@@ -140,6 +144,57 @@ TEST_F(Units, AFailureNamesItsUnitAndKeepsTheOthers) {
       << stopped.error;
   make_clouds();
   EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frames 2-3: missing\n");
+}
+
+// Interrupted before each of its calls: what it says is what is there.
+TEST_F(Units, AnInterruptedUnitSaysWhichOfItsFilesAreThere) {
+  const Arguments clouds{"bake", "pyroclastic", "-o", "cloud_%d.brv", "--edge", "16", "--frames", "1-2"};
+  RunOptions options;
+  options.signal = SIGTERM;
+  options.signal_at = ~std::uint64_t{0};
+  const std::uint64_t calls = run_brume(folder_.path(), clouds, options).file_calls;
+  ASSERT_GT(calls, 0u);
+  int without_key = 0;
+  for (options.signal_at = 1; options.signal_at <= calls; ++options.signal_at) {
+    SCOPED_TRACE(options.signal_at);
+    remove("cloud_");
+    const Outcome stopped = run_brume(folder_.path(), clouds, options);
+    const Files made = files("cloud_");
+    ASSERT_TRUE(stopped.exit_code == 0 || stopped.exit_code == 6 || stopped.exit_code == 128 + SIGTERM);
+    EXPECT_EQ(stopped.exit_code == 128 + SIGTERM, made.empty()) << stopped.error;
+    EXPECT_EQ(stopped.exit_code == 0, made.size() == 4) << stopped.error;
+    const bool has_no_key = made.contains("cloud_1.brv") && !made.contains("cloud_1.brv.key");
+    without_key += has_no_key ? 1 : 0;
+    if (has_no_key) {
+      EXPECT_EQ(stopped.error,
+                "brume: interrupted; 0 of 2 frames written; of the next, written: cloud_1.brv; not written: "
+                "cloud_1.brv.key; continue with --resume\n");
+    }
+  }
+  EXPECT_GT(without_key, 0);
+}
+
+TEST_F(Units, FilesOfAllUnitsAreCheckedBeforeTheFirst) {
+  make_clouds();
+  const Arguments convert{"convert", "cloud_%d.brv", "c_%d.nvdb", "--frames", "1-3"};
+  fs::create_directory(folder_.path() / "c_3.nvdb.key");
+  expect_failure(folder_, convert, 2, {"c_3.nvdb.key: is a folder"});
+  fs::remove(folder_.path() / "c_3.nvdb.key");
+  folder_.write("c_2.nvdb.key", "a poem");
+  expect_failure(folder_, convert, 2, {"c_2.nvdb.key: exists and is no ", "--force"});
+  folder_.write("s_3.json", "[1, 2]");
+  expect_failure(folder_, slices_, 2, {"s_3.json: exists and is no ", "--force"});
+  fs::create_directory(folder_.path() / "c_3.raw");
+  expect_failure(folder_, {"convert", "cloud_%d.brv", "c_%d.json", "--frames", "1-3"}, 2,
+                 {"c_3.raw: is a folder"});
+}
+
+TEST_F(Units, ShardsAreWholeNumbers) {
+  make_clouds();
+  for (const char* shard : {"1.0/2", "1/2x", "0/2", "3/2", "1/2/2", "+1/2", "1e0/2", " 1/2", "-1/2", "1/",
+                            "/2", "/", "1", "0x1/2", "4294967297/2", "1/1000001"})
+    expect_failure(folder_, {"convert", "cloud_%d.brv", "c_%d.nvdb", "--frames", "1-3", "--shard", shard}, 2,
+                   {"--shard '" + std::string(shard) + "': expected PART/PARTS"});
 }
 
 TEST_F(Units, RefusesWhatIsNotNumbered) {

@@ -28,9 +28,8 @@ inline void write_scene(const WorkFolder& folder, int seconds) {
 
 /// script/farm with the program of this build.
 inline Outcome run_farm(const WorkFolder& folder, std::vector<std::string> arguments,
-                        const std::string& build = BRUME_BUILD_DIR) {
+                        const std::string& build = BRUME_BUILD_DIR, RunOptions options = {}) {
   arguments.insert(arguments.begin(), {"--build", build});
-  RunOptions options;
   options.program = BRUME_SOURCE_DIR "/script/farm";
   return run_brume(folder.path(), arguments, options);
 }

@@ -1,4 +1,6 @@
 // script/farm without Slurm: the same job script, by several processes.
+#include <signal.h>
+
 #include <fstream>
 
 #include "tests/farm/farm_scene.hpp"
@@ -45,7 +47,7 @@ TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
   ASSERT_EQ(second.exit_code, 0) << second.error;
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == alone);
   expect_in(log(), ": frame 4: missing\n");
-  expect_in(log(), ": frame 9: truncated\n");
+  expect_in(log(), ": frame 9: truncated; made again\n");
 }
 
 // The encoder's output depends on its number of threads.
@@ -100,10 +102,75 @@ TEST_F(Farm, RefusesWhatCannotWork) {
   refuse({"room.toml", "out", "--size", "32x18"}, 2, "after --");
   refuse({"none.toml", "out", "--local", "1"}, 3, "none.toml");
   refuse({"room.toml", "50%d", "--local", "1"}, 2, "percent");
-  EXPECT_EQ(farm({"--frames", "0-3", "--", "--size", "1x"}).exit_code, 2);
-  const Outcome odd = farm({"--frames", "0-1", "--retries", "0", "--", "--size", "33x18"});
-  EXPECT_EQ(odd.exit_code, 2) << odd.error;
-  expect_in(log(), "no film: ");
+  folder_.write("file", "");
+  refuse({"room.toml", "file", "--local", "1"}, 2, "file: is a file");
+  refuse({"room.toml", "file/out", "--local", "1"}, 3, "file/out: cannot make the folder");
+  refuse({"room.toml", "a\nb", "--local", "1"}, 2, "line break");
+  refuse({"room.toml", "", "--local", "1"}, 2, "'': expected a folder");
+  refuse({"room.toml", "out", "--local", "1", "--fps", "0"}, 2, "--fps 0");
+  fs::create_directories(folder_.path() / "taken/film.mp4");
+  refuse({"room.toml", "taken", "--local", "1"}, 2, "film.mp4: is a folder");
+}
+
+// What brume render would refuse is refused before a shard runs.
+TEST_F(Farm, ChecksTheOptionsOfRenderFirst) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> faults{
+      {{"--size", "1x"}, "--size '1x': expected WIDTHxHEIGHT"},
+      {{"--size", "33x18"}, "--size 33x18: the width and height of a film must be even"},
+      {{"--nonsense"}, "unknown option --nonsense"},
+      {{"--raycast", "two-pass"}, "--raycast: "},
+      {{"--march=haff"}, "did you mean half?"},
+      {{"--frames", "0-1"}, "--frames: is an option of script/farm"},
+      {{"-o", "b_%d.png"}, "-o: script/farm sets it"},
+      {{"--time", "1"}, "--time"}};
+  for (const auto& [options, part] : faults) {
+    std::vector<std::string> more{"--frames", "0-3", "--"};
+    more.insert(more.end(), options.begin(), options.end());
+    const Outcome run = farm(more);
+    EXPECT_EQ(run.exit_code, 2) << run.error;
+    expect_in(run.error, part);
+    EXPECT_EQ(std::ranges::count(run.error, '\n'), 1) << run.error;
+    EXPECT_EQ(run.out, "");
+  }
+  folder_.write("room.toml", "version = 1\nscene = 5\n");
+  const Outcome bad = farm({"--frames", "0-3"});
+  EXPECT_EQ(bad.exit_code, 3) << bad.error;
+  expect_in(bad.error, "room.toml:2:");
+}
+
+TEST_F(Farm, HelpIsItsOwnText) {
+  const Outcome help = run_farm(folder_, {"--help"});
+  EXPECT_EQ(help.exit_code, 0) << help.error;
+  for (const char* option : {"TIMELINE FOLDER", "--shards N", "--frames A-B", "--fps F", "--retries N",
+                             "--sbatch OPTION", "--local N", "--build FOLDER"})
+    expect_in(help.out, option);
+  EXPECT_EQ(help.out.find("set -e"), std::string::npos);
+}
+
+TEST_F(Farm, AnInterruptionSaysWhatRemainsAndEndsItsProcesses) {
+  const std::vector<std::string> options{"room.toml", "out", "--local", "2",      "--shards", "3",
+                                         "--fps",     "12",  "--",      "--size", "32x18"};
+  // The second shard waits for the signal.
+  fs::create_directory(folder_.path() / "bin");
+  std::ofstream(folder_.path() / "bin/brume")
+      << "#!/bin/sh\ncase \"$*\" in\n*'--shard 2/3') echo > " << folder_.path().string()
+      << "/waiting; exec sleep 3600 ;;\nesac\nexec " BRUME_BUILD_DIR "/brume \"$@\"\n";
+  fs::permissions(folder_.path() / "bin/brume", fs::perms::owner_all);
+  RunOptions interrupted;
+  interrupted.signal = SIGTERM;  // SIGINT is ignored where the tests run in the background.
+  interrupted.signal_when = [&] {
+    return fs::exists(folder_.path() / "waiting") && fs::exists(folder_.path() / "out/frames/000000.png");
+  };
+  const Outcome run = run_farm(folder_, options, (folder_.path() / "bin").string(), interrupted);
+  EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.error;
+  std::size_t frames = 0;
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "out/frames"))
+    frames += entry.path().extension() == ".png" ? 1 : 0;
+  expect_in(run.error, "script/farm: interrupted; " + std::to_string(frames) + " of 12 frames are in ");
+  expect_in(run.error, "the same command continues\n");
+  EXPECT_FALSE(fs::exists(folder_.path() / "out/film.mp4"));
+  EXPECT_EQ(run_farm(folder_, options).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_.path() / "out/film.mp4"));
 }
 
 }  // namespace

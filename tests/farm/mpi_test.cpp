@@ -47,6 +47,26 @@ TEST_F(Mpi, ProcessesMakeThePictureOfOne) {
   EXPECT_LT(most, sum / 2);
 }
 
+// Opaque within a voxel, which no parts can show together.
+TEST_F(Mpi, OneProcessRendersWhateverRenderDoes) {
+  const Outcome made =
+      run_brume(folder_.path(), {"bake", "sphere", "--edge", "12", "--binary", "-o", "dense.brv"});
+  ASSERT_EQ(made.exit_code, 0) << made.error;
+  const std::vector<std::string> more{"--size", "32x24", "--camera", "0.1,0.2,9 0,0,0 50"};
+  std::vector<std::string> render{"render", "dense.brv", "-o", "render.png"};
+  std::vector<std::string> alone{"render", "dense.brv", "-o", "alone.png"};
+  for (auto* words : {&render, &alone}) words->insert(words->end(), more.begin(), more.end());
+  ASSERT_EQ(run_brume(folder_.path(), render).exit_code, 0);
+  const Outcome one = run("1", alone);
+  ASSERT_EQ(one.exit_code, 0) << one.error;
+  EXPECT_TRUE(text_of(folder_, "render.png") == text_of(folder_, "alone.png"));
+  const Outcome two = run("2", {"render", "dense.brv", "-o", "two.png", "--size", "32x24"});
+  EXPECT_EQ(two.exit_code, 3) << two.error;
+  EXPECT_NE(two.error.find("brume: dense.brv: "), std::string::npos) << two.error;
+  EXPECT_EQ(two.error.find("MPI_ABORT"), std::string::npos) << two.error;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "two.png"));
+}
+
 TEST_F(Mpi, FailuresHaveTheirCodes) {
   const auto fails = [&](const std::vector<std::string>& arguments, int code, const std::string& part) {
     const Outcome failed = run("2", arguments);

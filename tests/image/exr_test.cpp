@@ -124,6 +124,20 @@ TEST(Exr, EveryTruncationIsAnError) {
     EXPECT_EQ(image.failure().code, ErrorCode::bad_input);
     EXPECT_EQ(image.failure().message.rfind("cut.exr: ", 0), 0u);
     EXPECT_EQ(image.failure().message.find('\n'), std::string::npos);
+    EXPECT_NE(image.failure().message.find("truncated"), std::string::npos) << image.failure().message;
+  }
+}
+
+TEST(Exr, EndsWithItsLastBlock) {
+  for (const auto& [width, height] : {std::pair(1u, 1u), {7u, 3u}, {33u, 40u}}) {
+    auto bytes = file_of(random_layers(width, height, width), ImageText{"Brume frame", "0123abc"});
+    const std::uint64_t length = bytes.size();
+    for (const std::size_t more : {0, 1, 100}) {
+      bytes.resize(length + more, std::byte{7});
+      EXPECT_EQ(exr_length(bytes, "a.exr").value_or_throw(), length);
+    }
+    bytes.resize(length - 1);
+    EXPECT_FALSE(exr_length(bytes, "a.exr"));
   }
 }
 

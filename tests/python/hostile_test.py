@@ -1,7 +1,11 @@
 """Arguments that make no sense raise Python's exceptions, in one line, and change nothing."""
 
+import copy
+import inspect
 import os
+import shutil
 import unittest
+from pathlib import Path
 
 import brume
 import numpy as np
@@ -18,6 +22,28 @@ class Hostile(unittest.TestCase):
             with self.assertRaises(kinds) as caught:
                 call(*arguments, **named)
             self.assertTrue(str(caught.exception))
+
+
+class UnmadeTest(Hostile):
+    def test_objects_without_init(self):
+        world, scenario = smoky_world(), brume.load(SOURCE / "scenes/single.toml")
+        kinds = (brume.Level, brume.Smoke, brume.World, brume.Scenario, brume.Sender, brume.Receiver, brume.Renderer)
+        bare = {kind: kind.__new__(kind) for kind in kinds}
+        derived = type("Derived", (brume.World,), {"__init__": lambda self: None})
+        calls = [lambda: brume.World(bare[brume.Level]), lambda: bare[brume.Level].save("/tmp/none.vxl"),
+                 lambda: brume.Renderer(bare[brume.Scenario]), lambda: bare[brume.Renderer].draw(0),
+                 lambda: brume.Sender().push(bare[brume.World]), lambda: bare[brume.Sender].push(scenario),
+                 lambda: brume.Receiver().restore(bare[brume.World]), lambda: bare[brume.Receiver].receive(b""),
+                 lambda: bare[brume.World].step(), lambda: bare[brume.World].density(), derived,
+                 lambda: derived.__new__(derived).save(), lambda: copy.copy(world)]
+        for kind, one in bare.items():
+            names = [name for name in dir(kind) if isinstance(inspect.getattr_static(kind, name), property)]
+            calls += [lambda one=one, name=name: getattr(one, name) for name in names]
+            if "__repr__" in vars(kind):
+                calls.append(lambda one=one: repr(one))
+        self.assertGreater(len(calls), 30)
+        for call in calls:
+            self.refuse(call, kinds=TypeError)
 
 
 class QueryTest(Hostile):
@@ -230,9 +256,28 @@ class FileTest(Hostile):
             self.refuse(brume.write_grids, path, grid, kinds=OSError)
         self.refuse(two_rooms().save, "/nowhere/a.vxl", kinds=FileNotFoundError)
         with work_folder() as folder:
+            two_rooms().save(folder + "/A.VXL")
+            self.assertEqual(brume.Level.load(folder + "/A.VXL").size, two_rooms().size)
+        with work_folder() as folder:
             os.mkdir(folder + "/a.brv")
             self.refuse(brume.write_grids, folder + "/a.brv", grid, kinds=IsADirectoryError)
             self.refuse(brume.write_grids, folder + "/a.txt", grid)
+
+    def test_conversions_never_replace_their_input(self):
+        with work_folder() as folder:
+            path = Path(folder)
+            brume.write_grids(path / "a.brv", brume.Grid(np.ones((2, 2, 2), np.float32)))
+            brume.convert(path / "a.brv", path / "b.json")
+            shutil.copy(path / "b.json", path / "c.json")  # Of b.raw, too.
+            os.link(path / "a.brv", path / "hard.brv")
+            os.symlink("a.brv", path / "soft.brv")
+            before = {file.name: file.read_bytes() for file in path.iterdir()}
+            for source, target in (("a.brv", "a.brv"), ("a.brv", "hard.brv"), ("a.brv", "soft.brv"),
+                                   ("soft.brv", "a.brv"), ("b.json", "b.json"), ("c.json", "b.json"),
+                                   ("a.brv", "../" + path.name + "/a.brv")):
+                with self.assertRaisesRegex(ValueError, "is the input"):
+                    brume.convert(path / source, path / target)
+            self.assertEqual({file.name: file.read_bytes() for file in path.iterdir()}, before)
 
     def test_messages_are_those_of_the_program(self):
         with work_folder() as folder:
