@@ -1,6 +1,7 @@
 #include "passes/indirect_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -77,12 +78,13 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
   gpu::grow(context_, lights_, std::max<std::size_t>(most_lights, 1) * sizeof(shared::Light));
   const glm::uvec3 size(level.layout.size), slabs(size.x, size.y, shared::kIndirectSlabs * size.z);
   if (cube_.info().size == slabs && medium_) return;
-  cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
-  next_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
-  noisy_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
-  medium_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
-  medium_direct_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
-  medium_matter_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+  // All of them or none: where memory was refused, another try makes all.
+  std::array<gpu::Image, 6> made;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    made[i] = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, i < 3 ? slabs : size);
+  std::size_t next = 0;
+  for (gpu::Image* image : {&cube_, &next_cube_, &noisy_cube_, &medium_, &medium_direct_, &medium_matter_})
+    *image = std::move(made[next++]);
 }
 
 void IndirectLightPass::upload(gpu::Recorder& recorder, const reference::LightCells& level) const {

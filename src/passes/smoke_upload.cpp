@@ -61,10 +61,10 @@ SmokeUpload::SmokeUpload(gpu::Context& context, std::uint32_t room)
 }
 
 void SmokeUpload::trim(glm::ivec3 atlas_bricks) {
+  reserved_volume_ = 0;
   atlas_.clear(atlas_bricks);
   gpu::shrink(context_, {&resources_.cells, &resources_.boundary, &resources_.corners, &resources_.filled,
                          &resources_.slots});
-  reserved_volume_ = 0;
 }
 
 void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {

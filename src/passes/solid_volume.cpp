@@ -33,26 +33,32 @@ SolidVolume::SolidVolume(gpu::Context& context) : context_(context) {
 }
 
 void SolidVolume::make(const voxel::GridLayout& grid) {
-  grid_layout_ = grid;
-  voxels_per_texel_ = voxel::coarse_edge(grid.size, kMaxSolidTexels, kMaxSolidAxis);
-  frame_.origin_world = grid.origin_world;
-  frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel_);
-  frame_.size = voxel::coarse_size(grid.size, voxels_per_texel_);
-  const auto words =
-      static_cast<std::size_t>(shared::solid_row_words(frame_.size.x) * frame_.size.y * frame_.size.z);
-  bits_.assign(words, 0);
-  edits_ = nullptr;
-  everything_ = true;
+  const int voxels_per_texel = voxel::coarse_edge(grid.size, kMaxSolidTexels, kMaxSolidAxis);
+  const glm::ivec3 size = voxel::coarse_size(grid.size, voxels_per_texel);
+  const auto words = static_cast<std::size_t>(shared::solid_row_words(size.x) * size.y * size.z);
+  std::vector<std::uint32_t> bits(words, 0);
 
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R8_UNORM;
-  info.size = glm::uvec3(frame_.size);
+  info.size = glm::uvec3(size);
   info.three_dimensional = true;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  texels_ = gpu::Image(context_, info);
-  words_ = gpu::Buffer(context_, words * sizeof(std::uint32_t),
-                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  gpu::Image texels(context_, info);
+  gpu::Buffer buffer(context_, words * sizeof(std::uint32_t),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+
+  // All or nothing: where memory was refused, another try makes all of it.
+  texels_ = std::move(texels);
+  words_ = std::move(buffer);
+  bits_ = std::move(bits);
+  grid_layout_ = grid;
+  voxels_per_texel_ = voxels_per_texel;
+  frame_.origin_world = grid.origin_world;
+  frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel);
+  frame_.size = size;
+  edits_ = nullptr;
+  everything_ = true;
 }
 
 void SolidVolume::reserve(const LevelView& level) {

@@ -45,9 +45,12 @@ bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32
     return image.info().size.y == edge && image.info().size.z >= edge * count;
   };
   if (fits(light_, plan.edge) && fits(sun_depths_, plan.sun_edge)) return false;
-  light_ = cubes(context_, VK_FORMAT_R16G16B16A16_SFLOAT, plan.edge, count, 1);
-  sun_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.sun_edge, count, 1);
+  // All of them or none: where memory was refused, another try makes all.
+  gpu::Image lit = cubes(context_, VK_FORMAT_R16G16B16A16_SFLOAT, plan.edge, count, 1);
+  gpu::Image sun_depths = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.sun_edge, count, 1);
   sky_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, shared::kSkyEdge, count, shared::kSkySweeps);
+  light_ = std::move(lit);
+  sun_depths_ = std::move(sun_depths);
   return true;
 }
 

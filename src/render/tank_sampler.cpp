@@ -41,11 +41,12 @@ void TankSampler::resize(glm::uvec2 size_px) {
 
 void TankSampler::set_kind(scene::TankView kind) {
   samples_ = rows_ = 0;
+  if (kind == scene::TankView::voxels && !voxels_) {
+    volume_.add_colors(context_);
+    voxels_.emplace(context_, volume_.size);
+    find_voxels();
+  }
   kind_ = kind;
-  if (kind != scene::TankView::voxels || voxels_) return;
-  volume_.add_colors(context_);
-  voxels_.emplace(context_, volume_.size);
-  find_voxels();
 }
 
 void TankSampler::find_voxels() {

@@ -181,6 +181,10 @@ TEST_F(FaultTest, EveryCallMayFailOnce) {
   std::uint32_t failures = 0;
   for (std::uint32_t fails_at = 1; fails_at <= calls; fails_at += step) {
     SCOPED_TRACE("call " + std::to_string(fails_at) + " of " + std::to_string(calls));
+    if (kEvery) {
+      std::printf("call %u of %u\n", fails_at, calls);
+      std::fflush(stdout);
+    }
     Faults::calls = 0;
     Faults::fails_at = fails_at;
     HostedSmoke smoke(faulty_device(), scenario_, 1, HostedSmoke::Failure::allowed);

@@ -376,7 +376,8 @@ void HostileFrames::spoil(brume_frame_params& params) {
   if (chance(kRarely)) params.commands = VK_NULL_HANDLE;
   if (chance(kRarely)) params.depth.view = VK_NULL_HANDLE;
   if (chance(0.02)) params.depth.layout = static_cast<VkImageLayout>(chance(0.5) ? 0 : number(999));
-  if (chance(0.02)) params.picture.format = static_cast<VkFormat>(number(200));
+  // Depth, compressed, or none: what cannot be blended.
+  if (chance(0.02)) params.picture.format = static_cast<VkFormat>(VK_FORMAT_D16_UNORM + below(200));
   if (chance(0.02)) params.light_count = count(lights_.size());
   if (chance(0.02)) params.volume_count = count(shown_.size());
   if (chance(0.02)) params.decal_count = chance(0.5) ? 33 : count(shown_decals_.size());
