@@ -6,8 +6,11 @@
 #include <string_view>
 
 #include "gpu/device_list.hpp"
+#include "grids/files.hpp"
+#include "grids/generate.hpp"
 #include "scenario/scenario.hpp"
 #include "tests/host/hosted_smoke.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::host {
 namespace {
@@ -47,12 +50,13 @@ struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
 
 #define BRUME_RECORDING_FUNCTIONS(X) \
   X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                           \
-  X(AllocateMemory)                                                                                         \
-  X(MapMemory)                                                                                              \
-  X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler) \
-      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines)  \
-          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                         \
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                          \
+  X(AllocateMemory)                                                                                        \
+  X(MapMemory)                                                                                             \
+  X(CreateBuffer)                                                                                          \
+  X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler)                \
+      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines) \
+          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                        \
               X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
@@ -97,6 +101,27 @@ class FaultTest : public testing::Test {
   ~FaultTest() override {
     host_.wait();
     EXPECT_OK(brume_decal_destroy(decal_));
+    EXPECT_OK(brume_volume_destroy(volume_));
+    EXPECT_OK(brume_tank_destroy(tank_));
+  }
+  /// Frames also have a volume, tanks by both views, a light, bounces and shadows.
+  void add_media() {
+    const std::string file = (folder_.path() / "cloud.brv").string();
+    const grids::Grid cloud =
+        grids::generate_cloud({.kind = grids::CloudKind::sphere, .edge = 24, .voxel_size = 0.1, .radius = 1});
+    grids::save_grid_file(file, {{cloud}, {}}).value_or_throw();
+    brume_volume_params volume = brume_volume_defaults();
+    volume.file = file.c_str();
+    ASSERT_OK(brume_volume_create(context_.get(), &volume, &volume_));
+    constexpr std::array kSphere{8.0f, 8.0f, 8.0f, 6.0f};
+    constexpr std::uint32_t kWhite = 0xffffffff;
+    brume_tank_params tank = brume_tank_defaults();
+    for (std::uint32_t& along : tank.size) along = 16;
+    tank.voxel = 0.1f;
+    tank.spheres = kSphere.data();
+    tank.colors = &kWhite;
+    tank.sphere_count = 1;
+    ASSERT_OK(brume_tank_create(context_.get(), &tank, &tank_));
   }
   void TearDown() override {
     host_.wait();
@@ -138,6 +163,8 @@ class FaultTest : public testing::Test {
       const brume_shown_decal shown = brume_shown_decal_defaults(decal_);
       params.decals = &shown;
       params.decal_count = 1;
+      Media media;
+      if (tank_) media.show(*this, params);
       Faults::commands = 0;
       result = brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
       EXPECT_EQ(Faults::commands > 0, result == BRUME_OK) << "a part of a frame was recorded";
@@ -151,7 +178,32 @@ class FaultTest : public testing::Test {
   }
   std::vector<std::byte> picture() const { return {picture_.mapped(), picture_.mapped() + picture_.size()}; }
 
+  struct Media {
+    void show(const FaultTest& test, brume_frame_params& params) {
+      volume = brume_shown_volume_defaults(test.volume_);
+      volume.position = {-3, 1, 1};
+      tanks.fill(brume_shown_tank_defaults(test.tank_));
+      tanks[0].position = {2, 1, 3};
+      tanks[1].position = {-2, 1, 3};
+      tanks[1].view = BRUME_TANK_VOXELS;
+      light = {BRUME_LIGHT_POINT, {0, 2, 2}, {0, -1, 0}, {5, 5, 5}, 0, 0};
+      params.volumes = &volume;
+      params.volume_count = 1;
+      params.tanks = tanks.data();
+      params.tank_count = tanks.size();
+      params.lights = &light;
+      params.light_count = 1;
+      params.bounces = 1;
+      params.shadow_light_count = 1;
+    }
+    brume_shown_volume volume{};
+    std::array<brume_shown_tank, 2> tanks{};
+    brume_light light{};
+  };
+  void fail_each_call();
+
   scenario::Scenario scenario_;
+  cli::WorkFolder folder_;
   gpu::HostApplication host_;
   gpu::Context gpu_;
   gpu::HostRecording recording_;
@@ -159,9 +211,11 @@ class FaultTest : public testing::Test {
   gpu::Buffer picture_;
   api::Context context_;
   brume_decal* decal_ = nullptr;
+  brume_volume* volume_ = nullptr;
+  brume_tank* tank_ = nullptr;
 };
 
-TEST_F(FaultTest, EveryCallMayFailOnce) {
+void FaultTest::fail_each_call() {
   constexpr double kFirst = 2, kSecond = 5.25;  // smoke; two smokes, and a shot
   Faults::calls = Faults::fails_at = 0;
   std::vector<std::byte> first, second;
@@ -177,7 +231,7 @@ TEST_F(FaultTest, EveryCallMayFailOnce) {
   EXPECT_NE(first, second);
 
   // Not every one of them in the fast suite: they take long, pipelines above all.
-  const std::uint32_t step = kEvery ? 1 : calls / 12;
+  const std::uint32_t step = kEvery ? 1 : calls / 8;
   std::uint32_t failures = 0;
   for (std::uint32_t fails_at = 1; fails_at <= calls; fails_at += step) {
     SCOPED_TRACE("call " + std::to_string(fails_at) + " of " + std::to_string(calls));
@@ -202,6 +256,15 @@ TEST_F(FaultTest, EveryCallMayFailOnce) {
   }
   Faults::fails_at = 0;
   EXPECT_GT(failures, 6u);
+}
+
+TEST_F(FaultTest, EveryCallMayFailOnce) {
+  fail_each_call();
+}
+
+TEST_F(FaultTest, EveryCallMayFailOnceInFramesOfAllMedia) {
+  add_media();
+  fail_each_call();
 }
 
 }  // namespace
