@@ -176,15 +176,14 @@ std::vector<const CLI::Option*> options_of(const CLI::App& command) {
 }
 
 std::vector<std::string> choices_of(const CLI::Option& option) {
-  // Argument::one_of names its validator by them. CLI11 finds a validator only in an option that may be
-  // changed.
-  std::vector<std::string> choices;
+  // Argument::one_of names its validator by them; others have no name. CLI11 finds a validator only in an
+  // option that may be changed, and throws behind the last one.
   std::string names;
   try {
-    names = const_cast<CLI::Option&>(option).get_validator()->get_name();
+    for (int i = 0; names.empty(); ++i) names = const_cast<CLI::Option&>(option).get_validator(i)->get_name();
   } catch (const CLI::OptionNotFound&) {
-    return choices;
   }
+  std::vector<std::string> choices;
   std::istringstream words(names);
   for (std::string word; std::getline(words, word, kChoiceSeparator);) choices.push_back(word);
   return choices;
