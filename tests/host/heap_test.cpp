@@ -11,10 +11,12 @@
 namespace brume::host {
 namespace {
 
-#ifdef BRUME_EVERY_FAULT
-constexpr int kFaults = 300;
+// How many allocations fail, spread over all of them, and in how many tests, which may be of several
+// processes (GTEST_TOTAL_SHARDS).
+#if defined(BRUME_FAULTS)
+constexpr int kFaults = BRUME_FAULTS, kParts = 16;
 #else
-constexpr int kFaults = 4;
+constexpr int kFaults = 4, kParts = 1;
 #endif
 
 /// Without the validation layers, which allocate with every command.
@@ -148,7 +150,7 @@ PFN_vkVoidFunction uncounted(const char* name, PFN_vkVoidFunction real) {
   return real;
 }
 
-class HeapFaultTest : public HeapTest {
+class HeapFaultTest : public HeapTest, public testing::WithParamInterface<int> {
  protected:
   HeapFaultTest() { g_replace = uncounted; }
   ~HeapFaultTest() override { g_replace = nullptr; }
@@ -185,7 +187,7 @@ class HeapFaultTest : public HeapTest {
   }
 };
 
-TEST_F(HeapFaultTest, EveryAllocationMayFail) {
+TEST_P(HeapFaultTest, EveryAllocationMayFail) {
   make({48, 20, 48}, 0.25f);
   smoke(1, {4, 0.6f, 5}, 1000, 6400);
   advance(300);
@@ -198,8 +200,8 @@ TEST_F(HeapFaultTest, EveryAllocationMayFail) {
   }
   ASSERT_GT(allocations, 100);
   const VkDeviceSize bytes = memory_.bytes;
-  int failed = 0;
-  for (int i = 0; i < kFaults; ++i) {
+  int failed = 0, tried = 0;
+  for (int i = GetParam(); i < kFaults; i += kParts) {
     // Spread over all of them, the first among them.
     const int fails_at = 1 + static_cast<int>(std::int64_t{i} * (allocations - 1) / kFaults);
     SCOPED_TRACE("allocation " + std::to_string(fails_at) + " of " + std::to_string(allocations));
@@ -209,12 +211,14 @@ TEST_F(HeapFaultTest, EveryAllocationMayFail) {
     // Its first renderers leave memory to later ones, which then allocate a few times less.
     EXPECT_EQ(failures, Heap::allocations >= fails_at ? 1 : 0);
     failed += failures;
+    ++tried;
     Heap::fails_at = 0;
     ASSERT_FALSE(HasFailure());
   }
-  EXPECT_GE(failed, kFaults - kFaults / 10);
+  EXPECT_GE(failed, tried - tried / 10);
   EXPECT_LE(memory_.bytes, bytes + (64u << 20)) << "four blocks: a spare one of each kind, and staging";
 }
+INSTANTIATE_TEST_SUITE_P(, HeapFaultTest, testing::Range(0, kParts));
 
 }  // namespace
 }  // namespace brume::host
