@@ -144,21 +144,4 @@ float first_hit(ivec2 px, vec3 origin, vec3 direction, float to_surface) {
   return ray.id == 0u ? kNoCrossing : ray.t;
 }
 
-void main() {
-  const ivec2 px = sampled_pixel();
-  if (any(greaterThanEqual(uvec2(px), tank.size_px))) return;
-  Seen sum = sum_so_far(px);
-  const float surface = surface_distance(px);
-  for (uint i = 0u; i < samples.count; ++i) {
-    SampleSource source = sample_source(px, i);
-    vec3 origin, direction;
-    sample_camera(source, origin, direction);
-    add(sum, path_seen(origin, direction, along_ray(surface, direction), source));
-  }
-  store_sum(px, sum);
-#ifdef TANK_OVER_SURFACES
-  vec3 origin, direction;
-  tank_camera_ray(vec2(px) + 0.5, vec2(0.0), origin, direction);
-  store_surface(px, direction, first_hit(px, origin, direction, along_ray(surface, direction)));
-#endif
-}
+#include "lib/tank_main.glsl"

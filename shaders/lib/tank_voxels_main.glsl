@@ -48,7 +48,7 @@ void march(vec3 origin, vec3 direction, float t_end, bool fog, inout vec3 weight
   }
 }
 
-Seen ray_seen(vec3 origin, vec3 direction, float to_surface, inout SampleSource source) {
+Seen path_seen(vec3 origin, vec3 direction, float to_surface, inout SampleSource source) {
   vec3 weight = vec3(1.0);
   Seen seen = Seen(vec3(0.0), 0.0);
   bool in_glass = is_in_glass(origin);
@@ -70,7 +70,7 @@ Seen ray_seen(vec3 origin, vec3 direction, float to_surface, inout SampleSource 
 }
 
 /// Where the voxels on the ray have blocked half of the light, as if there were no glass.
-float first_hit(vec3 origin, vec3 direction, float to_surface) {
+float first_hit(ivec2 px, vec3 origin, vec3 direction, float to_surface) {
   VoxelWalk walk = begin_walk(origin, direction, to_surface);
   float depth = 0.0;
   while (walk.t < walk.t_end) {
@@ -88,21 +88,4 @@ float first_hit(vec3 origin, vec3 direction, float to_surface) {
   return kNoCrossing;
 }
 
-void main() {
-  const ivec2 px = sampled_pixel();
-  if (any(greaterThanEqual(uvec2(px), tank.size_px))) return;
-  Seen sum = sum_so_far(px);
-  const float surface = surface_distance(px);
-  for (uint i = 0u; i < samples.count; ++i) {
-    SampleSource source = sample_source(px, i);
-    vec3 origin, direction;
-    sample_camera(source, origin, direction);
-    add(sum, ray_seen(origin, direction, along_ray(surface, direction), source));
-  }
-  store_sum(px, sum);
-#ifdef TANK_OVER_SURFACES
-  vec3 origin, direction;
-  tank_camera_ray(vec2(px) + 0.5, vec2(0.0), origin, direction);
-  store_surface(px, direction, first_hit(origin, direction, along_ray(surface, direction)));
-#endif
-}
+#include "lib/tank_main.glsl"

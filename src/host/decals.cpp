@@ -146,7 +146,7 @@ struct Sliced {
 };
 
 /// The image of slices for a frame that shows what the one before lacks. Others stay in it, as far as there
-/// is room, so that decals that take turns are not uploaded each time.
+/// is room, so that decals shown every other frame are uploaded once.
 void replace_slices(std::span<const brume_shown_decal> shown, brume_renderer& renderer) {
   Sliced sliced;
   for (const brume_shown_decal& decal : shown) sliced.add(decal.decal->data);
