@@ -50,13 +50,14 @@ struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
 
 #define BRUME_RECORDING_FUNCTIONS(X) \
   X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                          \
-  X(AllocateMemory)                                                                                        \
-  X(MapMemory)                                                                                             \
-  X(CreateBuffer)                                                                                          \
-  X(BindBufferMemory) X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler)                \
-      X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines) \
-          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)                        \
+#define BRUME_FAULTY_FUNCTIONS(X)                                                             \
+  X(AllocateMemory)                                                                           \
+  X(MapMemory)                                                                                \
+  X(CreateBuffer)                                                                             \
+  X(BindBufferMemory)                                                                         \
+  X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler) X(CreateShaderModule) \
+      X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines)          \
+          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)           \
               X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
@@ -218,7 +219,7 @@ class FaultTest : public testing::Test {
 void FaultTest::fail_each_call() {
   constexpr double kFirst = 2, kSecond = 5.25;  // smoke; two smokes, and a shot
   Faults::calls = Faults::fails_at = 0;
-  std::vector<std::byte> first, second;
+  std::vector<std::byte> first, second, second_alone;
   {
     HostedSmoke smoke(faulty_device(), scenario_, 1);
     ASSERT_OK(draw(smoke, kFirst));
@@ -227,6 +228,11 @@ void FaultTest::fail_each_call() {
     second = picture();
   }
   const std::uint32_t calls = Faults::calls;
+  {
+    HostedSmoke smoke(faulty_device(), scenario_, 1);
+    ASSERT_OK(draw(smoke, kSecond));
+    second_alone = picture();
+  }
   ASSERT_GT(calls, 100u);
   EXPECT_NE(first, second);
 
@@ -252,7 +258,9 @@ void FaultTest::fail_each_call() {
         EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
         EXPECT_STRNE(brume_last_error(), "");
       }
-    EXPECT_EQ(picture(), second);
+    // A plan that was given up leaves nothing up to date. Bricks placed anew lie elsewhere in their image,
+    // where coordinates round otherwise.
+    EXPECT_TRUE(picture() == second || picture() == second_alone);
   }
   Faults::fails_at = 0;
   EXPECT_GT(failures, 6u);
