@@ -205,6 +205,10 @@ TEST_P(HeapFaultTest, EveryAllocationMayFail) {
     // Spread over all of them, the first among them.
     const int fails_at = 1 + static_cast<int>(std::int64_t{i} * (allocations - 1) / kFaults);
     SCOPED_TRACE("allocation " + std::to_string(fails_at) + " of " + std::to_string(allocations));
+#if defined(BRUME_FAULTS)
+    std::printf("allocation %d of %d\n", fails_at, allocations);
+    std::fflush(stdout);
+#endif
     Heap::allocations = 0;
     Heap::fails_at = fails_at;
     const int failures = draw_all();
