@@ -123,9 +123,10 @@ endfunction()
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
 # The label one_thread is for programs that use no threads but through what others test: the thread sanitizer leaves
 # them out. COST is about how many seconds it takes where that is much: the long ones begin first. A program is one CTest
-# entry: starting a Vulkan device for each case would cost more than the cases.
+# entry: starting a Vulkan device for each case would cost more than the cases. SLOW_CASES, filters of GoogleTest, are
+# left to a second entry NAME_slow with the label slow; its program is a link with that name, by which reports are named.
 function(brume_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "LINKS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "LINKS;LABELS;SLOW_CASES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 900)  # only ends a hang
   endif()
@@ -136,6 +137,15 @@ function(brume_test name)
   brume_test_options(${name})
   target_link_libraries(${name} PRIVATE brume_options ${arg_LINKS} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE BRUME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+  set(properties TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+  if(arg_SLOW_CASES)
+    list(JOIN arg_SLOW_CASES ":" slow_cases)
+    add_custom_command(TARGET ${name} POST_BUILD
+                       COMMAND ${CMAKE_COMMAND} -E create_symlink ${name} $<TARGET_FILE_DIR:${name}>/${name}_slow)
+    add_test(NAME ${name}_slow COMMAND $<TARGET_FILE_DIR:${name}>/${name}_slow --gtest_filter=${slow_cases})
+    set_tests_properties(${name}_slow PROPERTIES LABELS "${arg_LABELS};slow" ${properties})
+    set(fast_cases --gtest_filter=-${slow_cases})
+  endif()
+  add_test(NAME ${name} COMMAND ${name} ${fast_cases})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" ${properties})
 endfunction()

@@ -50,15 +50,15 @@ struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
 
 #define BRUME_RECORDING_FUNCTIONS(X) \
   X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                             \
-  X(AllocateMemory)                                                                           \
-  X(MapMemory)                                                                                \
-  X(CreateBuffer)                                                                             \
-  X(BindBufferMemory)                                                                         \
-  X(CreateImage) X(BindImageMemory) X(CreateImageView) X(CreateSampler) X(CreateShaderModule) \
-      X(CreateDescriptorSetLayout) X(CreatePipelineLayout) X(CreateComputePipelines)          \
-          X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)           \
-              X(AllocateDescriptorSets) X(CreateQueryPool)
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                           \
+  X(AllocateMemory)                                                                                         \
+  X(MapMemory)                                                                                              \
+  X(CreateBuffer)                                                                                           \
+  X(BindBufferMemory)                                                                                       \
+  X(CreateImage)                                                                                            \
+  X(BindImageMemory) X(CreateImageView) X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) \
+      X(CreatePipelineLayout) X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool)  \
+          X(ResetDescriptorPool) X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
 PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr;
@@ -237,7 +237,7 @@ void FaultTest::fail_each_call() {
   EXPECT_NE(first, second);
 
   // Not every one of them in the fast suite: they take long, pipelines above all.
-  const std::uint32_t step = kEvery ? 1 : calls / 8;
+  const std::uint32_t step = kEvery ? 1 : calls / 4;
   std::uint32_t failures = 0;
   for (std::uint32_t fails_at = 1; fails_at <= calls; fails_at += step) {
     SCOPED_TRACE("call " + std::to_string(fails_at) + " of " + std::to_string(calls));
@@ -258,12 +258,12 @@ void FaultTest::fail_each_call() {
         EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
         EXPECT_STRNE(brume_last_error(), "");
       }
-    // A plan that was given up leaves nothing up to date. Bricks placed anew lie elsewhere in their image,
-    // where coordinates round otherwise.
+    // A plan that was given up leaves nothing up to date. Bricks that are placed again lie elsewhere in
+    // their image, where coordinates round otherwise.
     EXPECT_TRUE(picture() == second || picture() == second_alone);
   }
   Faults::fails_at = 0;
-  EXPECT_GT(failures, 6u);
+  EXPECT_GT(failures, 2u);
 }
 
 TEST_F(FaultTest, EveryCallMayFailOnce) {
