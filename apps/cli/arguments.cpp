@@ -291,7 +291,7 @@ CommandLine::CommandLine(const std::string& about, const std::string& name, cons
   app_->formatter(std::make_shared<HelpFormatter>());
   app_->require_subcommand(0, 1);  // In `brume bench sim`, sim is a value.
   app_->set_version_flag("-V,--version", version, "Print the version and how the program was built");
-  app_->set_help_flag("-h,--help", "Print this help; brume COMMAND --help prints that of a command");
+  app_->set_help_flag("-h,--help", "Print this help; " + name + " COMMAND --help prints that of a command");
 }
 
 CommandLine::~CommandLine() = default;

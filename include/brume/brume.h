@@ -9,7 +9,7 @@
 //            the calling thread. After an error nothing has changed and no output has been written, except
 //            where the function says otherwise. No exception and no signal reaches the caller for arguments
 //            that are wrong: null, another kind of handle, another struct_size, NaN, out of range.
-//            BRUME_ERROR_MEMORY may stop a world or field halfway: see BRUME_ERROR_BROKEN.
+//            BRUME_ERROR_MEMORY may stop a change halfway: see BRUME_ERROR_BROKEN.
 // Handles    Created by *_create and similar, released by *_destroy, which accepts null. What a handle refers
 //            to lives as long as required: a level may be destroyed before its worlds. A destroyed handle
 //            must not be used again.
@@ -72,8 +72,9 @@ typedef enum brume_result {
   BRUME_ERROR_BUFFER = 7,    ///< The capacity of an output is too small.
   BRUME_ERROR_LIMIT = 8,     ///< More than a limit of the library allows.
   BRUME_ERROR_MEMORY = 9,    ///< Out of memory or threads.
-  /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (world) or
-  /// brume_field_update (field) succeeds, only *_destroy works.
+  /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (world),
+  /// brume_field_update (field) or brume_receiver_reset (receiver) succeeds, only *_destroy works; of a
+  /// sender nothing else ever does.
   BRUME_ERROR_BROKEN = 10,
   BRUME_ERROR_INTERNAL = 11,  ///< A defect of the library.
   BRUME_ERROR_DEVICE = 12     ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
@@ -103,9 +104,9 @@ typedef struct brume_field brume_field;
 
 /// Receives the line of each failed call with a handle of its context, as brume_last_error() returns it, and
 /// with BRUME_OK warnings, such as of a volume that is shown at a lower resolution. Called in the thread of
-/// that call, after its work, possibly by several threads at once; warnings also by threads that load
-/// volumes. `line` is valid during the call. It must not throw; it may call any function but the destruction
-/// of the handle in use.
+/// that call, after its work, possibly by several threads at once; it may then call any function but the
+/// destruction of the handle in use. Warnings come also from threads that load volumes: there it must call
+/// none. `line` is valid during the call. It must not throw.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
 /// What a context is created with.

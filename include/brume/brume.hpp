@@ -354,7 +354,7 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
     check(brume_field_optical_depths(get(), segments.data(), segments.size(), out.data()));
     return out;
   }
-  /// Whether nothing solid and less smoke than an optical depth of `threshold` lies between.
+  /// Whether nothing solid lies between, and smoke of an optical depth of at most `threshold`.
   bool visible(const brume_segment& segment, float threshold) const {
     return detail::value_of<std::uint8_t>([&](std::uint8_t* out) {
              return brume_field_visible(get(), &segment, 1, threshold, out);

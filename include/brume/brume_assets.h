@@ -181,11 +181,12 @@ typedef struct brume_tank_params {
   const void* next;
   const char* file;        ///< Path of a .spheres file, UTF-8; null: what follows.
   uint32_t size[3];        ///< Of the box [voxels], each in [1, 2048], their product at most 2^28.
-  float voxel;             ///< Edge of a voxel [m], > 0.
+  float voxel;             ///< Edge of a voxel [m], [1e-6, 1e3].
   const float* spheres;    ///< Four numbers each: middle and radius [voxels] from the low corner, in the box.
   const uint32_t* colors;  ///< One each, bytes from the lowest: R, G and B of sRGB, and 255 for an opaque
                            ///< surface, else a medium of which a voxel's length blocks a/255 of the light.
-  size_t sphere_count;     ///< Of `spheres` and `colors`, at most 2^23. Spheres must not overlap.
+  size_t sphere_count;     ///< Of `spheres` and `colors`, at most 2^23. Spheres must not overlap,
+                           ///< which is not checked.
 } brume_tank_params;
 
 static inline brume_tank_params brume_tank_defaults(void) {
@@ -240,8 +241,8 @@ static inline brume_tank_lighting brume_tank_lighting_defaults(void) {
   return lighting;
 }
 
-/// Lights a tank from the next frame on. Paths through glass are traced by all cores on this call, about a
-/// second for a million; without glass it is a copy.
+/// Lights a tank from the next frame on. Paths through glass are traced on this call, by the threads of the
+/// context, about a second for a million; without glass it is a copy.
 BRUME_API brume_result brume_tank_set_lighting(brume_tank* tank,
                                                const brume_tank_lighting* lighting) BRUME_NOEXCEPT;
 
@@ -259,8 +260,8 @@ typedef struct brume_shown_tank {
   brume_point position;                ///< Of its middle [m].
   uint32_t view;                       ///< brume_tank_view
   uint32_t samples;                    ///< Paths of each pixel in this frame, [1, 64].
-  /// 1: the host's surfaces are those of the frame before; where camera, tank and light are, too, the samples
-  /// of all these frames are averaged.
+  /// 1: the host's surfaces have not changed since the last frame. While camera, tank and light have not
+  /// either, the samples of all these frames are averaged.
   uint32_t continues;
 } brume_shown_tank;
 

@@ -7,14 +7,16 @@
 //
 // Everything that brume.h says of results, handles, threads and structs holds here. Besides:
 //
-// Submitting  Nothing submits or waits. Functions that take a command buffer, in the recording state and
-//             outside of a rendering, only record. The commands are submitted to one queue, in the order of
-//             their frames.
+// Submitting  Nothing submits or waits for the device. Functions that take a command buffer, in the recording
+//             state and outside of a rendering, only record. The commands are submitted to one queue, in the
+//             order of their frames; where those of one are not, none of a later frame may be.
 // Frames      Each has a number of the host, which rises. The host says up to which frame the device has
 //             completed all commands; any number of frames may be in flight. What a frame uses is destroyed
 //             after that.
-// Failures    After an error of brume_renderer_record nothing was added to the command buffer; the next frame
+// Failures    After an error of brume_renderer_record nothing was added to the command buffer. But for wrong
+//             arguments, its number is used up and the images of the last frame are gone; the next frame
 //             uploads everything again.
+// Positions   Within 16384 m of the origin along each axis.
 // Images      Of the host: in the layout that the struct names, before and after. Writes to them must be
 //             visible to the stages that the struct names, and later accesses of the host wait for these
 //             stages.
@@ -76,7 +78,8 @@ static inline brume_device_params brume_device_defaults(void) {
 /// Borrows the host's device, which must outlive it. Errors: BRUME_ERROR_DEVICE.
 BRUME_API brume_result brume_device_create(brume_context* context, const brume_device_params* params,
                                            brume_device** device) BRUME_NOEXCEPT;
-/// All frames must have been completed, and all renderers destroyed (else BRUME_ERROR_ORDER).
+/// All renderers must have been destroyed (else BRUME_ERROR_ORDER), and the device must have completed all
+/// frames, which is not checked.
 BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT;
 /// Writes the bytes of device memory that its renderers use at present, beside what frames in flight still
 /// use and the memory of the CPU that uploads go through.
@@ -102,7 +105,7 @@ typedef struct brume_light {
   uint32_t kind;          ///< brume_light_kind.
   brume_point position;   ///< [m]; of a sun ignored.
   brume_point direction;  ///< In which the light travels, any length but 0; of a point light ignored.
-  float intensity[3];     ///< Per channel, >= 0: [W/sr]; of a sun the irradiance [W/m^2].
+  float intensity[3];     ///< Per channel, [0, 10^12]: [W/sr]; of a sun the irradiance [W/m^2].
   float inner_angle;      ///< Of a spot, from its axis [rad]: full inside, [0, outer_angle).
   float outer_angle;      ///< None outside, (0, pi].
 } brume_light;
@@ -169,16 +172,17 @@ typedef struct brume_camera {
   brume_point forward;   ///< Any length but 0.
   brume_point up;        ///< Of the picture; any length but 0.
   float vertical_fov;    ///< [rad], (0, pi). Pixels are square.
-  /// The jitter of the host: from the middle of each pixel to the point that it shows, to the right [px].
+  /// The jitter of the host: from the middle of each pixel to the point that it shows, to the right [px],
+  /// [-1, 1].
   float jitter_x;
-  float jitter_y;  ///< Downwards [px].
+  float jitter_y;  ///< Downwards [px], [-1, 1].
 } brume_camera;
 
 /// The depth of the surfaces that the host drew with the same camera.
 typedef struct brume_depth {
   VkImageView view;      ///< Its depth aspect, of the renderer's size, with VK_IMAGE_USAGE_SAMPLED_BIT.
   VkImageLayout layout;  ///< One in which it can be sampled. Stage: compute shaders, sampled reads.
-  float near_plane;      ///< [m], > 0. Depth is that of a perspective projection onto [0, 1].
+  float near_plane;      ///< [m], in (0, 16384). Depth is that of a perspective projection onto [0, 1].
   float far_plane;       ///< [m], above near_plane; may be infinite. Depth of far_plane: no surface.
   uint32_t reversed;     ///< 1: the depth is 1 at near_plane and 0 at far_plane.
 } brume_depth;
@@ -195,8 +199,8 @@ typedef enum brume_normal_encoding {
 /// The normals of the surfaces that the host drew, which decals darken.
 typedef struct brume_normals {
   /// Of the renderer's size, of a format that shaders read as floats, with VK_IMAGE_USAGE_SAMPLED_BIT; null:
-  /// the normals are those of the planes through the depths of neighbouring pixels, and face the camera. So
-  /// is one that is 0 or not finite.
+  /// the normals are those of the planes through the depths of neighbouring pixels, and face the camera. The
+  /// same replaces a normal that is 0 or not finite.
   VkImageView view;
   VkImageLayout layout;  ///< One in which it can be sampled. Stage: compute shaders, sampled reads.
   uint32_t encoding;     ///< brume_normal_encoding.
@@ -210,7 +214,7 @@ typedef struct brume_picture {
   VkImageView view;  ///< Of the renderer's size, with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT; null: none.
   VkFormat format;   ///< One that can be blended. Radiance should be linear in it: half floats, for example.
   /// In VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. Stage: colour attachment output, reads and writes.
-  float exposure;  ///< Multiplies the smoke's radiance, > 0.
+  float exposure;  ///< Multiplies the smoke's radiance, in (0, 10^9).
 } brume_picture;
 
 /// How smoke looks; its shape in the large is that of the field.
@@ -248,16 +252,16 @@ typedef struct brume_frame_params {
   const void* next;
   VkCommandBuffer commands;  ///< In the recording state, outside of a rendering.
   uint64_t frame;            ///< Above that of the frame before, of all renderers of the device; from 1.
-  uint64_t completed;        ///< The last frame whose commands the device has completed; 0: none.
+  uint64_t completed;        ///< The last frame that the device has completed, never falling; 0: none.
   brume_camera camera;       ///< That of the depth and the picture.
   brume_depth depth;         ///< What hides smoke.
   brume_picture picture;     ///< What smoke is blended over, and decals darken.
-  brume_smoke_look look;     ///< Extinction is the field's: what players see is what queries find.
-  double seconds;            ///< The clock of noise and holes [s], >= 0; usually that of the field's state.
+  brume_smoke_look look;     ///< Extinction is the field's: but for noise, players see what queries find.
+  double seconds;            ///< The clock of noise and holes [s], [0, 10^7]; usually the state's.
   /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
   uint32_t jitter_index;
   uint32_t continues;  ///< 1: the next frame of a film (brume_renderer_params::temporal).
-  float ambient[3];    ///< Radiance of the sky that lights the smoke, >= 0.
+  float ambient[3];    ///< Radiance of the sky that lights the smoke, [0, 10^6].
   float bounce;        ///< The fraction of it where no sky is visible, [0, 1].
   /// How often surfaces of the level, which are white, and smoke pass light on to each other, [0, 16]. 0:
   /// never, and a formula stands for light that is scattered more than once.
@@ -271,7 +275,7 @@ typedef struct brume_frame_params {
   uint32_t shadow_lights[BRUME_MAX_SHADOW_LIGHTS];
   uint32_t shadow_light_count;      ///< [0, BRUME_MAX_SHADOW_LIGHTS].
   brume_quality quality;            ///< What the frame may save.
-  const brume_shown_decal* decals;  ///< At most 32; what they leave of the light multiplies.
+  const brume_shown_decal* decals;  ///< At most 32; of several what they leave of the light multiplies.
   size_t decal_count;               ///< Of `decals`.
   brume_normals normals;            ///< Of the surfaces that they darken.
   const brume_shown_tank* tanks;    ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
@@ -321,8 +325,8 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 
 /// The smoke of the last recorded frame, for hosts that blend it themselves: half floats, premultiplied
 /// radiance and, in alpha, transmittance, in VK_IMAGE_LAYOUT_GENERAL, written by compute shaders.
-/// Tanks are part of it. BRUME_ERROR_ORDER before the first frame; another image after brume_renderer_resize,
-/// and where frames begin or end to have tanks. Either pointer may be null.
+/// Tanks are part of it. BRUME_ERROR_ORDER before the first frame and after one that failed; another image
+/// after brume_renderer_resize, and where frames begin or end to have tanks. Either pointer may be null.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
 

@@ -161,7 +161,8 @@ brume_result brume_receiver_state(const brume_receiver* receiver, brume_state** 
 brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     brume_receiver& of = call.handle(receiver);
-    call.change(of, [&] { of.receiver.reset(); });
+    call.change(
+        of, [&] { of.receiver.reset(); }, true);
   });
 }
 

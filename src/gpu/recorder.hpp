@@ -3,6 +3,7 @@
 
 #include <array>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -231,12 +232,16 @@ class Recorder {
 class Scope {
  public:
   Scope(Recorder& recorder, const char* name) : recorder_(recorder) { recorder.begin_scope(name); }
-  ~Scope() { recorder_.end_scope(); }
+  /// May run out of memory. While another error is on its way nothing is recorded.
+  ~Scope() noexcept(false) {
+    if (std::uncaught_exceptions() == exceptions_) recorder_.end_scope();
+  }
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
  private:
   Recorder& recorder_;
+  int exceptions_ = std::uncaught_exceptions();
 };
 
 /// Where commands are recorded. Later ones see what earlier ones wrote.

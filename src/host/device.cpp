@@ -45,7 +45,9 @@ brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT {
   if (!device) return BRUME_OK;
   return Call(__func__).run([&](Call& call) {
     brume_device& held = call.handle(device);
-    if (held.data->renderers > 0) fail(BRUME_ERROR_ORDER, "a renderer of the device must be destroyed first");
+    const auto data = held.data;
+    const std::scoped_lock lock(data->mutex);  // until a renderer that another thread destroys is gone
+    if (data->renderers > 0) fail(BRUME_ERROR_ORDER, "a renderer of the device must be destroyed first");
     delete &held;
   });
 }

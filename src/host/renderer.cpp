@@ -152,7 +152,7 @@ void draw(brume_renderer& of, const brume_frame_params& params, const planning::
   render::Renderer& renderer = *of.renderer;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
   if (volume != of.shown_volume) {
-    renderer.invalidate();
+    renderer.invalidate_level();
     of.shown_volume = volume;
   }
   of.has_shadows = false;
@@ -211,6 +211,8 @@ void record(Call& call, brume_renderer& of, const brume_field* field, const brum
     of.renderer.reset();
     of.tanks.reset();
     of.has_tanks = false;
+    of.input.slices.reset();  // with spare decals, which may not fit
+    of.sliced.clear();
     of.shadows = {};
     of.has_shadows = false;
     of.recording.discard();

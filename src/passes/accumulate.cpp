@@ -24,7 +24,7 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
 void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
                             const gpu::Image& depth, const gpu::Image& smoke, bool continues) {
   const std::size_t before = current_, now = 1 - current_;
-  const shared::AccumulateParams params{past_clip_from_world_, continues ? 1u : 0u};
+  const shared::AccumulateParams params{past_clip_from_world_, continues && has_past_ ? 1u : 0u};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -38,6 +38,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                 params);
   recorder.dispatch_threads(pipeline_, smoke.info().size.x, smoke.info().size.y);
   current_ = now;
+  has_past_ = true;
   past_clip_from_world_ = camera.clip_from_world;
 }
 

@@ -16,7 +16,7 @@ class AccumulatePass {
 
   /// Blends `smoke` (premultiplied radiance and transmittance, half floats) with the previous result; the
   /// new result is gathered(). `frame` holds FrameConstants with this camera, `depth` is the G-buffer's.
-  /// Without `continues` the history is dropped and the result is `smoke`.
+  /// Without `continues`, and at first, the history is dropped and the result is `smoke`.
   ///
   /// A pixel is the mean of at most kAccumulatedFrames frames, clamped to one standard deviation around the
   /// mean of the 3 x 3 pixels around it in this frame, a range that includes its own value.
@@ -30,6 +30,7 @@ class AccumulatePass {
   std::array<gpu::Image, 2> smoke_;    // alternating
   std::array<gpu::Buffer, 2> pixels_;  // shared::AccumulatedPixel
   std::size_t current_ = 0;
+  bool has_past_ = false;
   glm::mat4 past_clip_from_world_{1};
 };
 

@@ -65,8 +65,15 @@ void SolidVolume::reserve(const LevelView& level) {
   if (level.grid && !(level.grid->layout() == grid_layout_)) make(level.grid->layout());
 }
 
+void SolidVolume::invalidate() {
+  edits_ = nullptr;
+  everything_ = true;
+}
+
 bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
   Box<int> changed{glm::ivec3(0), frame_.size};
+  everything_ |= (level.grid != nullptr) != has_grid_;
+  has_grid_ = level.grid != nullptr;
   if (!everything_) {
     if (!level.grid || level.edits == edits_) return false;
     static const sim::EditBlocks none;
@@ -75,7 +82,10 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
     changed = intersection(
         changed, {voxels.low / voxels_per_texel_, voxel::coarse_size(voxels.high, voxels_per_texel_)});
   }
-  if (level.grid) fill_bits(*level.grid, changed);
+  if (level.grid)
+    fill_bits(*level.grid, changed);
+  else
+    std::ranges::fill(bits_, 0u);
   upload(recorder, changed);
   everything_ = false;
   edits_ = level.edits;

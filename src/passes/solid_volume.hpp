@@ -27,6 +27,8 @@ class SolidVolume {
   /// Allocates for the level. Outside of a recording, once the device has finished previous ones. Levels with
   /// equal layouts count as snapshots of one level. Throws resource_limit.
   void reserve(const LevelView& level);
+  /// The next record takes everything: the level may be another one of the same layout, or none.
+  void invalidate();
   /// Uploads changes since the last record; true when there were any. The level is that of `reserve`.
   bool record(gpu::Recorder& recorder, const LevelView& level);
 
@@ -49,6 +51,7 @@ class SolidVolume {
   std::vector<std::uint32_t> bits_;  // as in words_
   std::shared_ptr<const sim::EditBlocks> edits_;
   bool everything_ = true;  // the resources are new and empty
+  bool has_grid_ = false;   // of the last record
   gpu::Image texels_;
   gpu::Buffer words_;
 };

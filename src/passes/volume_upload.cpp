@@ -13,16 +13,19 @@ namespace {
 constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FORMAT_R16G16B16A16_SFLOAT},
     kPairChannels{VK_FORMAT_R16G16_SFLOAT};
 
-/// The grids of all volumes: the densities, those that glow, and the previews of both.
+/// The grids of all volumes, each once: the densities, those that glow, and the previews of both.
 struct GridList {
   std::vector<const volume::SparseVolume*> grids;
   std::vector<StreamedBricks> streams;  ///< Of each, if residency is known.
 
   void add(const volume::SparseVolume* grid, const planning::BrickUpload* upload) {
     if (!grid) return;
-    grids.push_back(grid);
-    streams.emplace_back();
-    if (upload) streams.back() = {upload->streamed, upload->pages, upload->slots};
+    const auto at = static_cast<std::size_t>(std::ranges::find(grids, grid) - grids.begin());
+    if (at == grids.size()) {
+      grids.push_back(grid);
+      streams.emplace_back();
+    }
+    if (upload && upload->streamed) streams[at] = {upload->streamed, upload->pages, upload->slots};
   }
 };
 GridList list_of(std::span<const planning::VolumeInput> volumes,
@@ -49,12 +52,13 @@ bool has_pair(const planning::VolumeInput& volume) {
   return volume.colors && !volume.tints.empty() && volume.tints.size() <= 2;
 }
 
-/// The grids of colours, or those of pairs of masks.
+/// The grids of colours, or those of pairs of masks, each once.
 std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes,
                                                        bool pairs) {
   std::vector<const volume::SparseVolume*> list;
   for (const planning::VolumeInput& volume : volumes)
-    if (volume.colors && has_pair(volume) == pairs) list.push_back(volume.colors);
+    if (volume.colors && has_pair(volume) == pairs && std::ranges::find(list, volume.colors) == list.end())
+      list.push_back(volume.colors);
   return list;
 }
 

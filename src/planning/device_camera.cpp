@@ -9,7 +9,8 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   const glm::vec3 apart = camera.target_world - camera.position_world;
   const glm::vec3 forward = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
   const bool is_along_up = std::abs(glm::dot(forward, camera.up_world)) > 0.999f;
-  const glm::vec3 helper = is_along_up ? glm::vec3(0, 0, -1) : camera.up_world;
+  const glm::vec3 other = std::abs(forward.z) > 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
+  const glm::vec3 helper = is_along_up ? other : camera.up_world;
   const glm::vec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);
   const float tan_y = std::tan(0.5f * camera.vertical_fov);
   const float tan_x = tan_y * static_cast<float>(size_px.x) / static_cast<float>(size_px.y);

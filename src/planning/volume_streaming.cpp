@@ -210,6 +210,8 @@ std::vector<VolumeStreaming::Item> VolumeStreaming::items_of(std::span<const Vol
   for (const Item& item : items) state_of(*item.volume);
   for (Item& item : items) {
     item.state = &state_of(*item.volume);
+    // One that is shown several times is uploaded once, with the first.
+    item.upload = std::ranges::find(items, item.state, &Item::state)->upload;
     item.upload->streamed = true;
   }
   return items;

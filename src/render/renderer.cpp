@@ -137,6 +137,11 @@ void Renderer::invalidate() {
   history_.hidden_objects = std::move(hidden_objects);
 }
 
+void Renderer::invalidate_level() {
+  invalidate();
+  scene_.invalidate_level();
+}
+
 FramePlan Renderer::plan(const FrameInput& input) {
   input_ = input;
   const std::uint32_t room = bricks_of(smoke_.atlas_bricks());

@@ -63,6 +63,8 @@ class Renderer {
   /// The next frame finds all light again, whatever is cached. For a frame that was planned and not recorded,
   /// and for smoke that is another SmokeVolume than before.
   void invalidate();
+  /// The same, and the next frame's level may be another one, or none.
+  void invalidate_level();
 
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
   /// Call outside of a recording, when the device is done with the frame before; the frame must then be

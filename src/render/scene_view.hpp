@@ -18,6 +18,8 @@ class SceneView {
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
   /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
   void reserve(const planning::FramePlan& plan);
+  /// The level of the next plan may be another one of the same layout, or none.
+  void invalidate_level() { solid_.invalidate(); }
 
   /// Uploads the lights of a plan.
   void record_lights(gpu::Recorder& recorder, const planning::FramePlan& plan) const;

@@ -109,6 +109,21 @@ void expect(int step, brume_result result, brume_result expected) {
   expect(7, brume_field_optical_depths(field.get(), &line, 1, &depth), BRUME_ERROR_BROKEN);
   expect(8, brume_field_update(field.get(), full.get()), BRUME_OK);
   expect(9, brume_field_optical_depths(field.get(), &line, 1, &depth), BRUME_OK);
+
+  // A receiver begins again.
+  Sender sender(context);
+  const Bytes packet = sender.push(full);
+  Receiver receiver(context);
+  const auto receive = [&] {
+    return brume_receiver_receive(receiver.get(), packet.data(), packet.size(), nullptr);
+  };
+  {
+    const Shortage shortage;
+    expect(11, receive(), BRUME_ERROR_MEMORY);
+  }
+  expect(12, receive(), BRUME_ERROR_BROKEN);
+  expect(13, brume_receiver_reset(receiver.get()), BRUME_OK);
+  expect(14, receive(), BRUME_OK);
   std::_Exit(depth > 1 ? 0 : 10);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <random>
 
 #include "brume_test_shaders.hpp"
@@ -116,6 +117,21 @@ TEST_F(LevelLightTest, TheVolumeIsTheGridAndFollowsItsEdits) {
     EXPECT_TRUE(show({&last, other}));
     EXPECT_EQ(solid_texels(), solid_voxels(last));
   }
+}
+
+TEST_F(LevelLightTest, AnotherLevelOrNoneTakesThePlaceOfOne) {
+  BitGrid one({{33, 17, 5}, 0.5f, {}}), other = one;
+  fill(one, {3, 0, 0}, {9, 17, 5}, true);
+  fill(other, {20, 4, 1}, {33, 9, 4}, true);
+  show({&one, nullptr});
+  solid_.invalidate();
+  EXPECT_TRUE(show({&other, nullptr}));
+  EXPECT_EQ(solid_texels(), solid_voxels(other));
+  EXPECT_TRUE(show({}));
+  EXPECT_EQ(std::ranges::count(solid_texels(), true), 0);
+  EXPECT_FALSE(show({}));
+  EXPECT_TRUE(show({&other, nullptr}));
+  EXPECT_EQ(solid_texels(), solid_voxels(other));
 }
 
 TEST_F(LevelLightTest, ATexelOfManyVoxelsIsSolidWhereAWallRunsThrough) {

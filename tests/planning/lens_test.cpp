@@ -238,5 +238,21 @@ TEST(CameraSamples, FrustumsHoldWhatTheirPicturesShow) {
   EXPECT_GT(inside, 50);
 }
 
+TEST(DeviceCamera, LooksAlongEveryAxisWithEveryAxisUp) {
+  for (int i = 0; i < 36; ++i) {
+    glm::vec3 forward(0), up(0);
+    forward[i % 3] = i / 3 % 2 ? 1.0f : -1.0f;
+    up[i / 6 % 3] = i / 18 ? 1.0f : -1.0f;
+    scene::Camera camera{{1, 2, 3}, glm::vec3(1, 2, 3) + forward, 1.0f};
+    camera.up_world = up;
+    const shared::Camera made = device_camera(camera, {16, 9});
+    EXPECT_NEAR(glm::length(made.forward), 1, 1e-5f);
+    const glm::vec4 ahead = made.clip_from_world * glm::vec4(camera.position_world + 2.0f * forward, 1);
+    EXPECT_NEAR(ahead.x, 0, 1e-4f);
+    EXPECT_NEAR(ahead.y, 0, 1e-4f);
+    EXPECT_NEAR(ahead.w, 2, 1e-4f);
+  }
+}
+
 }  // namespace
 }  // namespace brume::planning

@@ -196,6 +196,22 @@ TEST_F(VolumeStreamingTest, WhatIsLostComesAgain) {
   EXPECT_TRUE(resident_[0].empty());
 }
 
+TEST_F(VolumeStreamingTest, WhatIsShownTwiceIsUploadedOnceWithTheFirst) {
+  // The second one is nearer.
+  inputs_[1] = inputs_[0];
+  inputs_[0].world_from_voxel = glm::translate(glm::mat4(1), glm::vec3(500)) * inputs_[0].world_from_voxel;
+  for (int frames = 0; frames == 0 || !streaming_.complete(); ++frames) {
+    ASSERT_LT(frames, 100);
+    const auto residency = plan(600000);
+    upload(residency);
+    EXPECT_EQ(residency[0].volume.pages, frames == 0);
+    EXPECT_FALSE(residency[1].volume.streamed || residency[1].volume.pages);
+    EXPECT_TRUE(residency[1].volume.slots.empty());
+    EXPECT_EQ(residency[1].lit_by_preview, resident_[0].size() < big_->slot_count());
+  }
+  EXPECT_EQ(resident_[0].size(), big_->slot_count());
+}
+
 TEST_F(VolumeStreamingTest, TheOrderIsAFunctionOfItsInputs) {
   VolumeStreaming again;
   for (int frame = 0; frame < 10; ++frame) {
