@@ -50,13 +50,6 @@ TEST_F(AccumulateTest, AFrameWithoutHistoryIsItself) {
   EXPECT_EQ(add(frame_at(0), random, wall(12), false), random);
 }
 
-TEST_F(AccumulateTest, BeforeTheFirstFrameThereIsNoPast) {
-  auto frame = frame_at(0);
-  frame.camera.eye_world = {};
-  const Texels smoke = even(from_half(to_half({0.3f, 0.2f, 0.1f, 0.6f})));
-  EXPECT_EQ(add(frame, smoke, wall(12), true), smoke);
-}
-
 TEST_F(AccumulateTest, WhatStaysTheSameStaysTheSame) {
   const Texels smoke = even(from_half(to_half({0.3f, 0.2f, 0.1f, 0.6f})));
   for (int i = 0; i < 20; ++i) {
