@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
   const WorkFolder folder;
   const fs::path prefix = folder.path() / "usr";
-  const std::string install = "cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > '" +
-                              (folder.path() / "log").string() + "' 2>&1";
+  const std::string install = "cmake --install '" BRUME_BUILD_DIR "' --component program --prefix '" +
+                              prefix.string() + "' > '" + (folder.path() / "log").string() + "' 2>&1";
   ASSERT_EQ(std::system(install.c_str()), 0) << *read_text_file(folder.path() / "log");
   for (const char* file :
        {"bin/brume", "bin/brume-vdb", "share/brume/scenes/demo.toml", "share/brume/scenes/demo.glb",

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
@@ -15,6 +16,23 @@ namespace fs = std::filesystem;
 
 int run(const std::string& command) {
   return std::system(command.c_str());
+}
+
+// What people expect of cmake --install: program, libraries, headers, and what CMake and pkg-config find them by.
+TEST(Installed, WithoutAComponentIsEverythingThatDoesNotNeedMpi) {
+  const WorkFolder folder;
+  const fs::path prefix = folder.path() / "usr";
+  ASSERT_EQ(run("cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > /dev/null"), 0);
+  std::set<std::string> names;
+  for (const auto& file : fs::recursive_directory_iterator(prefix)) names.insert(file.path().filename());
+  for (const char* name :
+       {"brume", "brume-vdb", "demo.toml", "brume.1", "libbrume-sim.so", "libbrume-sim.so.0", "libbrume.so",
+        "libbrume.so.0", "brume-config.cmake", "brume-config-version.cmake", "brume-sim-targets.cmake",
+        "brume-host-targets.cmake", "brume-sim.pc", "brume.pc"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  for (const auto& header : fs::directory_iterator(BRUME_SOURCE_DIR "/include/brume"))
+    EXPECT_TRUE(fs::is_regular_file(prefix / "include/brume" / header.path().filename())) << header.path();
+  EXPECT_FALSE(names.contains("brume-mpi"));
 }
 
 TEST(Installed, NoFileNamesTheFolderOfTheBuild) {

@@ -1,0 +1,57 @@
+#include "tests/house/budgets.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+namespace brume::house {
+namespace {
+
+double budget_of(const std::string& name, const Seconds& budgets) {
+  const auto found = budgets.find(name);
+  return found == budgets.end() ? 1 : found->second;
+}
+
+}  // namespace
+
+Seconds parse_budgets(const std::string& text) {
+  Seconds budgets;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name;
+    double seconds = 0;
+    if (words >> name >> seconds) budgets[name] = seconds;
+  }
+  return budgets;
+}
+
+double pace_of(const Seconds& taken, const Seconds& budgets) {
+  constexpr double kLeastBudget = 5;
+  std::vector<double> ratios;
+  for (const auto& [name, seconds] : taken)
+    if (const double budget = budget_of(name, budgets); budget >= kLeastBudget)
+      ratios.push_back(seconds / budget);
+  if (ratios.empty()) return 0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+std::vector<std::string> over_budget(const Seconds& taken, const Seconds& budgets, double pace) {
+  std::vector<std::string> over;
+  for (const auto& [name, seconds] : taken) {
+    const double budget = budget_of(name, budgets);
+    const double most = (1.5 * budget + 1) * pace;
+    if (seconds <= most) continue;
+    char line[200];
+    std::snprintf(line, sizeof line,
+                  "%s took %.1f CPU seconds, at most %.1f for its budget of %.0f on this machine; make it faster, or "
+                  "raise tests/budgets.txt and say why",
+                  name.c_str(), seconds, most, budget);
+    over.emplace_back(line);
+  }
+  return over;
+}
+
+}  // namespace brume::house

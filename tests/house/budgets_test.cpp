@@ -1,0 +1,55 @@
+// No test program grows unnoticed.
+#include "tests/house/budgets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/file.hpp"
+
+namespace brume::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Budgets, AreLinesOfANameAndSeconds) {
+  EXPECT_EQ(parse_budgets("# why 3\nsim_tests 12\n\nrender_tests  40\n"),
+            (Seconds{{"sim_tests", 12}, {"render_tests", 40}}));
+}
+
+TEST(Budgets, HoldOnFastAndSlowMachines) {
+  const Seconds budgets{{"a", 10}, {"b", 20}, {"c", 40}, {"d", 2}};
+  for (const double pace : {1.0 / 3, 1.0, 3.0}) {
+    Seconds taken;
+    for (const auto& [name, seconds] : budgets) taken[name] = pace * seconds;
+    taken["short"] = pace;  // one second, as it is not listed
+    ASSERT_DOUBLE_EQ(pace_of(taken, budgets), pace);
+    EXPECT_TRUE(over_budget(taken, budgets, pace).empty());
+    // One that grew by three quarters is found, however fast the machine is; by a third it may grow.
+    taken["b"] = pace * 20 * 1.75;
+    const auto over = over_budget(taken, budgets, pace_of(taken, budgets));
+    ASSERT_EQ(over.size(), 1u);
+    EXPECT_EQ(over[0].rfind("b took ", 0), 0u) << over[0];
+    taken["b"] = pace * 20 * 4 / 3;
+    EXPECT_TRUE(over_budget(taken, budgets, pace_of(taken, budgets)).empty());
+  }
+}
+
+// Comes after all other tests of the run (tests/house/CMakeLists.txt).
+TEST(Budgets, NoProgramTakesHalfAsMuchAgain) {
+  const char* folder = std::getenv("BRUME_TIMES");
+  if (folder == nullptr) GTEST_SKIP() << "script/test measures the programs";
+  Seconds taken;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    const std::string name = file.path().filename();
+    if (!name.ends_with("_slow")) taken[name] = std::stod(*read_text_file(file.path()));
+  }
+  const Seconds budgets = parse_budgets(*read_text_file(BRUME_SOURCE_DIR "/tests/budgets.txt"));
+  const double pace = pace_of(taken, budgets);
+  if (pace == 0) GTEST_SKIP() << "no program with a budget of five seconds ran";
+  for (const std::string& line : over_budget(taken, budgets, pace)) ADD_FAILURE() << line;
+}
+
+}  // namespace
+}  // namespace brume::house
