@@ -1,12 +1,13 @@
 // A temporary folder for tests.
 #pragma once
 
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,8 @@ namespace brume::cli {
 
 /// A new folder below that for temporary files.
 inline std::filesystem::path fresh_folder() {
-  static std::atomic<int> number{0};
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("brume_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
-  std::filesystem::create_directories(path);
+  std::string path = (std::filesystem::temp_directory_path() / "brume_XXXXXX").string();
+  if (!::mkdtemp(path.data())) throw std::runtime_error("cannot make a folder for temporary files");
   return path;
 }
 

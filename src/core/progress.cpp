@@ -32,7 +32,7 @@ std::string time_text(double seconds) {
     std::snprintf(text, sizeof text, "%.0f s", seconds);
   } else {
     std::snprintf(text, sizeof text, "%.0f min %02d s", std::floor(seconds / 60),
-                  static_cast<int>(seconds) % 60);
+                  static_cast<int>(std::fmod(seconds, 60)));
   }
   return text;
 }

@@ -23,6 +23,19 @@ HANG = 600
 bpy.context.preferences.view.show_splash = False
 
 
+def until(holds):
+    """Waits until `holds()`."""
+    deadline = time.monotonic() + HANG
+    while not holds() and time.monotonic() < deadline:
+        yield 0.05
+
+
+def draw():
+    """Draws the first window now: what follows does not depend on when Blender would draw it."""
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+
+
 def areas(kind):
     return [area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == kind]
 
@@ -71,6 +84,7 @@ def point_at(x, y):
 def choose_tab(view):
     """Clicks where the fourth tab of the sidebar is, at Blender's own size: behind Item, Tool and View."""
     sidebar = region(view, "UI")
+    yield from until(lambda: sidebar.width > 10)
     point_at(sidebar.x + sidebar.width - 10, sidebar.y + sidebar.height - 164)
     yield 0.5
     subprocess.run(["xdotool", "click", "1"], check=True)
@@ -113,6 +127,19 @@ def draw_panels(view):
     for name in ("entrance", "bushes left", "word", "blast", "door opens", "Grenade at the steps", "word"):
         show(bpy.data.objects[name])
         yield 0.1
+        draw()
+
+
+def let_after_ticks(mark, image, facts, key):
+    """Lets a program go on that waits for the file `mark` after ten timers; counts those until an image is there."""
+    ticks, deadline = 0, time.monotonic() + HANG
+    while image not in bpy.data.images and time.monotonic() < deadline:
+        ticks += 1
+        if ticks == 10:
+            with open(mark, "w", encoding="ascii"):
+                pass
+        yield 0.05
+    facts[key] = ticks
 
 
 def render(preferences, brume, folder, editor, facts):
@@ -121,17 +148,9 @@ def render(preferences, brume, folder, editor, facts):
     commands = f"while [ ! -e '{mark}' ]; do sleep 0.1; done; exec '{brume}' \"$@\""
     preferences.program = write_program(folder, "waiting", commands)
     facts["started"] = invoke_render()
-    ticks, deadline = 0, time.monotonic() + HANG
-    while IMAGE not in bpy.data.images and time.monotonic() < deadline:
-        ticks += 1
-        if ticks == 10:
-            with open(mark, "w", encoding="ascii"):
-                pass
-        yield 0.05
-    facts["ticks"] = ticks
-    yield 0.3
-    shown = editor.spaces.active.image
-    facts["shown"] = shown.name if shown else ""
+    yield from let_after_ticks(mark, IMAGE, facts, "ticks")
+    yield from until(lambda: editor.spaces.active.image)
+    facts["shown"] = editor.spaces.active.image.name
 
 
 def bake(preferences, brume, folder, view, editor, facts):
@@ -142,35 +161,29 @@ def bake(preferences, brume, folder, view, editor, facts):
     show(bpy.data.objects["Ramp"])
     with inside(view):
         bpy.ops.brume.bake_slices("INVOKE_DEFAULT", filepath=os.path.join(folder, "any.png"), tile=(8, 8), tiles=4)
-    browsers, deadline = [], time.monotonic() + HANG
-    while not browsers and time.monotonic() < deadline:
-        yield 0.2
+
+    def browsers():
         windows = bpy.context.window_manager.windows
-        browsers = [(window, area) for window in windows for area in window.screen.areas if area.type == "FILE_BROWSER"]
-    window, area = browsers[0]
+        found = [(window, area) for window in windows for area in window.screen.areas if area.type == "FILE_BROWSER"]
+        return [pair for pair in found if pair[1].spaces.active.params and pair[1].spaces.active.active_operator]
+
+    yield from until(browsers)
+    window, area = browsers()[0]
     facts["proposed"] = area.spaces.active.params.filename
-    yield 0.5
     with bpy.context.temp_override(window=window, area=area, region=region(area)):
         bpy.ops.file.execute()
-    ticks = 0
-    while name not in bpy.data.images and time.monotonic() < deadline:
-        ticks += 1
-        if ticks == 10:
-            with open(mark, "w", encoding="ascii"):
-                pass
-        yield 0.05
-    facts["bake_ticks"] = ticks
-    yield 0.3
+    yield from let_after_ticks(mark, name, facts, "bake_ticks")
+    yield from until(lambda: editor.spaces.active.image.name == name)
     facts["baked"] = editor.spaces.active.image.name
 
 
 def take_picture(view, editor, path):
-    yield 0.5
+    yield 0.1
     with inside(editor):
         bpy.ops.image.view_all(fit_view=True)
     with inside(view):
         bpy.ops.view3d.view_center_camera()
-    yield 0.5
+    draw()
     with inside(view):
         bpy.ops.screen.screenshot(filepath=path)
 
@@ -182,21 +195,23 @@ def render_without_editor(preferences, folder, editor, facts):
     preferences.program = write_program(folder, "quick", f"cp '{folder}/first.png' render.png")
     editor.type = "CONSOLE"
     invoke_render()
-    windows, deadline = bpy.context.window_manager.windows, time.monotonic() + HANG
-    while len(windows) < 2 and time.monotonic() < deadline:
-        yield 0.1
-    yield 0.3
-    areas_of_new = windows[-1].screen.areas
-    facts["own_window"] = [area.spaces.active.image.name for area in areas_of_new if area.type == "IMAGE_EDITOR"]
+    windows = bpy.context.window_manager.windows
+
+    def shown_in_new():
+        areas_of_new = windows[-1].screen.areas if len(windows) == 2 else []
+        return [area.spaces.active.image.name for area in areas_of_new
+                if area.type == "IMAGE_EDITOR" and area.spaces.active.image]
+
+    yield from until(shown_in_new)
+    facts["own_window"] = shown_in_new()
     facts["images"] = [block.name for block in bpy.data.images if block.name.startswith("Brume")]
     with bpy.context.temp_override(window=windows[-1]):
         bpy.ops.wm.window_close()
-    yield 0.5
+    yield from until(lambda: len(windows) == 1)
     # Where the preferences place renders in the window, none opens.
     bpy.context.preferences.view.render_display_type = "AREA"
     invoke_render()
-    while not areas("IMAGE_EDITOR") and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: areas("IMAGE_EDITOR"))
     facts["windows_of_area"] = len(windows)
     areas("IMAGE_EDITOR")[0].type = "PROPERTIES"
 
@@ -207,7 +222,8 @@ def compare_gizmos(view, folder, facts):
     for shown in (True, False):
         bpy.context.scene.brume.gizmos = shown
         path = os.path.join(folder, f"gizmos_{shown}.png")
-        yield 0.5
+        yield 0.1
+        draw()
         with inside(view):
             bpy.ops.screen.screenshot_area(filepath=path)
         image = bpy.data.images.load(path)
@@ -220,20 +236,17 @@ def compare_gizmos(view, folder, facts):
 
 def stop_by_escape(preferences, folder, view, facts):
     """A program that never ends, and ignores SIGTERM."""
-    mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
+    mark = os.path.join(folder, "pid")
     commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; trap '' TERM; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
     invoke_render()
-    while not os.path.exists(mark) and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: os.path.exists(mark))
     with open(mark, encoding="ascii") as file:
         child = int(file.read())
     press_escape(view)
-    while os.path.exists(f"/proc/{child}") and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: not os.path.exists(f"/proc/{child}"))
     facts["ended"] = not os.path.exists(f"/proc/{child}")
-    while not says("stopped") and time.monotonic() < deadline:
-        yield 0.05
+    yield from until(lambda: says("stopped"))
     facts["stopped"] = says("stopped")
 
 
@@ -242,27 +255,24 @@ def stop_film(preferences, folder, view, facts):
     preferences.program = write_program(
         folder, "slow", f"cp '{folder}/first.png' image_000000.png; exec sleep infinity"
     )
-    first, deadline = os.path.join(folder, "film", "0001.png"), time.monotonic() + HANG
+    first = os.path.join(folder, "film", "0001.png")
     bpy.context.scene.render.filepath = os.path.join(folder, "film", "####")
     with inside(view):
         bpy.ops.brume.film("INVOKE_DEFAULT")
-    while not os.path.exists(first) and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: os.path.exists(first))
     press_escape(view)
-    while not says("stopped") and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: says("stopped"))
     facts["film_stopped"] = says("stopped")
 
 
 def walk_in(preferences, brume, folder, facts):
     """The viewer beside Blender's window, with the events of the scene; closes by itself in the test."""
-    picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + HANG
+    picture = os.path.join(folder, "view.png")
     options = f"--exit-after 1.5 --screenshot '{picture}' --size 320x180 --bare"
     preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
     with inside(areas("VIEW_3D")[0]):
         bpy.ops.brume.view("INVOKE_DEFAULT", play=True)
-    while not os.path.exists(picture) and time.monotonic() < deadline:
-        yield 0.1
+    yield from until(lambda: os.path.exists(picture))
     facts["viewed"] = os.path.exists(picture)
 
 
@@ -284,7 +294,7 @@ def steps(addon, brume, folder):
     # A failing program keeps the previous image.
     preferences.program = "/bin/false"
     invoke_render()
-    yield 1.0
+    yield from until(lambda: says("ended with code 1"))
     facts["image_after"] = IMAGE in bpy.data.images
     with open(os.path.join(folder, "window.json"), "w", encoding="utf-8") as file:
         json.dump(facts, file)

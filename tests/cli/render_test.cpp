@@ -237,6 +237,7 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
   RunOptions interrupt;
   interrupt.signal = SIGTERM;
   interrupt.signal_when = [&] { return std::filesystem::exists(folder_.path() / "f_06.png"); };
+  interrupt.signal_before_call = true;
   const Outcome run = render(again, interrupt);
   ASSERT_EQ(run.exit_code, 6) << run.error;
   const std::size_t there = folder_.files().size() - 2;

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -31,6 +31,10 @@ void send_to(int descriptor, const std::filesystem::path& file) {
   if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(126);
 }
 
+bool is_traced(const RunOptions& options) {
+  return options.signal_at > 0 || options.signal_before_call;
+}
+
 // Runs in the child process; replaces it with the program.
 [[noreturn]] void become(const std::filesystem::path& folder, std::vector<std::string> arguments,
                          const RunOptions& options, const std::filesystem::path& out,
@@ -43,7 +47,7 @@ void send_to(int descriptor, const std::filesystem::path& file) {
     const rlimit limit{options.file_bytes, options.file_bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
-  if (options.signal_at > 0) ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+  if (is_traced(options)) ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
   const std::string program = options.program.empty() ? BRUME_PROGRAM : options.program;
   arguments.insert(arguments.begin(), program);
   std::vector<char*> pointers;
@@ -68,8 +72,9 @@ bool changes_files(const __ptrace_syscall_info& call) {
   return std::find(std::begin(kCalls), std::end(kCalls), number) != std::end(kCalls);
 }
 
-// Runs a child that called PTRACE_TRACEME, and signals it before its call number `signal_at`. Its other
-// threads and its children run freely. Returns the exit status.
+// Runs a child that called PTRACE_TRACEME, and signals it before its call number `signal_at`, or before the
+// first one at which `signal_when` holds. Its other threads and its children run freely. Returns the exit
+// status.
 int trace(pid_t child, const RunOptions& options, std::uint64_t& calls) {
   int status = 0;
   ::waitpid(child, &status, 0);  // Its exec.
@@ -83,11 +88,28 @@ int trace(pid_t child, const RunOptions& options, std::uint64_t& calls) {
     deliver = 0;
     __ptrace_syscall_info call{};
     ::ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof call, &call);
-    if (call.op != PTRACE_SYSCALL_INFO_ENTRY || !changes_files(call) || ++calls != options.signal_at)
-      continue;
-    ::kill(child, options.signal);
+    if (call.op != PTRACE_SYSCALL_INFO_ENTRY || !changes_files(call)) continue;
+    ++calls;
+    if (options.signal_before_call ? !options.signal_when() : calls != options.signal_at) continue;
+    // To the main thread: another one could handle it later, while this one goes on.
+    ::tgkill(child, child, options.signal);
     signalled = true;
   }
+}
+
+// Waits until a child ends, or `holds`; whether it ended. One that hangs is killed.
+bool ends_before(pid_t child, const std::function<bool()>& holds, int& status, rusage& usage) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::minutes kHang(10);
+  constexpr useconds_t kPollMicroseconds = 2000;
+  for (const auto end = Clock::now() + kHang; Clock::now() < end; ::usleep(kPollMicroseconds)) {
+    if (::wait4(child, &status, WNOHANG, &usage) == child) return true;
+    if (holds()) return false;
+  }
+  ADD_FAILURE() << "the program hangs";
+  ::kill(child, SIGKILL);
+  ::wait4(child, &status, 0, &usage);
+  return true;
 }
 
 // Checks and removes the error in the new file of --json, if there is one.
@@ -109,26 +131,23 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   const auto said = fresh_folder();
   const std::filesystem::path out =
       options.out_file.empty() ? said / "out" : std::filesystem::path(options.out_file);
-  const auto error = said / "error";
+  const std::filesystem::path error =
+      options.error_file.empty() ? said / "error" : std::filesystem::path(options.error_file);
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) become(folder, arguments, options, out, error);
   Outcome run;
   int status = 0;
-  bool ended = false;
-  if (options.signal_at > 0) {
-    status = trace(child, options, run.file_calls);
-    ended = true;
-  } else if (options.signal != 0) {
-    constexpr useconds_t kPollMicroseconds = 2000;
-    while (!ended && !options.signal_when()) {
-      ::usleep(kPollMicroseconds);
-      ended = ::waitpid(child, &status, WNOHANG) == child;
-    }
-    if (!ended) ::kill(child, options.signal);
-  }
   rusage usage{};
-  if (!ended) ::wait4(child, &status, 0, &usage);
+  if (is_traced(options)) {
+    status = trace(child, options, run.file_calls);
+  } else if (options.signal == 0) {
+    ::wait4(child, &status, 0, &usage);
+  } else if (!ends_before(child, options.signal_when, status, usage)) {
+    ::kill(child, options.signal);
+    ends_before(
+        child, [] { return false; }, status, usage);
+  }
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
@@ -138,6 +157,10 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   run.error = read_text(error);
   std::filesystem::remove_all(said);
   return run;
+}
+
+bool reports_job(const std::filesystem::path& file, const std::string& name) {
+  return read_text(file).find("{\"progress\": {\"name\": \"" + name + "\"") != std::string::npos;
 }
 
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,

@@ -24,9 +24,13 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
   std::string out_file;                                          ///< Receives standard output instead.
+  std::string error_file;                                        ///< Receives standard error instead.
   bool close_standard_descriptors = false;                       ///< The program starts without them.
   int signal = 0;                                                ///< Sent once `signal_when` holds.
   std::function<bool()> signal_when;
+  /// Tests `signal_when` before each call of the main thread that changes files, which waits meanwhile: the
+  /// program cannot run ahead of the signal, however fast it is.
+  bool signal_before_call = false;
   /// Where the signal is sent instead: before the main thread's call number `signal_at` that changes files
   /// (opens for writing, writes, sends, syncs, links, renames, removes), from 1. 0: nowhere.
   std::uint64_t signal_at = 0;
@@ -35,6 +39,9 @@ struct RunOptions {
 /// Runs build/.../brume with these arguments in `folder`.
 Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                   const RunOptions& options = {});
+
+/// Whether a file of progress reports (--progress json) has one of the job of this name.
+bool reports_job(const std::filesystem::path& file, const std::string& name);
 
 /// Fails unless the program ends with the exit code, prints nothing to standard output and one line to
 /// standard error that contains all parts, and leaves the folder unchanged, but for the same line as JSON in

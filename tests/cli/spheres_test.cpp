@@ -191,11 +191,16 @@ TEST_F(Spheres, OfAnInterruptedRunAreNotWritten) {
   folder_.write("old.spheres", old);
   RunOptions options;
   options.signal = SIGTERM;
-  options.signal_when = [] { return true; };
-  const Outcome run =
-      run_brume(folder_.path(),
-                {"bake", "spheres", "-o", "old.spheres", "--count", "8000000", "--radius", "0.5-2"}, options);
+  // While it packs more than there is room for.
+  const WorkFolder reports;
+  options.error_file = reports.path() / "error";
+  options.signal_when = [&] { return reports_job(options.error_file, "pack spheres"); };
+  const Outcome run = run_brume(folder_.path(),
+                                {"bake", "spheres", "-o", "old.spheres", "--count", "8000000", "--radius",
+                                 "0.5-2", "--progress", "json"},
+                                options);
   EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.error;
+  EXPECT_TRUE(run.error.ends_with("\nbrume: interrupted\n")) << run.error;
   EXPECT_EQ(bytes("old.spheres"), old);
   EXPECT_EQ(folder_.files(), Arguments{"old.spheres"});
 }

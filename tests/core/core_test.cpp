@@ -124,6 +124,7 @@ TEST(Progress, ReportsRateAndRemainingTime) {
   EXPECT_EQ(progress_line(state, 60), "frames     [######..................] 30/120  3/s  30 s left");
   EXPECT_LT((Progress::State{"x", 0, 10, 0}.seconds_left()), 0);
   EXPECT_EQ(progress_line({"load", 0, 0, 12.4}, 60), "load       12 s");
+  EXPECT_EQ(progress_line({"load", 0, 0, 6e10 + 7}, 60), "load       1000000000 min 07 s");
 }
 
 TEST(Progress, LinesFillTheWidthAndNeverExceedIt) {

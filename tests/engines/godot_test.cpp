@@ -46,10 +46,17 @@ class Godot : public testing::Test {
   void SetUp() override {
     if (std::system("command -v godot3-server > /dev/null 2>&1") != 0)
       GTEST_SKIP() << "godot3-server is not installed; script/bootstrap test installs it";
-    fs::create_directories(folder_.path() / "project");
+    fs::create_directories(project() / "addons/imported");
     fs::create_directories(folder_.path() / "home");
-    folder_.write("project/project.godot", "config_version=4\n\n[application]\n\nconfig/name=\"slices\"\n");
-    fs::copy_file(BRUME_SOURCE_DIR "/tests/engines/read_texture.gd", project() / "read_texture.gd");
+    folder_.write("project/project.godot",
+                  "config_version=4\n\n[application]\n\nconfig/name=\"slices\"\n\n"
+                  "[editor_plugins]\n\nenabled=PoolStringArray( \"imported\" )\n");
+    folder_.write("project/addons/imported/plugin.cfg",
+                  "[plugin]\n\nname=\"imported\"\ndescription=\"\"\nauthor=\"\"\nversion=\"1\"\n"
+                  "script=\"end_when_imported.gd\"\n");
+    const fs::path scripts = BRUME_SOURCE_DIR "/tests/engines";
+    fs::copy_file(scripts / "end_when_imported.gd", project() / "addons/imported/end_when_imported.gd");
+    fs::copy_file(scripts / "read_texture.gd", project() / "read_texture.gd");
   }
   fs::path project() const { return folder_.path() / "project"; }
 
@@ -63,12 +70,14 @@ class Godot : public testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.error;
   }
 
-  /// The importer of the editor, and then the script that reads what it made.
+  /// The importer of the editor, which ends when it is done, and then the script that reads what it made.
   void import_all() const {
     const std::string log = (folder_.path() / "log").string();
-    const std::string godot = "HOME='" + (folder_.path() / "home").string() + "' godot3-server --path '" +
-                              project().string() + "' ";
-    for (const std::string& part : {std::string("--editor --quit"), std::string("-s read_texture.gd")})
+    // The time limit ends only what hangs.
+    const std::string godot = "HOME='" + (folder_.path() / "home").string() +
+                              "' timeout --kill-after=9 600 godot3-server --path '" + project().string() +
+                              "' ";
+    for (const std::string& part : {std::string("--editor"), std::string("-s read_texture.gd")})
       ASSERT_EQ(std::system((godot + part + " > '" + log + "' 2>&1").c_str()), 0) << *read_text_file(log);
     // Godot exits with 0 after errors of a script.
     const std::string said = read_text_file(log).value_or_throw();

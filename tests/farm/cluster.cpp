@@ -1,9 +1,11 @@
 #include "tests/farm/cluster.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <net/if.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -12,9 +14,9 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <random>
-#include <set>
 #include <sstream>
 #include <thread>
 
@@ -29,39 +31,15 @@ bool is_program(const std::string& name) {
   return false;
 }
 
-/// Ports that are free, as far as can be found out.
-std::vector<int> free_ports(int count) {
-  std::vector<int> ports, sockets;
-  for (int i = 0; i < count; ++i) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof address;
-    sockets.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    auto* place = reinterpret_cast<sockaddr*>(&address);
-    EXPECT_EQ(::bind(sockets.back(), place, length), 0);
-    EXPECT_EQ(::getsockname(sockets.back(), place, &length), 0);
-    ports.push_back(ntohs(address.sin_port));
-  }
-  for (const int socket : sockets) ::close(socket);
-  return ports;
-}
-
-/// A process and all that descend from it.
-std::set<pid_t> family_of(pid_t first) {
-  std::set<pid_t> family{first};
-  std::vector<pid_t> open{first};
-  while (!open.empty()) {
-    const std::string tasks = "/proc/" + std::to_string(open.back()) + "/task";
-    open.pop_back();
-    std::error_code gone;
-    for (const auto& task : fs::directory_iterator(tasks, gone)) {
-      std::ifstream children(task.path() / "children");
-      for (pid_t child = 0; children >> child;)
-        if (family.insert(child).second) open.push_back(child);
-    }
-  }
-  return family;
+/// A network of this process and its children alone, in which every port is free.
+void enter_own_network() {
+  EXPECT_EQ(::unshare(CLONE_NEWNET), 0);
+  ifreq loopback{};
+  std::strcpy(loopback.ifr_name, "lo");
+  loopback.ifr_flags = IFF_UP | IFF_RUNNING;
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  EXPECT_EQ(::ioctl(socket, SIOCSIFFLAGS, &loopback), 0);
+  ::close(socket);
 }
 
 std::string output_of(const std::string& command) {
@@ -88,7 +66,7 @@ std::string Cluster::obstacle() {
       return std::string(name) +
              " is not installed: script/bootstrap test installs slurmctld, slurmd and munge";
   if (::geteuid() != 0) return "takes root, for the namespaces of the nodes";
-  if (std::system("unshare --mount --pid --fork --kill-child --mount-proc true 2> /dev/null") != 0)
+  if (std::system("unshare --net --mount --pid --fork --kill-child --mount-proc true 2> /dev/null") != 0)
     return "this system allows no namespaces";
   return "";
 }
@@ -114,12 +92,12 @@ void Cluster::configure(int nodes) const {
   EXPECT_EQ(::gethostname(host.data(), host.size() - 1), 0);
   std::string name = host.data();
   name.resize(std::min(name.size(), name.find('.')));
-  const std::vector<int> ports = free_ports(nodes + 1);
+  constexpr int kFirstPort = 6817;
   const std::string folder = folder_.string();
   std::ofstream conf(folder_ / "slurm.conf");
   conf << "ClusterName=loopback\nSlurmctldHost=" << name << "(127.0.0.1)\nSlurmUser=root\n"
        << "AuthType=auth/munge\nCredType=cred/munge\nAuthInfo=socket=" << folder << "/munge.socket\n"
-       << "SlurmctldPort=" << ports[0] << "\nStateSaveLocation=" << folder << "/state\n"
+       << "SlurmctldPort=" << kFirstPort << "\nStateSaveLocation=" << folder << "/state\n"
        << "SlurmdSpoolDir=" << folder << "/spool/%n\nSlurmctldPidFile=" << folder << "/slurmctld.pid\n"
        << "SlurmdPidFile=" << folder << "/%n.pid\nSlurmdLogFile=" << folder << "/%n.log\n"
        << "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nMpiDefault=none\n"
@@ -128,8 +106,7 @@ void Cluster::configure(int nodes) const {
        // A node that is killed must be noticed; a busy one must not be taken for it.
        << "MessageTimeout=60\nSlurmdTimeout=30\n";
   for (int i = 1; i <= nodes; ++i)
-    conf << "NodeName=node" << i << " NodeHostname=" << name
-         << " NodeAddr=127.0.0.1 Port=" << ports[static_cast<std::size_t>(i)]
+    conf << "NodeName=node" << i << " NodeHostname=" << name << " NodeAddr=127.0.0.1 Port=" << kFirstPort + i
          << " CPUs=1 RealMemory=100 State=UNKNOWN\n";
   conf << "PartitionName=render Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n";
 }
@@ -139,6 +116,7 @@ Cluster::Cluster(const fs::path& folder, int nodes, const std::map<int, std::str
   ::setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
   ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin:/sbin").c_str(), 1);
   fs::create_directories(folder_ / "state");
+  enter_own_network();
   configure(nodes);
 
   // The key of this cluster alone.
@@ -178,20 +156,6 @@ Cluster::~Cluster() {
   for (pid_t& node : nodes_) end(node, SIGKILL);
   end(controller_, SIGKILL);
   end(munge_, SIGTERM);
-}
-
-void Cluster::freeze(int node) const {
-  // Until no new process appears.
-  std::set<pid_t> stopped;
-  for (std::set<pid_t> all = family_of(nodes_[static_cast<std::size_t>(node - 1)]); all != stopped;
-       all = family_of(nodes_[static_cast<std::size_t>(node - 1)])) {
-    for (const pid_t process : all) ::kill(process, SIGSTOP);
-    stopped = all;
-  }
-}
-
-void Cluster::thaw(int node) const {
-  for (const pid_t process : family_of(nodes_[static_cast<std::size_t>(node - 1)])) ::kill(process, SIGCONT);
 }
 
 void Cluster::kill(int node) {

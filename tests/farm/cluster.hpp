@@ -17,15 +17,13 @@ class Cluster {
   static std::string obstacle();
 
   /// Nodes node1 to nodeN. `mounts` are commands of a shell that a node runs first, by its number from 1.
-  /// Returns when all nodes are idle. Its files are in `folder`. Sets SLURM_CONF for this process.
+  /// Returns when all nodes are idle. Its files are in `folder`. Sets SLURM_CONF for this process, and moves
+  /// it to a network of its own.
   Cluster(const std::filesystem::path& folder, int nodes, const std::map<int, std::string>& mounts);
   Cluster(const Cluster&) = delete;
   /// Ends all of it.
   ~Cluster();
 
-  /// Stops all processes of a node, and lets them go on.
-  void freeze(int node) const;
-  void thaw(int node) const;
   /// Ends all processes of a node at once.
   void kill(int node);
 

@@ -1,6 +1,7 @@
 // script/farm on a cluster of four Slurm nodes, of which one is killed and one has a full disk.
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <future>
 #include <map>
 #include <optional>
@@ -52,19 +53,27 @@ class SlurmFarm : public testing::Test {
     while (fs::exists(frame(number))) ++number;
     return number;
   }
-  /// Kills a node between two of its frames; returns its shard and the first frame that it did not write.
+  /// A folder with a program that does on one node the first half of its shard and then waits to be killed;
+  /// on all others it is that of this build.
+  std::string program_that_waits() const {
+    fs::create_directory(folder_.path() / "bin");
+    const fs::path program = folder_.path() / "bin/brume";
+    std::ofstream(program) << "#!/bin/bash\nif [[ ${SLURMD_NODENAME-} == node" << kKilled
+                           << " ]]; then\n  shard=${!#%/*}\n  "
+                           << BRUME_BUILD_DIR "/brume \"${@:1:$#-1}\" $((2 * shard - 1))/" << 2 * kShards
+                           << " && echo $shard > " << waiting().string()
+                           << "\n  exec sleep infinity\nfi\nexec " << BRUME_BUILD_DIR "/brume \"$@\"\n";
+    fs::permissions(program, fs::perms::owner_all);
+    return program.parent_path().string();
+  }
+  fs::path waiting() const { return folder_.path() / "waiting"; }
+  /// Kills that node; returns its shard and the first frame that it did not write.
   std::pair<int, int> kill_between_frames(Cluster& cluster, const std::function<bool()>& ended) const {
     while (!ended()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      auto shard = shard_on(kKilled);
-      if (!shard || !first_missing(*shard)) continue;
-      cluster.freeze(kKilled);
-      shard = shard_on(kKilled);
+      const auto shard = fs::exists(waiting()) ? shard_on(kKilled) : std::nullopt;
       const auto missing = shard ? first_missing(*shard) : std::nullopt;
-      if (!missing) {
-        cluster.thaw(kKilled);
-        continue;
-      }
+      if (!missing) continue;
       cluster.kill(kKilled);
       return {*shard, *missing};
     }
@@ -102,9 +111,10 @@ TEST_F(SlurmFarm, OneNodeIsKilledAndOneDiskIsFull) {
   const std::string small_disk =
       "mount -t tmpfs -o nr_blocks=20 none " + (folder_.path() / "out/frames").string();
   Cluster cluster(folder_.path() / "cluster", 4, {{kFull, small_disk}});
+  const std::string program = program_that_waits();
   auto farm = std::async(std::launch::async, [&] {
-    return run_farm(folder_,
-                    {"room.toml", "out", "--shards", std::to_string(kShards), "--", "--size", "64x36"});
+    return run_farm(
+        folder_, {"room.toml", "out", "--shards", std::to_string(kShards), "--", "--size", "64x36"}, program);
   });
   const auto ended = [&] { return farm.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
   const auto [killed_shard, first_lost] = kill_between_frames(cluster, ended);

@@ -150,17 +150,27 @@ class ProgramTest(unittest.TestCase):
 
     def test_ctrl_c_ends_a_program_that_hangs(self):
         with work_folder() as folder:
-            slow = Path(folder) / "slow"
-            slow.write_text("#!/bin/sh\nexec sleep 600\n")
+            slow, started = Path(folder) / "slow", Path(folder) / "started"
+            slow.write_text(f"#!/bin/sh\n: > '{started}'\nexec sleep 600\n")
             slow.chmod(0o755)
             Path(folder, "a.vdb").write_bytes(b"anything")
-            raised = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
-            self.addCleanup(raised.cancel)  # Where the call ends early.
+            is_over = threading.Event()
+
+            def request():
+                while not started.exists() and not is_over.wait(0.01):
+                    pass
+                if started.exists():
+                    signal.raise_signal(signal.SIGINT)
+
+            sender = threading.Thread(target=request)
             with mock.patch.dict(os.environ, BRUME_VDB=str(slow)):
-                raised.start()
-                with self.assertRaises(KeyboardInterrupt):
-                    brume.read_grids(folder + "/a.vdb")
-            raised.join()
+                sender.start()
+                try:
+                    with self.assertRaises(KeyboardInterrupt):
+                        brume.read_grids(folder + "/a.vdb")
+                finally:
+                    is_over.set()
+                    sender.join()
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import os
 import re
 import signal
 import subprocess
@@ -92,29 +93,62 @@ class StubTest(unittest.TestCase):
 
 class InterruptTest(unittest.TestCase):
     def test_ctrl_c_ends_a_query(self):
+        """Requests are sent one after the other, as each is noticed; the last of them raises. A query that tests for
+        none while it runs notices two at most: before it begins and after its end."""
         world = smoky_world()
-        a, b = lines_through(world, 1000)
-        a, b = np.resize(a, (20_000_000, 3)), np.resize(b, (20_000_000, 3))  # Half a minute.
-        raised = threading.Timer(0.2, signal.raise_signal, (signal.SIGINT,))
-        self.addCleanup(raised.cancel)  # Where the call ends early.
-        start = time.monotonic()
-        raised.start()
-        with self.assertRaises(KeyboardInterrupt):
-            world.optical_depth(a, b)
-        raised.join()
-        self.assertLess(time.monotonic() - start, 20)
-        self.assertEqual(world.optical_depth(a[:1], b[:1]).shape, (1,))
+        # Each core takes 65,536 lines between two tests, of which there are more than requests.
+        a, b = (ends[0] for ends in lines_through(world, 1))
+        many = np.broadcast_to(b, ((1 << 16) * os.cpu_count() * 24, 3))
+        noticed = threading.Semaphore(0)
+        requests, is_over = 6, False
+
+        def notice(_signal, _frame):
+            nonlocal requests
+            requests -= 1
+            noticed.release()
+            if requests == 0:
+                raise KeyboardInterrupt
+
+        def request():
+            while requests > 0 and not is_over:
+                signal.raise_signal(signal.SIGINT)
+                noticed.acquire()
+
+        before = signal.signal(signal.SIGINT, notice)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        sender = threading.Thread(target=request)
+        sender.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                world.optical_depth(a, many)
+        finally:
+            is_over = True
+            noticed.release()
+            sender.join()
+        self.assertEqual(world.optical_depth(a, b[None]).shape, (1,))
 
     def test_another_thread_runs_meanwhile(self):
+        """Longer and longer queries, until this thread had a hundred turns during one."""
         world = smoky_world()
-        a, b = lines_through(world, 300_000)
-        query = threading.Thread(target=world.optical_depth, args=(a, b))
-        query.start()
-        rounds = 0
-        while query.is_alive():
-            rounds += 1
-            time.sleep(0)
-        query.join()
+        rounds, is_inside = 0, False
+
+        def query(a, b):
+            nonlocal is_inside
+            is_inside = True
+            world.optical_depth(a, b)
+            is_inside = False
+
+        for count in (300_000, 3_000_000, 15_000_000):
+            lines = [np.broadcast_to(ends[0], (count, 3)) for ends in lines_through(world, 1)]
+            thread = threading.Thread(target=query, args=lines)
+            rounds = 0
+            thread.start()
+            while thread.is_alive() and rounds <= 100:
+                rounds += is_inside
+                time.sleep(0)
+            thread.join()
+            if rounds > 100:
+                break
         self.assertGreater(rounds, 100)
 
 
