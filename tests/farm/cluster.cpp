@@ -1,5 +1,6 @@
 #include "tests/farm/cluster.hpp"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
@@ -34,11 +35,18 @@ bool is_program(const std::string& name) {
 /// A network of this process and its children alone, in which every port is free.
 void enter_own_network() {
   EXPECT_EQ(::unshare(CLONE_NEWNET), 0);
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   ifreq loopback{};
   std::strcpy(loopback.ifr_name, "lo");
   loopback.ifr_flags = IFF_UP | IFF_RUNNING;
-  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   EXPECT_EQ(::ioctl(socket, SIOCSIFFLAGS, &loopback), 0);
+  // Slurm listens only where a host has another address than 127.0.0.1 (AI_ADDRCONFIG of getaddrinfo).
+  std::strcpy(loopback.ifr_name, "lo:1");
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+  std::memcpy(&loopback.ifr_addr, &address, sizeof address);
+  EXPECT_EQ(::ioctl(socket, SIOCSIFADDR, &loopback), 0);
   ::close(socket);
 }
 
