@@ -20,6 +20,8 @@
 namespace brume::cli {
 namespace {
 
+ProgramCall g_call = nullptr;
+
 std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -102,10 +104,8 @@ void take_json_error(const WorkFolder& folder, const std::vector<std::string>& a
   std::filesystem::remove(file);
 }
 
-}  // namespace
-
-Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                  const RunOptions& options) {
+Outcome start_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const RunOptions& options) {
   const auto said = fresh_folder();
   const std::filesystem::path out =
       options.out_file.empty() ? said / "out" : std::filesystem::path(options.out_file);
@@ -138,6 +138,18 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   run.error = read_text(error);
   std::filesystem::remove_all(said);
   return run;
+}
+
+}  // namespace
+
+void set_program_call(ProgramCall call) {
+  g_call = call;
+}
+
+Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                  const RunOptions& options) {
+  if (g_call != nullptr && !options.need_process()) return g_call(folder, arguments);
+  return start_brume(folder, arguments, options);
 }
 
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
