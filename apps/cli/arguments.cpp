@@ -304,7 +304,7 @@ Arguments CommandLine::add_command(const std::string& name, const std::string& d
   return Arguments(command);
 }
 
-bool CommandLine::parse(int argc, char** argv) {
+bool CommandLine::parse(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   std::vector<std::string> commands;
   for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; }))
@@ -347,7 +347,7 @@ bool CommandLine::parse(int argc, char** argv) {
   }
 }
 
-std::string value_of(int argc, char** argv, const std::string& option) {
+std::string value_of(int argc, const char* const* argv, const std::string& option) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == option && i + 1 < argc) return argv[i + 1];

@@ -79,7 +79,7 @@ class CommandLine {
   /// Parses the arguments. Without any, and for `help COMMAND`, --help and --version, prints that and returns
   /// false: no command is to run then. Throws Error (usage), which names what is wrong and what was probably
   /// meant.
-  bool parse(int argc, char** argv);
+  bool parse(int argc, const char* const* argv);
 
   /// All declarations, for write_manual.
   const CLI::App& declarations() const { return *app_; }
@@ -89,6 +89,6 @@ class CommandLine {
 };
 
 /// The value that a command line gives to an option such as "--json", without parsing the rest; empty: none.
-std::string value_of(int argc, char** argv, const std::string& option);
+std::string value_of(int argc, const char* const* argv, const std::string& option);
 
 }  // namespace brume::cli

@@ -24,6 +24,17 @@
 #include "core/progress.hpp"
 
 namespace brume::cli {
+
+struct Console::State {
+  std::atomic<bool> quiet{false};
+  std::atomic<ProgressForm> progress{ProgressForm::line};
+  std::mutex line_mutex;        // of standard error
+  std::size_t line_length = 0;  // of the progress line that the cursor is on; 0: none
+  std::atomic<bool> ending{false};
+  std::string command, json_target;  // set before the command runs
+  std::atomic<bool> json_written{false};
+};
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -35,21 +46,15 @@ constexpr std::size_t kDefaultWidth = 80;
 constexpr double kLongJobSeconds = 1;
 constexpr std::chrono::milliseconds kJsonInterval(500);
 
-std::atomic<int> g_signal{0};
-std::atomic<bool> g_quiet{false};
-std::atomic<ProgressForm> g_progress{ProgressForm::line};
-std::mutex g_line_mutex;        // of standard error
-std::size_t g_line_length = 0;  // of the progress line that the cursor is on; 0: none
-std::atomic<bool> g_ending{false};
-std::string g_command, g_json_target;  // set before the command runs
-std::atomic<bool> g_json_written{false};
+std::atomic<int> g_signal{0};  // of the run; handlers reach nothing else
+Console::State* g_console = nullptr;
 
 extern "C" void on_signal(int signal) {
   g_signal = signal;
 }
 
 bool shows_progress() {
-  return !g_quiet && ::isatty(STDERR_FILENO) == 1;
+  return !g_console->quiet && ::isatty(STDERR_FILENO) == 1;
 }
 
 std::size_t terminal_width() {
@@ -61,16 +66,17 @@ std::size_t terminal_width() {
 // Overwrites the current line; blanks erase the rest of a longer one. The last column stays free: a cursor
 // beyond it would move to the next line.
 void show_line() {
-  const std::lock_guard lock(g_line_mutex);
+  const std::lock_guard lock(g_console->line_mutex);
+  std::size_t& shown = g_console->line_length;
   const std::size_t width = terminal_width() - 1;
   std::string line;
   if (const auto job = progress_to_show(kLongJobSeconds)) line = progress_line(*job, width);
-  if (line.empty() && g_line_length == 0) return;
-  const std::size_t blanks = std::min(width, g_line_length) - std::min({width, g_line_length, line.size()});
+  if (line.empty() && shown == 0) return;
+  const std::size_t blanks = std::min(width, shown) - std::min({width, shown, line.size()});
   std::fprintf(stderr, "\r%s%s", line.c_str(), std::string(blanks, ' ').c_str());
   if (line.empty()) std::fputc('\r', stderr);
   std::fflush(stderr);
-  g_line_length = line.size();
+  shown = line.size();
 }
 
 std::string one_line(std::string text) {
@@ -82,9 +88,9 @@ std::string one_line(std::string text) {
 
 // Below any progress line.
 void print_to_error(const std::string& line) {
-  const std::lock_guard lock(g_line_mutex);
-  std::fprintf(stderr, "%s%s\n", g_line_length > 0 ? "\n" : "", one_line(line).c_str());
-  g_line_length = 0;
+  const std::lock_guard lock(g_console->line_mutex);
+  std::fprintf(stderr, "%s%s\n", g_console->line_length > 0 ? "\n" : "", one_line(line).c_str());
+  g_console->line_length = 0;
 }
 
 // Jobs that are shorter than the interval show no progress.
@@ -114,12 +120,24 @@ const char* kind_of(int code) {
 }
 
 std::string json_text(const Json& object) {
-  Json whole{{"schema", kJsonSchema}, {"command", g_command}};
+  Json whole{{"schema", kJsonSchema}, {"command", g_console->command}};
   whole.update(object);
   return whole.dump() + "\n";
 }
 
 }  // namespace
+
+Console::Console() : state_(std::make_unique<State>()) {
+  BRUME_ASSERT(!g_console, "two runs at a time");
+  g_console = state_.get();
+  g_signal = 0;
+  std::clearerr(stdout);  // of the faults of another run
+}
+
+Console::~Console() {
+  set_log_callback(nullptr);
+  g_console = nullptr;
+}
 
 void reserve_standard_descriptors() {
   // The other direction: reading from standard input and writing to the others still fails. open() takes the
@@ -130,8 +148,8 @@ void reserve_standard_descriptors() {
 }
 
 void start_console(bool quiet, ProgressForm progress) {
-  g_quiet = quiet;
-  g_progress = progress;
+  g_console->quiet = quiet;
+  g_console->progress = progress;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
     if (!quiet && level == LogLevel::warning) print_to_error("brume: warning: " + line);
   });
@@ -158,7 +176,7 @@ struct Attendant::Thread {
   std::thread thread;
 
   void report_progress() {
-    if (g_progress != ProgressForm::json) {
+    if (g_console->progress != ProgressForm::json) {
       if (shows_progress()) show_line();
     } else if (const auto now = Clock::now(); now - reported >= kJsonInterval) {
       reported = now;
@@ -177,7 +195,7 @@ struct Attendant::Thread {
       const auto now = Clock::now();
       if (!signalled) signalled = now;
       if (now - *signalled < std::chrono::duration<double>(grace_seconds)) continue;
-      if (g_ending.exchange(true)) return;  // The command is reporting its own end.
+      if (g_console->ending.exchange(true)) return;  // The command is reporting its own end.
       ::_exit(end_of(signal));
     }
   }
@@ -204,7 +222,7 @@ Attendant::~Attendant() {
 }
 
 void claim_end() {
-  if (!g_ending.exchange(true)) return;
+  if (!g_console->ending.exchange(true)) return;
   for (;;) ::pause();
 }
 
@@ -221,7 +239,7 @@ void print_failure(const std::string& message) {
 }
 
 void print_note(const std::string& line) {
-  if (!g_quiet) print_to_error("brume: " + line);
+  if (!g_console->quiet) print_to_error("brume: " + line);
 }
 
 void print_on_terminal(const std::string& line) {
@@ -233,30 +251,30 @@ void print(const std::string& text) {
 }
 
 void set_json(const std::string& command, const std::string& target) {
-  g_command = command;
-  g_json_target = target;
+  g_console->command = command;
+  g_console->json_target = target;
 }
 
 void write_json(const std::string& target, const Json& object) {
   const std::string text = json_text(object);
   if (target == "-") {
-    g_json_written = true;
+    g_console->json_written = true;
     print(text);
   } else {
     write_file_atomic(target, text).value_or_throw();
-    g_json_written = true;
+    g_console->json_written = true;
   }
 }
 
 void write_json_error(int code, const std::string& message, bool may_write_file) {
-  if (g_json_target.empty() || g_json_written) return;
+  if (g_console->json_target.empty() || g_console->json_written) return;
   const std::string text =
       json_text({{"error", {{"code", code}, {"kind", kind_of(code)}, {"message", message}}}});
-  if (g_json_target == "-") {
+  if (g_console->json_target == "-") {
     print(text);
     std::fflush(stdout);
   } else if (may_write_file) {
-    (void)write_file_atomic(g_json_target, text);
+    (void)write_file_atomic(g_console->json_target, text);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace brume::cli {
@@ -12,6 +13,21 @@ class Json;
 /// Thrown when a command notices a signal, so that unwinding releases its resources.
 struct Interrupted {
   int signal;
+};
+
+/// What one run of a command line has on the console: which signal arrived, what is quiet, the progress line
+/// that is shown, and where its JSON goes. All functions below refer to it: a process has one at a time,
+/// which begins without any of that. A process that runs several command lines has one for each.
+class Console {
+ public:
+  Console();
+  Console(const Console&) = delete;
+  ~Console();
+
+  struct State;
+
+ private:
+  std::unique_ptr<State> state_;
 };
 
 /// Opens the standard descriptors that the caller closed, without access: otherwise the next file that is
@@ -26,8 +42,8 @@ enum class ProgressForm {
 
 /// Routes library warnings to standard error (drops them if `quiet`) and installs signal handlers. The first
 /// SIGINT, SIGTERM, SIGHUP (unless the caller ignores it, as nohup does) or SIGXCPU requests a stop, the
-/// second ends the process. A file that reaches the size limit fails to be written, like one on a full disk
-/// (SIGXFSZ is ignored).
+/// second ends the process. The handlers outlive the run: a complete command ends with its own exit code. A
+/// file that reaches the size limit fails to be written, like one on a full disk (SIGXFSZ is ignored).
 void start_console(bool quiet, ProgressForm progress);
 
 /// Shows the progress of long jobs (core/progress.hpp), and enforces stops, from a thread of

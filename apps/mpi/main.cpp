@@ -353,6 +353,7 @@ void render_whole(const Options& options, const Process& process) {
 
 int run(int argc, char** argv) {
   const Process process;
+  const cli::Console console;
   Options options;
   cli::CommandLine program(
       "Renders a volume by several processes, each with a part of it on its device.\n\nExamples:\n"

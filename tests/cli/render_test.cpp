@@ -101,9 +101,8 @@ TEST_F(Render, DebugViewsAndSlices) {
   };
   const auto depth = draw("depth.png", {"--view", "depth"});
   EXPECT_NE(depth, draw("solid.png", {"--view", "solid"}));
-  const auto low = draw("low.png", {"--view", "density", "--slice", "y=0.4"});
-  EXPECT_NE(low, draw("high.png", {"--view", "density", "--slice", "y=1.1"}));
-  EXPECT_EQ(low, draw("again.png", {"--view", "density", "--slice", "y=0.4"}));
+  EXPECT_NE(draw("low.png", {"--view", "density", "--slice", "y=0.4"}),
+            draw("high.png", {"--view", "density", "--slice", "y=1.1"}));
 }
 
 TEST_F(Render, InvalidViewsAndSlices) {
@@ -121,13 +120,10 @@ TEST_F(Render, InvalidViewsAndSlices) {
     refused({"--view", "density", "--slice", slice}, "--slice '" + std::string(slice) + "'");
 }
 
-TEST_F(Render, ImageSequenceAndFilm) {
+TEST_F(Render, ImageSequence) {
   const Outcome images = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
   ASSERT_EQ(images.exit_code, 0) << images.error;
-  const Outcome film = render({"-o", "film.mp4", "--frames", "0-5", "--size", "32x18"});
-  ASSERT_EQ(film.exit_code, 0) << film.error;
-  EXPECT_EQ(folder_.files(),
-            (Arguments{"film.mp4", "p_002.png", "p_003.png", "p_004.png", "room.obj", "room.toml"}));
+  EXPECT_EQ(folder_.files(), (Arguments{"p_002.png", "p_003.png", "p_004.png", "room.obj", "room.toml"}));
 }
 
 TEST_F(Render, TheSameTimeIsTheSameImage) {
@@ -139,10 +135,8 @@ TEST_F(Render, TheSameTimeIsTheSameImage) {
   };
   draw({"-o", "still.png", "--time", "0.5"});
   draw({"-o", "a_%d.png", "--fps", "8", "--frames", "3-4"});
-  draw({"-o", "b_%d.png", "--fps", "24", "--frames", "12-12"});
-  draw({"-o", "c_%d.png", "--fps", "48/2", "--frames", "12-12"});
-  for (const char* name : {"a_4.png", "b_12.png", "c_12.png"})
-    EXPECT_EQ(png(name).rgba, png("still.png").rgba) << name;
+  draw({"-o", "b_%d.png", "--fps", "48/2", "--frames", "12-12"});
+  for (const char* name : {"a_4.png", "b_12.png"}) EXPECT_EQ(png(name).rgba, png("still.png").rgba) << name;
   EXPECT_NE(png("a_3.png").rgba, png("still.png").rgba);
 }
 
@@ -174,6 +168,7 @@ TEST_F(Render, RatesOfTelevisionAreExact) {
   EXPECT_EQ(rate_of("23.976"), 24000.0 / 1001);
   EXPECT_EQ(rate_of("30000/1001"), 30000.0 / 1001);
   EXPECT_EQ(rate_of("25"), 25.0);
+  EXPECT_EQ(folder_.files(), (Arguments{"film.mp4", "room.obj", "room.toml"}));
 }
 
 TEST_F(Render, WarnsOfTimesAfterTheEnd) {
@@ -228,7 +223,9 @@ std::map<std::string, std::string> contents(const WorkFolder& folder) {
 
 TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
   const Arguments whole{"-o", "f_%02d.png", "--frames", "2-9", "--size", "32x18"};
-  ASSERT_EQ(render(whole).exit_code, 0);
+  RunOptions process;  // Its frames name the program.
+  process.own_process = true;
+  ASSERT_EQ(render(whole, process).exit_code, 0);
   const auto expected = contents(folder_);
   for (const char* name : {"f_04.png", "f_05.png", "f_06.png", "f_07.png", "f_08.png", "f_09.png"})
     std::filesystem::remove(folder_.path() / name);
@@ -246,14 +243,14 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
                            std::to_string(2 + there) + "-9\n");
 
   again.insert(again.end(), {"--json", "-"});
-  const Outcome rest = render(again);
+  const Outcome rest = render(again, process);
   ASSERT_EQ(rest.exit_code, 0) << rest.error;
   EXPECT_EQ(nlohmann::json::parse(rest.out)["frames"], 8 - there);
   EXPECT_EQ(contents(folder_), expected);
 }
 
 TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
-  const Arguments whole{"-o", "f_%d.png", "--frames", "0-3", "--size", "32x18", "--resume", "--json", "-"};
+  const Arguments whole{"-o", "f_%d.png", "--frames", "0-5", "--size", "16x16", "--resume", "--json", "-"};
   std::string reasons;
   const auto drawn = [&](const Arguments& arguments) {
     const Outcome run = render(arguments);
@@ -261,7 +258,7 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
     reasons = run.error;
     return nlohmann::json::parse(run.out)["frames"].get<int>();
   };
-  EXPECT_EQ(drawn(whole), 4);
+  EXPECT_EQ(drawn(whole), 6);
   EXPECT_EQ(drawn(whole), 0);
   const auto expected = contents(folder_);
 
@@ -271,31 +268,25 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   std::string damaged = expected.at("f_3.png");
   damaged[damaged.size() / 2] ^= 1;
   folder_.write("f_3.png", damaged);
-  EXPECT_EQ(drawn(whole), 3);
+  // Damage beside the pixels: the checksum before the end's 12 bytes, and bytes after the end.
+  damaged = expected.at("f_4.png");
+  damaged[damaged.size() - 16] ^= 1;
+  folder_.write("f_4.png", damaged);
+  folder_.write("f_5.png", expected.at("f_5.png") + std::string(50, '\0'));
+  EXPECT_EQ(drawn(whole), 5);
   EXPECT_EQ(reasons,
             "brume: frame 1: truncated; made again\nbrume: frame 2: of another number; made again\nbrume: "
-            "frame 3: damaged; made again\n");
-  EXPECT_EQ(contents(folder_), expected);
-
-  // Damage beside the pixels: the checksum before the end's 12 bytes, and bytes after the end.
-  damaged = expected.at("f_1.png");
-  damaged[damaged.size() - 16] ^= 1;
-  folder_.write("f_1.png", damaged);
-  folder_.write("f_2.png", expected.at("f_2.png") + std::string(50, '\0'));
-  EXPECT_EQ(drawn(whole), 2);
-  EXPECT_EQ(reasons, "brume: frames 1-2: damaged; made again\n");
+            "frames 3-5: damaged; made again\n");
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
   Arguments other = whole;
   other.insert(other.end(), {"--step", "2"});
-  EXPECT_EQ(drawn(other), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other settings; made again\n");
-  EXPECT_EQ(drawn(whole), 4);
-  EXPECT_EQ(contents(folder_), expected);
+  EXPECT_EQ(drawn(other), 6);
+  EXPECT_EQ(reasons, "brume: frames 0-5: of other settings; made again\n");
   folder_.write("room.obj", room_obj() + "# changed\n");
-  EXPECT_EQ(drawn(whole), 4);
-  EXPECT_EQ(reasons, "brume: frames 0-3: of other inputs; made again\n");
+  EXPECT_EQ(drawn(other), 6);
+  EXPECT_EQ(reasons, "brume: frames 0-5: of other inputs; made again\n");
   EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
 }
 
@@ -364,8 +355,8 @@ TEST_F(Render, ResumesTemporalFramesExactly) {
 // The frames of all shards are those of one command, whether or not they depend on those before, and their
 // film is the one that a single command encodes.
 TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
-  const Arguments temporal{"--frames", "1-7", "--fps", "8", "--size", "32x18", "--temporal"};
-  const Arguments orbit{"--frames", "0-4", "--fps", "8", "--size", "32x18", "--orbit", "90"};
+  const Arguments temporal{"--frames", "1-4", "--fps", "8", "--size", "32x18", "--temporal"};
+  const Arguments orbit{"--frames", "0-2", "--fps", "8", "--size", "32x18", "--orbit", "90"};
   for (const Arguments& settings : {temporal, orbit}) {
     const auto run = [&](Arguments arguments) {
       arguments.insert(arguments.end(), settings.begin(), settings.end());
@@ -377,7 +368,7 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
     const auto expected = contents(folder_);
     for (const auto& [name, bytes] : expected)
       if (name.starts_with("f_")) std::filesystem::remove(folder_.path() / name);
-    for (const char* shard : {"3/3", "1/3", "2/3"}) run({"-o", "f_%d.png", "--shard", shard});
+    for (const char* shard : {"2/2", "1/2"}) run({"-o", "f_%d.png", "--shard", shard});
     EXPECT_EQ(contents(folder_), expected);
     EXPECT_EQ(run({"-o", "f_%d.png", "--resume"}), "") << "all are complete";
 
@@ -396,6 +387,7 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
 TEST_F(Render, AFilmIsMadeOfTheFramesOfOneCommand) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-2", "--size", "32x18"};
   ASSERT_EQ(render(whole).exit_code, 0);
+  const std::string frame = *read_text_file(folder_.path() / "f_1.png");
   Arguments other{"-o", "f_%d.png", "--frames", "1-1", "--size", "32x18", "--step", "2"};
   ASSERT_EQ(render(other).exit_code, 0);
   const Arguments film{"convert", "f_%d.png", "film.mp4", "--frames", "0-2"};
@@ -405,7 +397,7 @@ TEST_F(Render, AFilmIsMadeOfTheFramesOfOneCommand) {
   expect_failure(folder_, film, 3, {"f_1.png", "of another size than f_0.png"});
   std::filesystem::remove(folder_.path() / "f_1.png");
   expect_failure(folder_, film, 3, {"f_1.png"});
-  ASSERT_EQ(render({"-o", "f_%d.png", "--frames", "0-2", "--size", "32x18", "--resume"}).exit_code, 0);
+  folder_.write("f_1.png", frame);
   EXPECT_EQ(run_brume(folder_.path(), film).exit_code, 0);
   expect_failure(folder_, {"convert", "f_0.png", "film.mp4", "--frames", "0-2"}, 2, {"f_%04d.png"});
   expect_failure(folder_, {"convert", "f_%d.png", "film.mp4"}, 2, {"--frames"});
@@ -423,7 +415,7 @@ TEST_F(Render, ShardsAreOfNumberedFrames) {
 TEST_F(Render, FilmOnAFullDisk) {
   RunOptions small;
   small.file_bytes = 400;
-  const Outcome run = render({"-o", "film.mp4", "--frames", "0-9", "--size", "64x36"}, small);
+  const Outcome run = render({"-o", "film.mp4", "--frames", "0-3", "--size", "32x18"}, small);
   EXPECT_EQ(run.exit_code, 4) << run.error;
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(folder_.files(), (Arguments{"room.obj", "room.toml"}));

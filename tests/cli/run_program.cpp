@@ -20,6 +20,8 @@
 namespace brume::cli {
 namespace {
 
+ProgramCall g_call = nullptr;
+
 std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -124,10 +126,8 @@ void take_json_error(const WorkFolder& folder, const std::vector<std::string>& a
   std::filesystem::remove(file);
 }
 
-}  // namespace
-
-Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                  const RunOptions& options) {
+Outcome start_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const RunOptions& options) {
   const auto said = fresh_folder();
   const std::filesystem::path out =
       options.out_file.empty() ? said / "out" : std::filesystem::path(options.out_file);
@@ -159,8 +159,20 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   return run;
 }
 
+}  // namespace
+
 bool reports_job(const std::filesystem::path& file, const std::string& name) {
   return read_text(file).find("{\"progress\": {\"name\": \"" + name + "\"") != std::string::npos;
+}
+
+void set_program_call(ProgramCall call) {
+  g_call = call;
+}
+
+Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                  const RunOptions& options) {
+  if (g_call != nullptr && !options.need_process()) return g_call(folder, arguments);
+  return start_brume(folder, arguments, options);
 }
 
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
