@@ -26,6 +26,16 @@ inline void write_scene(const WorkFolder& folder, int seconds) {
           "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n");
 }
 
+/// flight.toml of a second: a camera that moves through the room without smoke, so that the reference draws
+/// its frames in hundredths of a second, and needs no device.
+inline void write_flight(const WorkFolder& folder) {
+  folder.write("room.obj", room_obj());
+  folder.write("flight.toml",
+               "version = 1\nscene = \"room.obj\"\nduration = 1.0\n"
+               "[[camera]]\ntime = 0.0\nposition = [0.0, 1.7, 1.8]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n"
+               "[[camera]]\ntime = 1.0\nposition = [0.5, 1.5, 1.0]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n");
+}
+
 /// script/farm with the program of this build.
 inline Outcome run_farm(const WorkFolder& folder, std::vector<std::string> arguments,
                         const std::string& build = BRUME_BUILD_DIR, RunOptions options = {}) {

@@ -12,19 +12,28 @@ namespace fs = std::filesystem;
 
 class Farm : public testing::Test {
  protected:
-  Farm() { write_scene(folder_, 1); }
+  Farm() {
+    write_scene(folder_, 1);
+    write_flight(folder_);
+  }
+  /// The options of render are last, after "--".
   Outcome farm(std::vector<std::string> more, const std::string& build = BRUME_BUILD_DIR) const {
-    more.insert(more.begin(), {"room.toml", "out", "--local", "2", "--shards", "3"});
+    more.insert(more.begin(), {"flight.toml", "out", "--local", "2", "--shards", "3"});
+    more.insert(more.end(), kQuick.begin(), kQuick.end());
     return run_farm(folder_, more, build);
   }
   std::string log() const { return text_of(folder_, "out/farm.log"); }
   /// The film that one command makes.
   std::string film_alone(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"render", "room.toml", "-o", "alone.mp4"});
+    more.insert(more.begin(), {"render", "flight.toml", "-o", "alone.mp4"});
+    more.insert(more.end(), kQuick.begin(), kQuick.end());
     const Outcome run = run_brume(folder_.path(), more);
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return text_of(folder_, "alone.mp4");
   }
+  // script/farm passes options of render on; CommandsOfThePageRun has those of a device.
+  static inline const std::vector<std::string> kQuick{"--size",    "32x18",     "--mode",
+                                                      "reference", "--samples", "1"};
   WorkFolder folder_;
 };
 
@@ -33,12 +42,12 @@ void expect_in(const std::string& text, const std::string& part) {
 }
 
 TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
-  const std::string alone = film_alone({"--fps", "12", "--size", "32x18"});
-  const std::vector<std::string> options{"--fps", "12", "--", "--size", "32x18"};
+  const std::string alone = film_alone({"--fps", "12"});
+  const std::vector<std::string> options{"--fps", "12", "--"};
   const Outcome first = farm(options);
   ASSERT_EQ(first.exit_code, 0) << first.error;
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == alone);
-  expect_in(log(), "room.toml: frames 0-11 in 3 shards");
+  expect_in(log(), "flight.toml: frames 0-11 in 3 shards");
 
   fs::remove(folder_.path() / "out/frames/000004.png");
   fs::resize_file(folder_.path() / "out/frames/000009.png", 100);
@@ -53,13 +62,13 @@ TEST_F(Farm, MakesTheFilmOfOneCommandAndRedoesWhatIsDamaged) {
 // The encoder's output depends on its number of threads.
 TEST_F(Farm, EncodesByTheThreadsOfRender) {
   const auto alone = [&](const std::string& threads) {
-    return film_alone({"--fps", "12", "--size", "32x18", "--threads", threads});
+    return film_alone({"--fps", "12", "--threads", threads});
   };
   const std::string by_one = alone("1"), by_five = alone("5");
   ASSERT_FALSE(by_one == by_five);
-  ASSERT_EQ(farm({"--fps", "12", "--", "--size", "32x18", "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(farm({"--fps", "12", "--", "--threads", "1"}).exit_code, 0);
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == by_one);
-  ASSERT_EQ(farm({"--fps", "12", "--", "--threads=5", "--size", "32x18"}).exit_code, 0);
+  ASSERT_EQ(farm({"--fps", "12", "--", "--threads=5"}).exit_code, 0);
   EXPECT_TRUE(text_of(folder_, "out/film.mp4") == by_five);
 }
 
@@ -71,9 +80,9 @@ TEST_F(Farm, RunsFailedShardsAgain) {
       << "/failed 2> /dev/null; then ulimit -f 0; fi ;;\nesac\nexec " BRUME_BUILD_DIR "/brume \"$@\"\n";
   fs::permissions(folder_.path() / "bin/brume", fs::perms::owner_all);
   const std::string build = (folder_.path() / "bin").string();
-  const Outcome run = farm({"--frames", "0-5", "--", "--size", "32x18"}, build);
+  const Outcome run = farm({"--frames", "0-5", "--"}, build);
   ASSERT_EQ(run.exit_code, 0) << run.error << run.out;
-  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == film_alone({"--frames", "0-5", "--size", "32x18"}));
+  EXPECT_TRUE(text_of(folder_, "out/film.mp4") == film_alone({"--frames", "0-5"}));
   expect_in(log(), "round 1: shard 2 on ");
   expect_in(log(), " failed: exit code 4\n");  // there is no room for the message either
   expect_in(log(), "film.mp4 is complete after round 2\n");
@@ -124,16 +133,16 @@ TEST_F(Farm, ChecksTheOptionsOfRenderFirst) {
       {{"-o", "b_%d.png"}, "-o: script/farm sets it"},
       {{"--time", "1"}, "--time"}};
   for (const auto& [options, part] : faults) {
-    std::vector<std::string> more{"--frames", "0-3", "--"};
+    std::vector<std::string> more{"room.toml", "out", "--local", "2", "--frames", "0-3", "--"};
     more.insert(more.end(), options.begin(), options.end());
-    const Outcome run = farm(more);
+    const Outcome run = run_farm(folder_, more);
     EXPECT_EQ(run.exit_code, 2) << run.error;
     expect_in(run.error, part);
     EXPECT_EQ(std::ranges::count(run.error, '\n'), 1) << run.error;
     EXPECT_EQ(run.out, "");
   }
   folder_.write("room.toml", "version = 1\nscene = 5\n");
-  const Outcome bad = farm({"--frames", "0-3"});
+  const Outcome bad = run_farm(folder_, {"room.toml", "out", "--local", "2", "--frames", "0-3"});
   EXPECT_EQ(bad.exit_code, 3) << bad.error;
   expect_in(bad.error, "room.toml:2:");
 }
@@ -148,8 +157,9 @@ TEST_F(Farm, HelpIsItsOwnText) {
 }
 
 TEST_F(Farm, AnInterruptionSaysWhatRemainsAndEndsItsProcesses) {
-  const std::vector<std::string> options{"room.toml", "out", "--local", "2",      "--shards", "3",
-                                         "--fps",     "12",  "--",      "--size", "32x18"};
+  std::vector<std::string> options{"flight.toml", "out",   "--local", "2", "--shards",
+                                   "3",           "--fps", "12",      "--"};
+  options.insert(options.end(), kQuick.begin(), kQuick.end());
   // The second shard waits for the signal.
   fs::create_directory(folder_.path() / "bin");
   std::ofstream(folder_.path() / "bin/brume")

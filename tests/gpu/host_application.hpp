@@ -1,27 +1,89 @@
-// A host application with its own instance, device, queue and frames in flight, under the validation layers.
+// A host application with a device, a queue and its own frames in flight, under the validation layers.
 #pragma once
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gpu/context.hpp"
 #include "gpu/device_features.hpp"
 #include "gpu/host_recording.hpp"
+#include "tests/gpu/shared_pipelines.hpp"
 
 namespace brume::gpu {
 
+// What runs long makes and destroys every pipeline of its renderers, under the layers.
+#ifdef BRUME_EVERY_FRAME
+constexpr bool kSharesPipelines = false;
+#else
+constexpr bool kSharesPipelines = true;
+#endif
+
+/// The instance and the device of all host applications of a program, with or without the validation layers.
+template <bool kValidates>
+class SharedDevice {
+ public:
+  using Pipelines = SharedPipelines<kValidates>;
+  static SharedDevice& get() {
+    if (!shared_) shared_ = std::make_unique<SharedDevice>();
+    return *shared_;
+  }
+  /// When all host applications have ended.
+  static void end() {
+    if (!shared_) return;
+    Pipelines::destroy_all();
+    shared_->vk.DestroyDevice(shared_->host.device, nullptr);
+    for (const std::string& message : shared_->instance.take_messages()) ADD_FAILURE() << message;
+    shared_.reset();
+  }
+
+  SharedDevice() : instance(kValidates), vk(instance.vk()) {
+    host.get_instance_proc_addr = kSharesPipelines ? Pipelines::instance_proc_addr : system_loader();
+    host.instance = instance.handle();
+    host.physical_device = choose_device(list_devices(vk, host.instance), "").handle;
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    const DeviceFeatures features;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = features.chain();
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    check(vk.CreateDevice(host.physical_device, &info, nullptr, &host.device), "vkCreateDevice");
+    vk.load_device(host.device);
+    Pipelines::begin(vk, host.device);
+  }
+
+  Instance instance;
+  Functions vk;
+  HostDevice host;
+
+ private:
+  static inline std::unique_ptr<SharedDevice> shared_;
+};
+
+/// After the last test, for messages about what nothing destroyed.
+class SharedDevices : public testing::Environment {
+ public:
+  void TearDown() override {
+    SharedDevice<true>::end();
+    SharedDevice<false>::end();
+  }
+};
+inline testing::Environment* const g_shared_devices = testing::AddGlobalTestEnvironment(new SharedDevices);
+
 class HostApplication {
  public:
-  explicit HostApplication(std::size_t frames_in_flight, bool validates = true)
-      : instance_(validates), slots_(frames_in_flight) {
-    host_.get_instance_proc_addr = system_loader();
-    host_.instance = instance_.handle();
-    host_.physical_device = choose_device(list_devices(instance_.vk(), host_.instance), "").handle;
-    make_device();
-    vk_ = instance_.vk();
-    vk_.load_device(host_.device);
+  explicit HostApplication(std::size_t frames_in_flight, bool validates = true) : slots_(frames_in_flight) {
+    if (validates)
+      use(SharedDevice<true>::get());
+    else
+      use(SharedDevice<false>::get());
     vk_.GetDeviceQueue(host_.device, 0, 0, &queue_);
     const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
                                          VK_SEMAPHORE_TYPE_TIMELINE, 0};
@@ -31,9 +93,10 @@ class HostApplication {
   }
   ~HostApplication() {
     vk_.DeviceWaitIdle(host_.device);
+    *all_completed_ = *all_submitted_;
     for (const Slot& slot : slots_) vk_.DestroyCommandPool(host_.device, slot.pool, nullptr);
     vk_.DestroySemaphore(host_.device, done_, nullptr);
-    vk_.DestroyDevice(host_.device, nullptr);
+    for (const std::string& message : take_messages()) ADD_FAILURE() << message;
   }
   HostApplication(const HostApplication&) = delete;
   HostApplication& operator=(const HostApplication&) = delete;
@@ -44,6 +107,7 @@ class HostApplication {
   void frame(
       const std::function<void(VkCommandBuffer, std::uint64_t frame, std::uint64_t completed)>& record) {
     const std::uint64_t number = ++submitted_;
+    ++*all_submitted_;
     if (number > slots_.size()) wait_for(number - slots_.size());
     Slot& slot = slots_[number % slots_.size()];
     check(vk_.ResetCommandPool(host_.device, slot.pool, 0), "vkResetCommandPool");
@@ -88,7 +152,7 @@ class HostApplication {
     barrier(commands, written);
   }
 
-  std::vector<std::string> take_messages() { return instance_.take_messages(); }
+  std::vector<std::string> take_messages() { return instance_->take_messages(); }
 
  private:
   struct Slot {
@@ -103,20 +167,14 @@ class HostApplication {
     dependency.pMemoryBarriers = &memory;
     vk_.CmdPipelineBarrier2(commands, &dependency);
   }
-  void make_device() {
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue{};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
-    const DeviceFeatures features;
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = features.chain();
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
-    check(instance_.vk().CreateDevice(host_.physical_device, &info, nullptr, &host_.device),
-          "vkCreateDevice");
+  template <bool kValidates>
+  void use(SharedDevice<kValidates>& shared) {
+    instance_ = &shared.instance;
+    host_ = shared.host;
+    vk_ = shared.vk;
+    all_submitted_ = &SharedDevice<kValidates>::Pipelines::frame;
+    all_completed_ = &SharedDevice<kValidates>::Pipelines::completed;
+    submitted_before_ = *all_submitted_;
   }
   void make_slot(Slot& slot) {
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, 0};
@@ -133,14 +191,18 @@ class HostApplication {
     wait.pValues = &frame;
     check(vk_.WaitSemaphores(host_.device, &wait, ~std::uint64_t{0}), "vkWaitSemaphores");
     completed_ = std::max(completed_, frame);
+    *all_completed_ = submitted_before_ + completed_;
   }
 
-  Instance instance_;
+  Instance* instance_ = nullptr;
   HostDevice host_;
   Functions vk_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkSemaphore done_ = VK_NULL_HANDLE;  // timeline: the number of the last completed frame
   std::uint64_t submitted_ = 0, completed_ = 0;
+  // By all applications of this device, one after the other.
+  std::uint64_t *all_submitted_ = nullptr, *all_completed_ = nullptr;
+  std::uint64_t submitted_before_ = 0;
   std::vector<Slot> slots_;
 };
 

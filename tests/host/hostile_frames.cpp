@@ -15,7 +15,7 @@ gpu::ImageInfo image_of(VkFormat format, glm::uvec2 size, VkImageUsageFlags usag
 
 }  // namespace
 
-HostileFrames::HostileFrames(unsigned seed, std::string file)
+HostileFrames::HostileFrames(unsigned seed, std::string file, Scales scales)
     : Hostile(seed),
       gpu_(host_.device()),
       recording_(gpu_),
@@ -26,7 +26,8 @@ HostileFrames::HostileFrames(unsigned seed, std::string file)
       normals_(gpu_, image_of(VK_FORMAT_R16G16B16A16_SFLOAT, kSize,
                               VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
-      file_(std::move(file)) {}
+      file_(std::move(file)),
+      scales_(scales) {}
 
 HostileFrames::~HostileFrames() {
   host_.wait();
@@ -132,6 +133,7 @@ void HostileFrames::renderer_create() {
   if (chance(0.1)) params.width = chance(0.5) ? 0 : 16385;
   if (chance(0.1)) params.height = chance(0.5) ? 0 : ~0u;
   spoil(params.march_scale, 0.1);
+  if (scales_ == Scales::full && params.march_scale != 1) params.march_scale = 3;
   params.temporal = below(2);
   lights_.assign(below(3), light());
   params.lights = chance(0.05) ? nullptr : lights_.data();
@@ -160,8 +162,10 @@ void HostileFrames::renderer_change() {
   const bool is_wrong = chance(0.5);
   const std::uint32_t width = is_wrong ? (chance(0.5) ? 0 : 16385 + number(9)) : kSize.x;
   checked("brume_renderer_resize", brume_renderer_resize(handle(renderers_), width, kSize.y), true);
-  checked("brume_renderer_set_march_scale", brume_renderer_set_march_scale(handle(renderers_), number(5)),
-          true);
+  // Of full resolution alone: the others become numbers that are refused.
+  std::uint32_t scale = number(5);
+  if (scales_ == Scales::full && scale != 1) scale = 3 + 2 * scale;
+  checked("brume_renderer_set_march_scale", brume_renderer_set_march_scale(handle(renderers_), scale), true);
   checked("brume_renderer_destroy", brume_renderer_destroy(wrong_handle<brume_renderer>()), true);
 }
 

@@ -11,8 +11,10 @@ namespace brume::host {
 
 class HostileFrames : public api::Hostile {
  public:
+  /// Resolutions of the march that frames have: each takes pipelines of its own, which take long to compile.
+  enum class Scales { full, all };
   /// `file`: a volume that can be loaded.
-  HostileFrames(unsigned seed, std::string file);
+  HostileFrames(unsigned seed, std::string file, Scales scales);
   ~HostileFrames();
 
   /// Makes frames with several calls each, of both headers.
@@ -51,6 +53,7 @@ class HostileFrames : public api::Hostile {
   gpu::HostRecording recording_;
   gpu::Image depth_, picture_, normals_;
   std::string file_;
+  Scales scales_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   std::uint64_t number_ = 0, completed_ = 0;
   bool has_drawn_ = false;  ///< Over the picture, in this frame.

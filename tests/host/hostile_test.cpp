@@ -13,8 +13,10 @@ namespace {
 
 #ifdef BRUME_MANY_CALLS
 constexpr int kFrames = 300;
+constexpr HostileFrames::Scales kScales = HostileFrames::Scales::all;
 #else
-constexpr int kFrames = 12;
+constexpr int kFrames = 6;
+constexpr HostileFrames::Scales kScales = HostileFrames::Scales::full;
 #endif
 
 TEST(HostileFrames, ArgumentsGiveResultsInEveryFunction) {
@@ -23,7 +25,7 @@ TEST(HostileFrames, ArgumentsGiveResultsInEveryFunction) {
   const grids::Grid cloud =
       grids::generate_cloud({.kind = grids::CloudKind::sphere, .edge = 24, .voxel_size = 0.1, .radius = 1});
   grids::save_grid_file(file, {{cloud}, {}}).value_or_throw();
-  HostileFrames hostile(1, file);
+  HostileFrames hostile(1, file, kScales);
   hostile.run_frames(kFrames);
   for (const std::string& message : hostile.take_messages()) ADD_FAILURE() << message;
 

@@ -46,7 +46,7 @@ TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
       door.u.edit = {{24, 1, 10}, {25, 12, 17}, static_cast<std::uint32_t>(i / 45 % 2 == 0)};
       append(door);
     }
-    if (i % 50 == 30) resize(number(std::size(kSizes)));
+    if (i % 50 == 30) resize(kSizes[number(std::size(kSizes))]);
     // Memory is short for a while, in which the size changes, too.
     if (i % 40 == 25) limit(device_bytes() * 3 / 4);
     if (i % 40 == 38) limit(UINT64_MAX);

@@ -87,7 +87,9 @@ class YardTest : public testing::Test {
  protected:
   static constexpr glm::uvec2 kSizes[] = {{64, 36}, {33, 17}, {80, 45}, {1, 7}};
 
-  explicit YardTest(bool validates = true) : host_(3, validates), gpu_(host_.device()), recording_(gpu_) {
+  /// `first`: the size of frames until resize().
+  explicit YardTest(bool validates = true, glm::uvec2 first = kSizes[0])
+      : first_(first), host_(3, validates), gpu_(host_.device()), recording_(gpu_) {
     memory_.vk = gpu_.vk();
     memory_.device = host_.device().device;
   }
@@ -137,26 +139,26 @@ class YardTest : public testing::Test {
     on.free_memory = HostMemory::free;
     ASSERT_OK(brume_device_create(context_.get(), &on, &device_));
     ASSERT_OK(create_renderer(march_scale));
-    resize(0);
+    resize(first_);
   }
   brume_result create_renderer(std::uint32_t march_scale) {
     brume_renderer_params params = brume_renderer_defaults();
     const brume_light light{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
-    params.width = kSizes[0].x;
-    params.height = kSizes[0].y;
+    params.width = first_.x;
+    params.height = first_.y;
     params.lights = &light;
     params.light_count = 1;
     params.temporal = 1;
     params.march_scale = march_scale;
     return brume_renderer_create(device_, &params, &renderer_);
   }
-  void resize(std::size_t i) {
+  void resize(glm::uvec2 size) {
     host_.wait();
     depth_ = gpu::Image(gpu_, {.format = VK_FORMAT_R32_SFLOAT,
-                               .size = {kSizes[i], 1},
+                               .size = {size, 1},
                                .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                         VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    ASSERT_OK(brume_renderer_resize(renderer_, kSizes[i].x, kSizes[i].y));
+    ASSERT_OK(brume_renderer_resize(renderer_, size.x, size.y));
   }
   void append(const brume_event& event) { ASSERT_OK(brume_world_append(world_, &event, 1)); }
   void smoke(std::uint32_t tick, glm::vec3 at, std::uint32_t voxels, std::uint32_t hold) {
@@ -208,6 +210,7 @@ class YardTest : public testing::Test {
     return bytes;
   }
 
+  glm::uvec2 first_;
   gpu::HostApplication host_;
   gpu::Context gpu_;
   gpu::HostRecording recording_;
