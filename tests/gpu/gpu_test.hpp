@@ -7,15 +7,22 @@
 #include <vector>
 
 #include "gpu/recorder.hpp"
+#include "tests/gpu/shared_pipelines.hpp"
 
 namespace brume::gpu {
 
 class GpuTest : public testing::Test {
  protected:
   static Context& context() {
-    // One device for all tests: creating one takes longer than most of them.
-    static Context instance(ContextOptions{"", true});
-    return instance;
+    // One device for all tests: creating one takes longer than most of them. One pipeline of each kind, too.
+    struct Device {
+      Device() {
+        SharedPipelines<GpuTest>::install(const_cast<Functions&>(context.vk()), context.device());
+      }
+      Context context{ContextOptions{"", true}};
+    };
+    static Device device;
+    return device.context;
   }
   static CommandRunner& runner() {
     static CommandRunner instance(context());

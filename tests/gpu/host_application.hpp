@@ -25,7 +25,7 @@ constexpr bool kSharesPipelines = true;
 template <bool kValidates>
 class SharedDevice {
  public:
-  using Pipelines = SharedPipelines<kValidates>;
+  using Pipelines = SharedPipelines<SharedDevice>;
   static SharedDevice& get() {
     if (!shared_) shared_ = std::make_unique<SharedDevice>();
     return *shared_;

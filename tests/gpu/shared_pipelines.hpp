@@ -13,17 +13,34 @@
 
 namespace brume::gpu {
 
-/// Of one device, as Vulkan's functions take no user data: that with or without the validation layers.
+/// X(function of Vulkan, what stands in its place)
+#define BRUME_SHARED_FUNCTIONS                    \
+  X(CreateShaderModule, create_module)            \
+  X(DestroyShaderModule, destroy_module)          \
+  X(CreateDescriptorSetLayout, create_set_layout) \
+  X(CreatePipelineLayout, create_layout)          \
+  X(CreateComputePipelines, create_pipelines)     \
+  X(DestroyPipeline, destroy_pipeline)            \
+  X(CmdBindPipeline, bind)
+
+/// Of the one device of `Owner`, as Vulkan's functions take no user data.
 ///
 /// The layers check each pipeline when it is first made. That one is destroyed as often as it is created, is
 /// not bound after that and not destroyed before the device has completed its frames is checked here.
-template <bool kValidates>
+template <typename Owner>
 class SharedPipelines {
  public:
   /// Of a device that lives until destroy_all().
   static void begin(const Functions& functions, VkDevice device) {
     vk_ = functions;
     device_ = device;
+  }
+  /// For a table of functions that is in use already, of a device that lives as long as the program.
+  static void install(Functions& functions, VkDevice device) {
+    begin(functions, device);
+#define X(function, own) functions.function = &own;
+    BRUME_SHARED_FUNCTIONS
+#undef X
   }
   static void destroy_all() {
     for (const auto& [handle, use] : uses_) {
@@ -57,13 +74,7 @@ class SharedPipelines {
     if (device == device_) {
 #define X(function, own) \
   if (std::string_view(name) == "vk" #function) return reinterpret_cast<PFN_vkVoidFunction>(&own);
-      X(CreateShaderModule, create_module)
-      X(DestroyShaderModule, destroy_module)
-      X(CreateDescriptorSetLayout, create_set_layout)
-      X(CreatePipelineLayout, create_layout)
-      X(CreateComputePipelines, create_pipelines)
-      X(DestroyPipeline, destroy_pipeline)
-      X(CmdBindPipeline, bind)
+      BRUME_SHARED_FUNCTIONS
 #undef X
     }
     return vk_.GetDeviceProcAddr(device, name);
@@ -188,5 +199,7 @@ class SharedPipelines {
   static inline std::map<std::string, VkPipeline> pipelines_;
   static inline std::map<VkPipeline, Use> uses_;
 };
+
+#undef BRUME_SHARED_FUNCTIONS
 
 }  // namespace brume::gpu
