@@ -1,8 +1,10 @@
 // Every failure prints one line to standard error that names the place and nothing to standard output, has
 // the exit code of docs/conventions.md, and leaves no file behind.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
+#include <unistd.h>
 
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
@@ -115,12 +117,30 @@ TEST(BadInput, FileSizeLimit) {
   expect_failure(folder, {"voxelize", "room.obj", "-o", "a.vxl"}, 4, {"a.vxl", "space"}, small);
 }
 
+/// A mount namespace of this process while it lives: nothing stays mounted, and afterwards the process finds
+/// its own file as before.
+class MountNamespace {
+ public:
+  MountNamespace() : before_(::open("/proc/self/ns/mnt", O_RDONLY | O_CLOEXEC)) {
+    if (::unshare(CLONE_NEWNS) == 0) ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+  }
+  MountNamespace(const MountNamespace&) = delete;
+  ~MountNamespace() {
+    std::error_code ignored;
+    if (::setns(before_, CLONE_NEWNS) == 0) std::filesystem::current_path(folder_, ignored);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+  std::filesystem::path folder_ = std::filesystem::current_path();
+};
+
 TEST(BadInput, FullDisk) {
   const WorkFolder folder;
   const auto disk = folder.path() / "disk";
   std::filesystem::create_directory(disk);
-  // In a mount namespace of its own, so that nothing stays mounted when this process ends.
-  if (::unshare(CLONE_NEWNS) == 0) ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+  const MountNamespace own;
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4k") != 0) {
     GTEST_SKIP() << "no small disk can be mounted here, which takes root; FileSizeLimit has run";
   }
