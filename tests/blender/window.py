@@ -30,10 +30,16 @@ def until(holds):
         yield 0.05
 
 
-def draw():
-    """Draws the first window now: what follows does not depend on when Blender would draw it."""
-    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
-        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+DRAWS = []
+
+
+def drawn():
+    """Waits until the first window has been drawn twice: what the first time changes shows in the second one."""
+    for _ in range(2):
+        before = len(DRAWS)
+        for area in bpy.context.window_manager.windows[0].screen.areas:
+            area.tag_redraw()
+        yield from until(lambda begin=before: len(DRAWS) > begin)
 
 
 def areas(kind):
@@ -103,6 +109,17 @@ def press_escape(view):
     subprocess.run(["xdotool", "key", "Escape"], check=True)
 
 
+def noting_its_process(mark, commands):
+    """Commands of a program that first writes its process number."""
+    return f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; {commands}"
+
+
+def has_ended(mark):
+    """Whether a program that noted its process has ended, and its operator has noticed that."""
+    with open(mark, encoding="ascii") as file:
+        return not os.path.exists(f"/proc/{int(file.read())}")
+
+
 def write_program(folder, name, commands):
     path = os.path.join(folder, name)
     with open(path, "w", encoding="ascii") as script:
@@ -126,8 +143,7 @@ def draw_panels(view):
     yield from choose_tab(view)
     for name in ("entrance", "bushes left", "word", "blast", "door opens", "Grenade at the steps", "word"):
         show(bpy.data.objects[name])
-        yield 0.1
-        draw()
+        yield from drawn()
 
 
 def let_after_ticks(mark, image, facts, key):
@@ -165,9 +181,10 @@ def bake(preferences, brume, folder, view, editor, facts):
     def browsers():
         windows = bpy.context.window_manager.windows
         found = [(window, area) for window in windows for area in window.screen.areas if area.type == "FILE_BROWSER"]
-        return [pair for pair in found if pair[1].spaces.active.params and pair[1].spaces.active.active_operator]
+        return [pair for pair in found if pair[1].spaces.active.params]
 
     yield from until(browsers)
+    yield from drawn()
     window, area = browsers()[0]
     facts["proposed"] = area.spaces.active.params.filename
     with bpy.context.temp_override(window=window, area=area, region=region(area)):
@@ -178,12 +195,12 @@ def bake(preferences, brume, folder, view, editor, facts):
 
 
 def take_picture(view, editor, path):
-    yield 0.1
+    yield from drawn()
     with inside(editor):
         bpy.ops.image.view_all(fit_view=True)
     with inside(view):
         bpy.ops.view3d.view_center_camera()
-    draw()
+    yield from drawn()
     with inside(view):
         bpy.ops.screen.screenshot(filepath=path)
 
@@ -222,8 +239,7 @@ def compare_gizmos(view, folder, facts):
     for shown in (True, False):
         bpy.context.scene.brume.gizmos = shown
         path = os.path.join(folder, f"gizmos_{shown}.png")
-        yield 0.1
-        draw()
+        yield from drawn()
         with inside(view):
             bpy.ops.screen.screenshot_area(filepath=path)
         image = bpy.data.images.load(path)
@@ -237,15 +253,13 @@ def compare_gizmos(view, folder, facts):
 def stop_by_escape(preferences, folder, view, facts):
     """A program that never ends, and ignores SIGTERM."""
     mark = os.path.join(folder, "pid")
-    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; trap '' TERM; exec sleep infinity"
-    preferences.program = write_program(folder, "endless", commands)
+    commands = "trap '' TERM; exec sleep infinity"
+    preferences.program = write_program(folder, "endless", noting_its_process(mark, commands))
     invoke_render()
     yield from until(lambda: os.path.exists(mark))
-    with open(mark, encoding="ascii") as file:
-        child = int(file.read())
     press_escape(view)
-    yield from until(lambda: not os.path.exists(f"/proc/{child}"))
-    facts["ended"] = not os.path.exists(f"/proc/{child}")
+    yield from until(lambda: has_ended(mark))
+    facts["ended"] = has_ended(mark)
     yield from until(lambda: says("stopped"))
     facts["stopped"] = says("stopped")
 
@@ -267,12 +281,16 @@ def stop_film(preferences, folder, view, facts):
 
 def walk_in(preferences, brume, folder, facts):
     """The viewer beside Blender's window, with the events of the scene; closes by itself in the test."""
-    picture = os.path.join(folder, "view.png")
+    picture, mark = os.path.join(folder, "view.png"), os.path.join(folder, "viewer_pid")
     options = f"--exit-after 1.5 --screenshot '{picture}' --size 320x180 --bare"
-    preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
+    preferences.program = write_program(
+        folder, "viewer", noting_its_process(mark, f"exec '{brume}' \"$@\" {options}")
+    )
     with inside(areas("VIEW_3D")[0]):
         bpy.ops.brume.view("INVOKE_DEFAULT", play=True)
     yield from until(lambda: os.path.exists(picture))
+    # What follows has the last word.
+    yield from until(lambda: has_ended(mark))
     facts["viewed"] = os.path.exists(picture)
 
 
@@ -280,6 +298,7 @@ def steps(addon, brume, folder):
     """Simulates user input; yields the time to wait [s]."""
     set_up(addon, folder)
     view, editor = lay_out()
+    bpy.types.SpaceView3D.draw_handler_add(lambda: DRAWS.append(0), (), "WINDOW", "POST_PIXEL")
     preferences = bpy.context.preferences.addons["brume_blender"].preferences
     facts = {}
     yield from draw_panels(view)
