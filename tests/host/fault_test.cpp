@@ -20,6 +20,10 @@ constexpr bool kEvery = true;
 #else
 constexpr bool kEvery = false;
 #endif
+constexpr std::uint32_t kParts = 3;
+
+/// Which calls there are does not depend on the number of pixels.
+constexpr glm::uvec2 kFaultSize{16, 9};
 
 /// Calls of a device until one fails.
 struct Faults {
@@ -93,6 +97,7 @@ class FaultTest : public testing::Test {
         gpu_(host_.device()),
         recording_(gpu_),
         depth_(gpu_, depth_info()) {
+    HostedSmoke::size = kFaultSize;
     scenario_.timeline.doors.clear();
     const float all = 1;
     brume_decal_params params = brume_decal_defaults();
@@ -101,6 +106,7 @@ class FaultTest : public testing::Test {
     EXPECT_OK(brume_decal_create(context_.get(), &params, &decal_));
   }
   ~FaultTest() override {
+    HostedSmoke::size = kSize;
     host_.wait();
     EXPECT_OK(brume_decal_destroy(decal_));
     EXPECT_OK(brume_volume_destroy(volume_));
@@ -133,7 +139,7 @@ class FaultTest : public testing::Test {
   static gpu::ImageInfo depth_info() {
     gpu::ImageInfo info;
     info.format = VK_FORMAT_R32_SFLOAT;
-    info.size = {kSize, 1};
+    info.size = {kFaultSize, 1};
     info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return info;
   }
@@ -149,8 +155,8 @@ class FaultTest : public testing::Test {
   brume_result draw(HostedSmoke& smoke, double seconds) {
     smoke.advance_to(seconds);
     brume_result result = BRUME_OK;
-    picture_ = gpu::Buffer(gpu_, VkDeviceSize{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                           gpu::MemoryUse::readback);
+    picture_ = gpu::Buffer(gpu_, VkDeviceSize{8} * kFaultSize.x * kFaultSize.y,
+                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
     host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording_.begin(commands, frame, completed);
       recording_.recorder().clear(depth_, {});
@@ -173,7 +179,7 @@ class FaultTest : public testing::Test {
       if (result != BRUME_OK) return;
       VkImage image = VK_NULL_HANDLE;
       EXPECT_OK(brume_renderer_smoke(smoke.renderer, &image, nullptr));
-      host_.copy(commands, image, {kSize.x, kSize.y}, picture_.handle());
+      host_.copy(commands, image, {kFaultSize.x, kFaultSize.y}, picture_.handle());
     });
     host_.wait();
     return result;
@@ -237,8 +243,8 @@ void FaultTest::fail_each_call() {
   ASSERT_GT(calls, 100u);
   EXPECT_NE(first, second);
 
-  // Not every one of them in the fast suite: they take long, pipelines above all.
-  const std::uint32_t step = kEvery ? 1 : calls / 4;
+  // Not every one of them in the fast suite: the first of each of some equal parts.
+  const std::uint32_t step = kEvery ? 1 : (calls + kParts - 1) / kParts;
   std::uint32_t failures = 0;
   for (std::uint32_t fails_at = 1; fails_at <= calls; fails_at += step) {
     SCOPED_TRACE("call " + std::to_string(fails_at) + " of " + std::to_string(calls));
@@ -264,7 +270,8 @@ void FaultTest::fail_each_call() {
     EXPECT_TRUE(picture() == second || picture() == second_alone);
   }
   Faults::fails_at = 0;
-  EXPECT_GT(failures, 2u);
+  // Where memory is refused, a coarser frame may do without it: not every fault is a failure of the frame.
+  EXPECT_GT(failures, kParts / 2);
 }
 
 TEST_F(FaultTest, EveryCallMayFailOnce) {

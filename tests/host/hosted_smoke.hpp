@@ -89,6 +89,7 @@ inline std::vector<brume_light> lights_of(const scene::Scene& scene) {
 struct HostedSmoke {
   enum class Failure { none, allowed };
   static inline bool prepares_all = false, is_temporal = false;
+  static inline glm::uvec2 size = kSize;
 
   /// Where failure is allowed, made() tries again.
   HostedSmoke(const gpu::HostDevice& host, const scenario::Scenario& scenario, std::uint32_t march_scale,
@@ -122,8 +123,8 @@ struct HostedSmoke {
     if (!device && brume_device_create(context.get(), &on, &device) != BRUME_OK) return false;
     if (renderer) return true;
     brume_renderer_params params = brume_renderer_defaults();
-    params.width = kSize.x;
-    params.height = kSize.y;
+    params.width = size.x;
+    params.height = size.y;
     params.march_scale = march_scale;
     params.prepare_all = prepares_all ? 1 : 0;
     params.temporal = is_temporal ? 1 : 0;

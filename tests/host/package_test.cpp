@@ -63,29 +63,29 @@ class HostExample : public testing::Test {
  protected:
   std::string picture(const std::string& program, const std::string& name, const std::string& options) {
     const fs::path file = folder_.path() / (name + ".ppm");
-    expect_runs("'" + program + "' -o '" + file.string() + "' --size 64x36 " + options);
+    expect_runs("'" + program + "' -o '" + file.string() + "' --size 32x18 " + options);
     return *read_text_file(file);
   }
   cli::WorkFolder folder_;
 };
 
 TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
-  const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 32 --in-flight 1");
-  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 32 --in-flight 3"), one);
-  EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 32 --no-smoke"), one);
+  // Smoke is in view from frame 25 on.
+  const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 28 --in-flight 1");
+  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 28 --in-flight 3"), one);
+  EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 28 --no-smoke"), one);
 }
 
-// Its own barriers and those of the library fit together.
+// Its own barriers and those of the library fit together. What is valid with three frames in flight is so
+// with one, which waits more often.
 TEST_F(HostExample, IsValid) {
-  for (const char* in_flight : {"1", "3"}) {
-    const ShellRun run = run_shell(
-        "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
-        "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT '" BRUME_HOST_EXAMPLE
-        "' --frames 26 --size 32x18 -o '" +
-        (folder_.path() / "valid.ppm").string() + "' --in-flight " + in_flight + " 2>&1");
-    EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.output, "");
-  }
+  const ShellRun run = run_shell(
+      "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
+      "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT '" BRUME_HOST_EXAMPLE
+      "' --frames 26 --size 32x18 -o '" +
+      (folder_.path() / "valid.ppm").string() + "' --in-flight 3 2>&1");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.output, "");
 }
 
 TEST_F(HostExample, BuildsAgainstTheInstalledPackage) {
