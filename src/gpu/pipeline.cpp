@@ -129,7 +129,12 @@ Pipeline::~Pipeline() {
 }
 
 void Pipeline::make_first() {
-  check(make(shaders_, &handle_), shaders_.front().name);
+  if (!context_.owns_device()) (void)handle();
+}
+
+VkPipeline Pipeline::handle() const {
+  if (handle_ == VK_NULL_HANDLE) check(make(shaders_, &handle_), shaders_.front().name);
+  return handle_;
 }
 
 Result<void> Pipeline::replace_shader(const ShaderCode& code) {

@@ -23,7 +23,9 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  VkPipeline handle() const { return handle_; }
+  /// On a host's device it is there from the start, so that no frame waits for a compiler. On our own it is created
+  /// when it is first bound: a picture takes few of all that the passes have. Throws when the driver rejects it.
+  VkPipeline handle() const;
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
   VkPipelineBindPoint bind_point() const { return bind_point_; }
@@ -45,12 +47,12 @@ class Pipeline {
   virtual ~Pipeline();
   /// Creates the pipeline of these stages.
   virtual VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const = 0;
-  /// Creates the first version, at the end of a derived constructor.
+  /// Creates the first version on a host's device, at the end of a derived constructor.
   void make_first();
   Context& context_;
 
  private:
-  VkPipeline handle_ = VK_NULL_HANDLE;
+  mutable VkPipeline handle_ = VK_NULL_HANDLE;
   std::vector<ShaderCode> shaders_;
   VkPipelineBindPoint bind_point_;
   VkShaderStageFlags stages_;
