@@ -23,8 +23,9 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  /// On a host's device it is there from the start, so that no frame waits for a compiler. On our own it is created
-  /// when it is first bound: a picture takes few of all that the passes have. Throws when the driver rejects it.
+  /// On a host's device it is there from the start, so that no frame waits for a compiler. On our own it is
+  /// created when it is first bound: a picture takes few of all that the passes have. Throws when the driver
+  /// rejects it.
   VkPipeline handle() const;
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout set_layout() const { return set_layout_; }

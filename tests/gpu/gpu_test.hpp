@@ -16,9 +16,7 @@ class GpuTest : public testing::Test {
   static Context& context() {
     // One device for all tests: creating one takes longer than most of them. One pipeline of each kind, too.
     struct Device {
-      Device() {
-        SharedPipelines<GpuTest>::install(const_cast<Functions&>(context.vk()), context.device());
-      }
+      Device() { SharedPipelines<GpuTest>::install(const_cast<Functions&>(context.vk()), context.device()); }
       Context context{ContextOptions{"", true}};
     };
     static Device device;

@@ -45,10 +45,11 @@ std::vector<std::string> over_budget(const Seconds& taken, const Seconds& budget
     const double most = (1.5 * budget + 1) * pace;
     if (seconds <= most) continue;
     char line[200];
-    std::snprintf(line, sizeof line,
-                  "%s took %.1f CPU seconds, at most %.1f for its budget of %.0f on this machine; make it faster, or "
-                  "raise tests/budgets.txt and say why",
-                  name.c_str(), seconds, most, budget);
+    std::snprintf(
+        line, sizeof line,
+        "%s took %.1f CPU seconds, at most %.1f for its budget of %.0f on this machine; make it faster, or "
+        "raise tests/budgets.txt and say why",
+        name.c_str(), seconds, most, budget);
     over.emplace_back(line);
   }
   return over;

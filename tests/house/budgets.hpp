@@ -13,12 +13,12 @@ using Seconds = std::map<std::string, double>;
 /// The lines "NAME SECONDS" of a text; others are comments.
 Seconds parse_budgets(const std::string& text);
 
-/// How fast this machine is beside that of the budgets: the median of taken / budget over the programs with a budget
-/// of at least five seconds. 0 if there are none.
+/// How fast this machine is beside that of the budgets: the median of taken / budget over the programs with a
+/// budget of at least five seconds. 0 if there are none.
 double pace_of(const Seconds& taken, const Seconds& budgets);
 
-/// A line for each program that took more than half as much again as its budget at this pace, and a second. The
-/// budget of a program that is not listed is one second.
+/// A line for each program that took more than half as much again as its budget at this pace, and a second.
+/// The budget of a program that is not listed is one second.
 std::vector<std::string> over_budget(const Seconds& taken, const Seconds& budgets, double pace);
 
 }  // namespace brume::house

@@ -18,7 +18,8 @@ int run(const std::string& command) {
   return std::system(command.c_str());
 }
 
-// What people expect of cmake --install: program, libraries, headers, and what CMake and pkg-config find them by.
+// What people expect of cmake --install: program, libraries, headers, and what CMake and pkg-config find them
+// by.
 TEST(Installed, WithoutAComponentIsEverythingThatDoesNotNeedMpi) {
   const WorkFolder folder;
   const fs::path prefix = folder.path() / "usr";
