@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <barrier>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -114,6 +115,19 @@ TEST(Tasks, PropagatesExceptions) {
                std::runtime_error);
 }
 
+// The thread sanitizer sees whether they take turns.
+TEST(Tasks, OneOfSeveralFailuresAtOnceIsPropagated) {
+  constexpr std::ptrdiff_t kThreads = 4;
+  const ThreadCountScope scope(kThreads);
+  std::barrier all_run(kThreads);
+  EXPECT_THROW(parallel_for(kThreads, 1,
+                            [&](std::size_t, std::size_t) {
+                              all_run.arrive_and_wait();
+                              throw std::runtime_error("each");
+                            }),
+               std::runtime_error);
+}
+
 TEST(Tasks, AcceptsNoWork) {
   parallel_for(0, 0, [](std::size_t, std::size_t) { FAIL(); });
 }
@@ -158,6 +172,21 @@ TEST(Progress, ShowsTheInnermostJobThatHasRunForLong) {
     EXPECT_FALSE(progress_to_show(1e6)) << "none has run for that long";
   }
   EXPECT_EQ(progress_to_show(0)->name, "outer");
+}
+
+TEST(Progress, DetailsMayBeReadWhileTheyChange) {
+  Progress job("job", 10);
+  std::atomic<bool> done{false};
+  std::atomic<int> reads{0};
+  std::jthread reader([&] {
+    while (!done) {
+      const auto shown = progress_to_show(0);
+      EXPECT_TRUE(shown && (shown->detail.empty() || shown->detail == std::string(40, shown->detail[0])));
+      ++reads;
+    }
+  });
+  for (int i = 0; reads < 100; ++i) job.set_detail(std::string(40, static_cast<char>('a' + i % 26)));
+  done = true;
 }
 
 TEST(SimilarName, EditDistance) {

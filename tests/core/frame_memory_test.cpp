@@ -30,6 +30,18 @@ TEST(FrameMemory, RangesAreAlignedAndApart) {
   }
 }
 
+// Larger than any block so far, so that each has one of its own, whose first byte is rarely aligned.
+TEST(FrameMemory, LargeRangesHaveRoomForTheirAlignment) {
+  FrameMemory memory;
+  for (std::size_t size = std::size_t{1} << 16; size <= std::size_t{1} << 20; size *= 2) {
+    constexpr std::size_t kAlignment = 4096;
+    void* const at = memory.allocate(size, kAlignment);
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(at) % kAlignment, 0u);
+    std::memset(at, 1, size);  // The address sanitizer knows where the block ends.
+    EXPECT_GE(memory.capacity(), size + kAlignment - alignof(std::max_align_t)) << "of the smallest block";
+  }
+}
+
 TEST(FrameMemory, FramesAlikeTakeTheMemoryOfTheFirst) {
   FrameMemory memory;
   const auto frame = [&] {

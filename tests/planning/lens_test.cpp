@@ -254,5 +254,21 @@ TEST(DeviceCamera, LooksAlongEveryAxisWithEveryAxisUp) {
   }
 }
 
+TEST(FilmSamples, AreEightPointsOfThePixelAroundItsMiddle) {
+  glm::vec2 sum(0);
+  for (std::uint32_t frame = 0; frame < kFilmSamples; ++frame) {
+    const glm::vec2 point = film_sample(frame).pixel;
+    sum += point;
+    EXPECT_LT(std::max(std::abs(point.x), std::abs(point.y)), 0.5f);
+    for (std::uint32_t other = 0; other < frame; ++other) {
+      // Each has a column and a row of its own.
+      EXPECT_NE(film_sample(other).pixel.x, point.x);
+      EXPECT_NE(film_sample(other).pixel.y, point.y);
+    }
+    EXPECT_EQ(film_sample(frame + kFilmSamples).pixel, point);
+  }
+  EXPECT_EQ(sum, glm::vec2(0));
+}
+
 }  // namespace
 }  // namespace brume::planning

@@ -47,6 +47,17 @@ TEST(SceneTxt, Utf16) {
   expect_near(image_of(*scene, {0, 0, 0}), {1, 2, 3});
 }
 
+TEST(SceneTxt, Utf16MayEndInHalfALetter) {
+  std::string text = "\xff\xfe";
+  for (const char letter : std::string("Box 1 2 3 0 0 0 1 1 1\n")) text += {letter, '\0'};
+  for (const char* half : {"\x3c\xd8", "\x2b\xdf"}) {
+    text.append(half, 2);
+    const std::string exact(text.begin(), text.end());  // The address sanitizer knows where it ends.
+    EXPECT_EQ(error_of(exact).rfind("Scene.txt:2", 0), 0u) << error_of(exact);
+    text.resize(text.size() - 2);
+  }
+}
+
 TEST(SceneTxt, RotationsAreNegatedOneAxisAtATime) {
   // A quarter turn about an axis by the negated angle: x: y -> -z; y: z -> -x; z: x -> -y.
   const auto about_x = parse("Box 0 0 0 1.5707963 0 0 1 1 1\n");
