@@ -26,11 +26,23 @@ Seconds parse_budgets(const std::string& text) {
   return budgets;
 }
 
-double pace_of(const Seconds& taken, const Seconds& budgets) {
-  constexpr double kLeastBudget = 5;
+std::set<std::string> cpu_programs(const std::string& table) {
+  std::set<std::string> programs;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name, target, room, labels;
+    words >> name >> target >> room >> labels;
+    if (("," + labels + ",").find(",cpu,") != std::string::npos) programs.insert(name);
+  }
+  return programs;
+}
+
+double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& programs) {
+  constexpr double kLeastBudget = 3;
   std::vector<double> ratios;
   for (const auto& [name, seconds] : taken)
-    if (const double budget = budget_of(name, budgets); budget >= kLeastBudget)
+    if (const double budget = budget_of(name, budgets); budget >= kLeastBudget && programs.contains(name))
       ratios.push_back(seconds / budget);
   if (ratios.empty()) return 0;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);

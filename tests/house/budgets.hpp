@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,13 @@ using Seconds = std::map<std::string, double>;
 /// The lines "NAME SECONDS" of a text; others are comments.
 Seconds parse_budgets(const std::string& text);
 
-/// How fast this machine is beside that of the budgets: the median of taken / budget over the programs with a
-/// budget of at least five seconds. 0 if there are none.
-double pace_of(const Seconds& taken, const Seconds& budgets);
+/// The programs with the label cpu in a build's table of tests (cmake/BrumeTests.cmake).
+std::set<std::string> cpu_programs(const std::string& table);
+
+/// How fast this machine is beside that of the budgets: the median of taken / budget over those programs that
+/// have a budget of at least three seconds. 0 if there are none. By programs without a device, as what a
+/// driver compiles is in a cache the next time.
+double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& programs);
 
 /// A line for each program that took more than half as much again as its budget at this pace, and a second.
 /// The budget of a program that is not listed is one second.
