@@ -98,7 +98,7 @@ function(brume_test name)
   brume_add_test(${name} ${name} LABELS ${arg_LABELS} COMMAND $<TARGET_FILE:${name}> ${filter} ${timeout})
 endfunction()
 
-# The rooms that a target is made of: its own folder below src or apps, and those of all that it links or runs.
+# The rooms of a target: its own folder below src or apps, and the folders of everything that it links or runs.
 function(brume_rooms_of target result)
   set(aliased "")
   if(TARGET ${target})

@@ -29,9 +29,9 @@ const Arguments kEndlessBake{"bake",   "occlusion",   "room.obj", "-o",      "a.
                              "--size", "128x128x128", "--rays",   "16777216"};
 constexpr std::uint64_t kBakeTotal = std::uint64_t{128 * 128 * 128} * (16777216 / 4096);
 
-// Smokes that go off in their first tick, in the middle of a voxel, so that they fly nowhere. Within a tick
-// nothing tests for signals: minutes of one thread. Their size is below that of a flood with progress of its
-// own, so that the tick's is shown.
+// Smokes that go off in their first tick, in the middle of a voxel, so that they do not fly. A tick never
+// tests for signals, and this one keeps a thread busy for minutes. Each flood is too small to report its own
+// progress, so the progress of the tick is shown.
 constexpr int kSmokes = 4000;
 std::string many_smokes() {
   std::string text =

@@ -115,7 +115,7 @@ TEST(Tasks, PropagatesExceptions) {
                std::runtime_error);
 }
 
-// The thread sanitizer sees whether they take turns.
+// Under the thread sanitizer this fails unless threads store their failure under a lock.
 TEST(Tasks, OneOfSeveralFailuresAtOnceIsPropagated) {
   constexpr std::ptrdiff_t kThreads = 4;
   const ThreadCountScope scope(kThreads);

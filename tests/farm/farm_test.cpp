@@ -31,7 +31,7 @@ class Farm : public testing::Test {
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return text_of(folder_, "alone.mp4");
   }
-  // script/farm passes options of render on; CommandsOfThePageRun has those of a device.
+  // Passed on to brume render, which then needs no device; CommandsOfThePageRun renders with one.
   static inline const std::vector<std::string> kQuick{"--size",    "32x18",     "--mode",
                                                       "reference", "--samples", "1"};
   WorkFolder folder_;

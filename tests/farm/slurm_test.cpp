@@ -53,8 +53,8 @@ class SlurmFarm : public testing::Test {
     while (fs::exists(frame(number))) ++number;
     return number;
   }
-  /// A folder with a program that does on one node the first half of its shard and then waits to be killed;
-  /// on all others it is that of this build.
+  /// A folder with a brume that, on one node, renders the first half of its shard and then waits to be
+  /// killed. On all other nodes it is the program of this build.
   std::string program_that_waits() const {
     fs::create_directory(folder_.path() / "bin");
     const fs::path program = folder_.path() / "bin/brume";

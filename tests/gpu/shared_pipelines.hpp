@@ -23,19 +23,21 @@ namespace brume::gpu {
   X(DestroyPipeline, destroy_pipeline)            \
   X(CmdBindPipeline, bind)
 
-/// Of the one device of `Owner`, as Vulkan's functions take no user data.
+/// One set for each `Owner`, which has one device: Vulkan's functions take no user data to tell devices
+/// apart.
 ///
 /// The layers check each pipeline when it is first made. That one is destroyed as often as it is created, is
 /// not bound after that and not destroyed before the device has completed its frames is checked here.
 template <typename Owner>
 class SharedPipelines {
  public:
-  /// Of a device that lives until destroy_all().
+  /// Starts sharing on a device, which must live until destroy_all().
   static void begin(const Functions& functions, VkDevice device) {
     vk_ = functions;
     device_ = device;
   }
-  /// For a table of functions that is in use already, of a device that lives as long as the program.
+  /// The same through a table of functions that is already in use; the device must outlive all tests. Nothing
+  /// counts its frames, so nothing is checked for being in flight: programs of our own devices wait first.
   static void install(Functions& functions, VkDevice device) {
     begin(functions, device);
 #define X(function, own) functions.function = &own;
