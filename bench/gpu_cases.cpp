@@ -82,7 +82,10 @@ Result<std::vector<Measurement>> march(Bench& bench) {
   const Measurement soft = time_frames(bench, "march/1080p_without_fine_shadows", *scenario, options, kGrown,
                                        [](planning::Quality& quality) { quality.fine_shadows = false; })
                                .march;
-  return std::vector{m, soft};
+  const Measurement coarse = time_frames(bench, "march/1080p_without_detail", *scenario, options, kGrown,
+                                         [](planning::Quality& quality) { quality.detail = false; })
+                                 .march;
+  return std::vector{m, soft, coarse};
 }
 
 /// All bounces of the indirect light of the demo scene and of a smoke in it.

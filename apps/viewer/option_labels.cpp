@@ -53,6 +53,7 @@ constexpr std::array kLabels{
     Label{"multiple_scattering", "inner glow"},
     Label{"erosion", "raggedness"},
     Label{"noise_size", "size of billows"},
+    Label{"detail", "detail below that"},
     Label{"swirl", "swirl"},
     Label{"swirl_period", "time of a swirl"},
     Label{"rise", "billows rise by"},

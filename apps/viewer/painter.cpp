@@ -54,6 +54,7 @@ bool Painter::draw_film(Screen& screen, const Game& game, const Quality& quality
   input.quality.light_update_fraction = light_update_fraction;
   input.quality.indirect_update_fraction = quality.indirect_update_fraction;
   input.quality.fine_shadows = quality.fine_shadows;
+  input.quality.detail = quality.detail;
   continues_ = true;
   return screen.show(&input, quality, ui);
 }

@@ -17,6 +17,7 @@ struct Quality {
   float light_update_fraction = 1;          ///< planning::Quality::light_update_fraction.
   float indirect_update_fraction = 0.125f;  ///< planning::Quality::indirect_update_fraction.
   bool fine_shadows = false;                ///< planning::Quality::fine_shadows.
+  bool detail = false;                      ///< planning::Quality::detail.
 };
 
 /// From best to fastest; the first one is that of `brume render`.

@@ -84,7 +84,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
       }
       if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
-        const vec3 light = media_inscatter(media, here, gathered.texture_samples);
+        const vec3 light = media_inscatter(media, here, gathered.transmittance, gathered.texture_samples);
         if (add_step(t - jitter * steps.ds, dt, passed_log2, light, gathered)) return;
         // From the end of this step on they may be longer; more than rounding must remain.
         const float longer = step_factor(gathered.transmittance), rest = t + (1.0 - jitter) * steps.ds;

@@ -19,7 +19,7 @@
 #include "shared/media.h"
 
 const bool kHasVolumes = (kMedia & kMediumVolumes) != 0u;
-const bool kSmokeAlone = (kMedia & ~kMediumFineShadows) == kMediumSmoke;
+const bool kSmokeAlone = (kMedia & ~kMediaOfSmoke) == kMediumSmoke;
 
 struct MediaRay {
   WorldRay world;
@@ -95,14 +95,15 @@ float log2_transmittance(MediaSample here, float ds) {
   return -1.44269504 * ds * sum;
 }
 
-/// Radiance towards the eye, per unit of media_albedo, where the transmittance is below 1.
-vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples) {
-  if (kSmokeAlone) return smoke_inscatter(here.smoke, texture_samples);
+/// Radiance towards the eye, per unit of media_albedo, where the transmittance of a sample is below 1;
+/// `transmittance` is that of what lies before it.
+vec3 media_inscatter(MediaRay ray, MediaSample here, float transmittance, inout uint texture_samples) {
+  if (kSmokeAlone) return smoke_inscatter(here.smoke, transmittance, texture_samples);
   vec3 sum = vec3(0.0);
   float extinction = 0.0;
   if (kHasSmoke && here.smoke.density > 0.0) {
     const float smoke = frame.look.extinction * here.smoke.density;
-    sum += smoke * frame.look.albedo * smoke_inscatter(here.smoke, texture_samples);
+    sum += smoke * frame.look.albedo * smoke_inscatter(here.smoke, transmittance, texture_samples);
     extinction += smoke;
   }
   if (kHasVolumes) {

@@ -81,7 +81,7 @@ void add_smoke_block(WorldRay world, SmokeRay ray, float t, float ds, uint count
         sample_smoke(ray, span, world.origin + world.direction * t_step, t_step, texture_samples);
     if (here.density <= 0.0) continue;
     const float extinction = frame.look.extinction * here.density;
-    block.steps[step].light += extinction * frame.look.albedo * smoke_inscatter(here, texture_samples);
+    block.steps[step].light += extinction * frame.look.albedo * smoke_inscatter(here, 1.0, texture_samples);
     block.steps[step].extinction += extinction;
   }
   next_smoke = span.bricks.slot == kNoSlot ? span.bricks.t_next : t;

@@ -12,6 +12,7 @@
 #include "shared/media.h"
 
 const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kFineShadows = (kMedia & kMediumFineShadows) != 0u;
+const bool kHasDetail = (kMedia & kMediumDetail) != 0u;
 /// Below this fraction of light from one side it casts no fine shadows.
 const float kLeastSide = 0.02;
 /// So far beyond its voxels the texels of a brick reach, less the resolution of the texture unit [voxels].
@@ -65,6 +66,13 @@ struct SmokeSample {
   float even;         // density before erosion
 };
 
+/// The look that is drawn. Light in the smoke has detail's steep rims even where it is not drawn.
+SmokeLook drawn_look() {
+  SmokeLook look = frame.look;
+  if (!kHasDetail) look.detail = 0.0;
+  return look;
+}
+
 SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
   const VolumeLayout volume = frame.volume;
@@ -83,11 +91,19 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, in
 
   // Noise, for erosion and for the rims of holes.
   if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
-    const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
+    const vec3 p_noise = p_world + texel.gba;
+    const vec4 noise = smoke_noise(noise_tile, frame.look, p_noise, frame.time);
     ++texture_samples;
-    if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+    vec4 detailed = noise;
+    if (kHasDetail) {
+      const vec2 weights = detail_weights(frame.look, t * frame.pixel_width);
+      // The rims of holes have it wherever they are.
+      if (any_hole_at(ray.holes, t) || detail_matters(frame.look, density, noise, weights))
+        detailed = detailed_noise(noise_tile, frame.look, p_noise, frame.time, noise, weights, texture_samples);
+    }
+    if (frame.look.erosion > 0.0) density = erode(drawn_look(), density, noise, detailed);
     if (kHoles != kHolesNone)
-      density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
+      density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * detailed.g - 1.0, density > 0.0);
   }
   return SmokeSample(density, uvw, smoke.light_offset, p_world, span.bricks.low, smoke.density);
 }
@@ -104,17 +120,21 @@ float depth_towards(SmokeSample here, vec3 towards, inout uint texture_samples) 
     const vec4 texel = textureLod(density_displacement_atlas, here.uvw + at * volume.bricks.atlas_texel, 0.0);
     const vec3 p_world = here.p_world + offset * volume.voxel_size;
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
-    sum += erode(frame.look, texel.r < 0.0 ? here.even : texel.r, noise);
+    sum += erode(drawn_look(), texel.r < 0.0 ? here.even : texel.r, noise, noise);
     texture_samples += 2u;
   }
   return sum * side_depth(frame.look.extinction, volume.voxel_size);
 }
 
-vec3 smoke_inscatter(SmokeSample here, inout uint texture_samples) {
+/// Below this transmittance of what lies before it, noise casts no shadows within a voxel: they would not be seen, and
+/// their mean is 1.
+const float kLeastSeen = 1.0 / 16.0;
+
+vec3 smoke_inscatter(SmokeSample here, float transmittance, inout uint texture_samples) {
   ++texture_samples;
   const vec3 uvw = here.uvw + here.light_offset * frame.volume.bricks.atlas_texel;
   const vec3 light = textureLod(inscatter_atlas, uvw, 0.0).rgb;
-  if (!kFineShadows) return light;
+  if (!kFineShadows || transmittance < kLeastSeen) return light;
   ++texture_samples;
   const vec4 side = textureLod(light_side_atlas, uvw, 0.0);
   const float fraction = length(side.xyz);

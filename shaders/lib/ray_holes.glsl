@@ -21,6 +21,12 @@ RayHoles holes_of_ray(vec2 position_px) {
   return RayHoles(kHoles == kHolesAllTested ? kTestAllHoles : 0u, HoleSlices(0.0, 0.0));
 }
 
+/// Whether a hole may be near a point of the ray, t metres from the eye.
+bool any_hole_at(RayHoles holes, float t) {
+  if (holes.chunk == 0u || holes.chunk == kTestAllHoles) return holes.chunk != 0u;
+  return (holes.chunk & kMoreChunks) != 0u || hole_lists[holes.chunk + slice_at(holes.slices, t)] != 0u;
+}
+
 /// Fraction of the density that the holes leave at a point of the ray, t metres from the eye; 0, without any test,
 /// where there is no smoke.
 float remaining_after_holes(RayHoles holes, float t, vec3 p_world, float rim_noise, bool smoke) {

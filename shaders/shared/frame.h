@@ -42,6 +42,7 @@ struct SmokeLook {
   float opaque_transmittance;  // below it a ray is opaque
   float erosion;               // strength of the noise, [0, 1]
   float noise_frequency;       // tiles of the noise per metre
+  float detail;                // strength of the octaves below the tile (erosion.h), [0, 1]
   float rise;                  // upward speed of the noise [m/s]
   float swirl;                 // amplitude of the rolling displacement of the noise [m]
   float swirl_width;           // width of one roll [m], > 0
@@ -49,7 +50,7 @@ struct SmokeLook {
   float hole_rim;              // amplitude of the noise on the rims of holes [m]
   Phase phase;                 // phase function
 };
-SHARED_SIZE(SmokeLook, 68);
+SHARED_SIZE(SmokeLook, 72);
 
 /// The most boxes around the media of a frame.
 SHARED_CONST uint kMaxMediaBoxes = 4u;
@@ -97,6 +98,7 @@ struct FrameConstants {
   HoleClusterLayout holes;
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
+  float pixel_width; // at a distance of 1 m, in the middle of the image [m]
   float exposure;    // multiplies radiance before the tone curve
   uint tone;         // kToneNeutral or kToneStandard
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
@@ -104,7 +106,7 @@ struct FrameConstants {
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
   IndirectLayout indirect;
 };
-SHARED_SIZE(FrameConstants, 664);
+SHARED_SIZE(FrameConstants, 672);
 
 SHARED_END
 #endif

@@ -88,6 +88,9 @@ struct Quality {
   /// Noise within a voxel shadows the smoke, where there is noise (shaders/shared/light_side.h): billows have
   /// a side in shadow, and the march takes up to twice as long.
   bool fine_shadows = true;
+  /// The noise of smoke has its detail (shaders/shared/erosion.h): without it nothing is finer than a cell of
+  /// the tile, and the march takes two thirds of the time.
+  bool detail = true;
   /// About which fraction of the light that changed is updated in this frame; in (0, 1], 1: all. Below, light
   /// is as old as ceil(1 / light_update_fraction) frames where it changes slowly, and 1/16 is the least
   /// (SmokeLightCache); such a frame depends on the frames before. Up to 1/4 the shadows of smoke on surfaces

@@ -23,6 +23,7 @@ FrameVector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
     key.add(input.smoke.look.albedo);
     key.add(input.smoke.look.extinction);
     key.add(input.smoke.look.erosion);
+    key.add(input.smoke.look.detail);
     key.add(input.smoke.look.multiple_scattering);
     key.add(input.smoke.look.phase);
     for (const shared::Hole& hole : holes.holes) key.add(hole);

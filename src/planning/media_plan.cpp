@@ -283,7 +283,9 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
   plan.smoke.bounds_max = visibility.visible_bounds.high;
   if (visibility.visible_count > 0) {
     plan.media = shared::kMediumSmoke;
-    if (input.quality.fine_shadows && input.smoke.look.erosion > 0) plan.media |= shared::kMediumFineShadows;
+    const shared::SmokeLook& look = input.smoke.look;
+    if (input.quality.fine_shadows && look.erosion > 0) plan.media |= shared::kMediumFineShadows;
+    if (input.quality.detail && look.erosion > 0 && look.detail > 0) plan.media |= shared::kMediumDetail;
   }
   plan.frame = smoke_media(plan.smoke, input.smoke.look);
   for (const bool in_view : {true, false}) add_volumes(plan, input.volumes, frustum, previews, in_view);

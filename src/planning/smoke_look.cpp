@@ -14,6 +14,7 @@ shared::SmokeLook smoke_look(const scene::SmokeOptions& options, float voxel_siz
   look.opaque_transmittance = 0.004f;
   look.erosion = options.erosion;
   look.noise_frequency = 1 / (static_cast<float>(smoke::kSmokeNoise.coarse_cells) * options.noise_size);
+  look.detail = options.detail;
   look.rise = options.rise;
   look.swirl = options.swirl;
   look.swirl_width = 2.0f * options.noise_size;

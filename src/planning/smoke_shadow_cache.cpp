@@ -18,6 +18,7 @@ shared::SmokeLook noise_look_of(const shared::SmokeLook& look) {
   shared::SmokeLook noise{};
   noise.erosion = look.erosion;
   noise.noise_frequency = look.noise_frequency;
+  noise.detail = look.detail;
   noise.rise = look.rise;
   noise.swirl = look.swirl;
   noise.swirl_width = look.swirl_width;

@@ -72,8 +72,9 @@ void SmokeMedium::find_majorants() {
       for_each_in(Box<int>{kPart * part, kPart * part + kPart + 1},
                   [&](glm::ivec3 cell) { largest = std::max(largest, largest_in_cell(volume, slot, cell)); });
       float bound = static_cast<float>(largest) / 255;
-      // Where noise removes nothing, erosion multiplies low densities by four (shared/erosion.h).
-      if (look.erosion > 0) bound = std::min(4 * bound, 1.0f) * (1 + 0.5f * look.erosion);
+      // Where noise removes nothing, erosion multiplies low densities by four, or more with detail
+      // (shared/erosion.h).
+      if (look.erosion > 0) bound = std::min(4 * (1 + look.detail) * bound, 1.0f) * (1 + 0.5f * look.erosion);
       const glm::ivec3 voxel = 8 * volume.brick_of(slot) + kPart * part - all.low;
       float& stored = majorants_.at(voxel / majorants_.cell_voxels());
       stored = std::max(stored, kBoundSlack * look.extinction * bound);
@@ -100,9 +101,9 @@ void SmokeMedium::find_holes() {
   }
 }
 
-glm::vec4 SmokeMedium::noise_at(const glm::vec3& p_world, const glm::vec3& p_voxel, std::uint32_t slot,
-                                const glm::ivec3& brick) const {
-  glm::vec3 p = p_world - glm::vec3(0, input_.look.rise * input_.time, 0);
+SmokeMedium::Noise SmokeMedium::noise_at(const glm::vec3& p_world, const glm::vec3& p_voxel,
+                                         std::uint32_t slot, const glm::ivec3& brick, float density) const {
+  glm::vec3 p = p_world;
   if (!displacements_.empty()) {
     const glm::vec3 at = p_voxel - glm::vec3(8 * brick) + 0.5f, low = glm::min(glm::floor(at), glm::vec3(8)),
                     f = at - low;
@@ -112,7 +113,15 @@ glm::vec4 SmokeMedium::noise_at(const glm::vec3& p_world, const glm::vec3& p_vox
     const auto row = [&](int offset) { return glm::mix(texel[offset], texel[offset + 1], f.x); };
     p += glm::mix(glm::mix(row(0), row(10), f.y), glm::mix(row(100), row(110), f.y), f.z);
   }
-  return smoke::noise_at(*noise_, p * input_.look.noise_frequency);
+  const auto octave = [&](std::uint32_t i) {
+    return smoke::noise_at(*noise_, shared::noise_point(input_.look, p, input_.time, i));
+  };
+  const glm::vec4 tile = octave(0);
+  const glm::vec2 weights = shared::detail_weights(input_.look, 0);
+  // The rims of holes have it wherever they are.
+  if (holes_of_[slot].empty() && !shared::detail_matters(input_.look, density, tile, weights))
+    return {tile, tile};
+  return {tile, shared::with_detail(tile, octave(1), octave(2), weights)};
 }
 
 float SmokeMedium::density(const glm::vec3& p_world) const {
@@ -123,13 +132,13 @@ float SmokeMedium::density(const glm::vec3& p_world) const {
   const glm::ivec3 brick(glm::floor(p_voxel * 0.125f));
   const std::uint32_t slot = volume.slot_at(brick);
   const shared::SmokeLook& look = input_.look;
-  const glm::vec4 noise = noise_ ? noise_at(p_world, p_voxel, slot, brick) : glm::vec4(0.5f);
-  if (look.erosion > 0) density = shared::erode(look, density, noise);
+  const Noise noise = noise_ ? noise_at(p_world, p_voxel, slot, brick, density) : Noise{};
+  if (look.erosion > 0) density = shared::erode(look, density, noise.tile, noise.detailed);
   static const smoke::MaskAtlas kNoMasks;
   for (const std::uint32_t i : holes_of_[slot]) {
     if (!(density > 0)) return 0;
     const shared::Hole& hole = input_.holes[i];
-    const float rim = (2 * noise.g - 1) * shared::hole_rim(hole, look.hole_rim);
+    const float rim = (2 * noise.detailed.g - 1) * shared::hole_rim(hole, look.hole_rim);
     density *= 1 - smoke::hole_strength_masked(hole, p_world, input_.time, rim, masks_ ? *masks_ : kNoMasks);
   }
   return density;

@@ -29,8 +29,12 @@ class SmokeMedium final : public Medium {
   float density(const glm::vec3& p_world) const;
 
  private:
-  glm::vec4 noise_at(const glm::vec3& p_world, const glm::vec3& p_voxel, std::uint32_t slot,
-                     const glm::ivec3& brick) const;
+  /// Of the tile, and with its detail.
+  struct Noise {
+    glm::vec4 tile{0.5f}, detailed{0.5f};
+  };
+  Noise noise_at(const glm::vec3& p_world, const glm::vec3& p_voxel, std::uint32_t slot,
+                 const glm::ivec3& brick, float density) const;
   void find_majorants();
   void find_holes();
 

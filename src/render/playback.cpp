@@ -10,6 +10,8 @@
 namespace brume::render {
 namespace {
 
+constexpr float kStepScaleOfOneSample = 0.5f;
+
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
   return options;
@@ -64,6 +66,9 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   samples_drawn_ = samples.count();
   for (std::uint32_t i = 0; i < samples.count(); ++i) {
     FrameInput sample = samples[i];
+    // Samples smooth what is finer than a step. Of one alone it would be grain.
+    if (samples.count() == 1 && !renderer_.smoke().is_accumulated() && sample.smoke.look.detail > 0)
+      sample.quality.step_scale *= kStepScaleOfOneSample;
     if (renderer_.is_antialiased() && sample.view.continues)
       sample.view.sample = planning::film_sample(frame_index);
     renderer_.draw(sample, [&](gpu::Recorder& recorder) {

@@ -84,6 +84,7 @@ void visit_smoke_options(Options& o, Visitor&& visit) {
       o.multiple_scattering);
   visit(OptionInfo{"erosion", "", "how deeply noise erodes the rim", 0, 1}, o.erosion);
   visit(OptionInfo{"noise_size", "m", "edge length of a noise cell", 0.05, 100}, o.noise_size);
+  visit(OptionInfo{"detail", "", "strength of noise finer than that, down to 2 cm; 0: none", 0, 1}, o.detail);
   visit(OptionInfo{"swirl", "m", "how far the noise swirls around its place", 0, 10}, o.swirl);
   visit(OptionInfo{"swirl_period", "s", "period of the swirl; the first turn is faster", 0.1, kLatestTime},
         o.swirl_period);

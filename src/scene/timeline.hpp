@@ -37,6 +37,7 @@ struct SmokeOptions {
   float multiple_scattering = 1;
   float erosion = 0.5f;
   float noise_size = 1.5f;
+  float detail = 1;
   float hole_rim = 0.06f;
   float swirl = 0.2f;
   float swirl_period = 12.0f;

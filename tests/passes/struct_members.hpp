@@ -28,7 +28,7 @@ constexpr std::size_t member_count() {
     return N;
 }
 
-/// The members of an aggregate of 10 to 18, as for_each_member.
+/// The members of an aggregate of 10 to 20, as for_each_member.
 template <std::size_t kCount, typename T, typename All>
 void for_many_members(const T& s, const All& all) {
   if constexpr (kCount == 10) {
@@ -58,17 +58,20 @@ void for_many_members(const T& s, const All& all) {
   } else if constexpr (kCount == 18) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
-  } else {
+  } else if constexpr (kCount == 19) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u);
   }
 }
 
-/// Calls visit(member) for each member of an aggregate of at most 19.
+/// Calls visit(member) for each member of an aggregate of at most 20.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
   constexpr std::size_t kCount = member_count<T>();
-  static_assert(kCount >= 1 && kCount <= 19);
+  static_assert(kCount >= 1 && kCount <= 20);
   const auto all = [&](const auto&... members) { (visit(members), ...); };
   if constexpr (kCount == 1) {
     const auto& [a] = s;

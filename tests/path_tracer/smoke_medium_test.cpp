@@ -95,6 +95,7 @@ TEST_P(SmokeMediumTest, HolesAreThoseOfDoublePrecision) {
 TEST_P(SmokeMediumTest, BoundsHold) {
   for (const float erosion : {0.0f, 0.4f, 1.0f}) {
     input_.look.erosion = erosion;
+    input_.look.detail = erosion;
     input_.look.hole_rim = 0.2f;
     input_.look.swirl = 0.3f;
     const SmokeMedium medium(input_, noise, &scene_.masks());

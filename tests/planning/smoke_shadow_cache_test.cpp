@@ -176,6 +176,8 @@ TEST_F(SmokeShadowCacheTest, NoiseMovesWithTheClockAndWithImpulses) {
   expect_one_update("an impulse");
   inputs_.look.swirl += 0.1f;
   expect_one_update("the swirl");
+  inputs_.look.detail += 0.5f;
+  expect_one_update("the detail");
   // Bricks whose noise is late.
   noise_.catches_up = true;
   EXPECT_TRUE(update());

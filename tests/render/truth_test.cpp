@@ -134,6 +134,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     FrameInput& input = studio.input;
     input.smoke.look.multiple_scattering = 0;
     if (!one.noisy) input.smoke.look.hole_rim = 0;
+    input.smoke.look.detail = 0;  // It is finer than the pixels of this size.
     const Drawn drawn = studio.draw();
 
     reference::TruthScene truth;
@@ -174,6 +175,49 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     EXPECT_GE(toned, one.least_psnr);
     // A ray with less transmittance than look.opaque_transmittance counts as opaque: its mean is off by less.
     EXPECT_LT(transmittance, double{input.smoke.look.opaque_transmittance});
+  }
+}
+
+// Close enough that its octaves are wider than pixels, and in steps that are shorter than their cells.
+TEST_F(TruthTest, DetailDimsAsItShould) {
+  const reference::NoiseTile noise = noise_tile();
+  for (const TruthCase& one : truth_cases()) {
+    if (!one.noisy) continue;
+    Studio studio(one.scenario, one.seconds);
+    FrameInput& input = studio.input;
+    input.view.camera.vertical_fov = 0.05f;
+    input.quality.step_scale = 0.1f;
+    input.smoke.look.detail = 1;
+    double between = 0, off = 0, off_without = 0;
+    for (const float x : {-1.6f, -1.2f, 1.2f, 1.6f}) {
+      input.view.camera.target_world = {x, 1.2f, 0};
+      const Drawn drawn = studio.draw();
+      reference::TruthScene truth;
+      truth.camera = planning::device_camera(input.view.camera, kSize);
+      truth.size_px = kSize;
+      truth.look = input.smoke.look;
+      truth.time = one.seconds;
+      truth.volume = input.smoke.volume;
+      truth.holes = studio.holes;
+      truth.noise = &noise;
+      truth.displacement = &drawn.displacement;
+      truth.view_step = 0.04;
+      const auto pixels = reference::trace_truth(truth);
+      input.quality.detail = false;
+      const Drawn without = studio.draw();
+      input.quality.detail = true;
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        between += pixels[i].transmittance > 0.05 && pixels[i].transmittance < 0.95;
+        off += std::abs(drawn.smoke[i].w - pixels[i].transmittance) / double(4 * pixels.size());
+        off_without += std::abs(without.smoke[i].w - pixels[i].transmittance) / double(4 * pixels.size());
+      }
+    }
+    std::printf("detail: transmittance off by %.4f, without it by %.4f; %.0f pixels in between\n", off,
+                off_without, between);
+    EXPECT_GT(between, 500);
+    // As in the other cases: what is as good as opaque, and ends a ray.
+    EXPECT_LT(off, double{input.smoke.look.opaque_transmittance});
+    EXPECT_GT(off_without, 4 * off);
   }
 }
 

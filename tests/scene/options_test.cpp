@@ -184,7 +184,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(Timeline(), visit_timeline_options), 2u);
   EXPECT_EQ(MET(Timeline(), visit_level_options), 3u);
   EXPECT_EQ(MET(GridOptions(), visit_grid_options), 3u);
-  EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 15u);
+  EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 16u);
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
   EXPECT_EQ(MET(SunOptions(), visit_sun_options), 3u);
   EXPECT_EQ(MET(VolumeOptions(), visit_volume_options), 14u);
