@@ -95,8 +95,8 @@ float log2_transmittance(MediaSample here, float ds) {
   return -1.44269504 * ds * sum;
 }
 
-/// Radiance towards the eye, per unit of media_albedo, where the transmittance of a sample is below 1;
-/// `transmittance` is that of what lies before it.
+/// Radiance towards the eye, per unit of media_albedo, where the transmittance of a sample is below 1.
+/// `transmittance`: from the eye to the sample.
 vec3 media_inscatter(MediaRay ray, MediaSample here, float transmittance, inout uint texture_samples) {
   if (kSmokeAlone) return smoke_inscatter(here.smoke, transmittance, texture_samples);
   vec3 sum = vec3(0.0);

@@ -126,8 +126,8 @@ float depth_towards(SmokeSample here, vec3 towards, inout uint texture_samples) 
   return sum * side_depth(frame.look.extinction, volume.voxel_size);
 }
 
-/// Below this transmittance of what lies before it, noise casts no shadows within a voxel: they would not be seen, and
-/// their mean is 1.
+/// Where less than this fraction of a sample reaches the eye, noise casts no shadows within a voxel: they would not be
+/// seen, and on average they change nothing.
 const float kLeastSeen = 1.0 / 16.0;
 
 vec3 smoke_inscatter(SmokeSample here, float transmittance, inout uint texture_samples) {

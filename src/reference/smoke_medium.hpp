@@ -29,7 +29,7 @@ class SmokeMedium final : public Medium {
   float density(const glm::vec3& p_world) const;
 
  private:
-  /// Of the tile, and with its detail.
+  /// Noise at a point, without and with detail.
   struct Noise {
     glm::vec4 tile{0.5f}, detailed{0.5f};
   };

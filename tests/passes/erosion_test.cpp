@@ -92,7 +92,7 @@ TEST_F(ErosionTest, NoErosionLeavesAllThatIsDense) {
     for (const float left : erode(upload(noises), noises.size(), 1, 0, detail)) EXPECT_EQ(left, 1.0f);
 }
 
-/// Noises of the tile with their detail, which is that of other places.
+/// Adds detail to each noise of the tile, sampled at random places.
 std::vector<glm::vec4> with_detail(const std::vector<glm::vec4>& noises, float detail) {
   shared::SmokeLook look{};
   look.detail = detail;

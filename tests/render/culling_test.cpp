@@ -37,7 +37,7 @@ scenario::Scenario wide_stage(bool more_smoke, bool more_lights) {
   scene::Timeline timeline;
   timeline.smoke.voxels = 400;
   timeline.smoke.erosion = 0.6f;
-  timeline.smoke.detail = 0;  // multiplies what rounding is off by
+  timeline.smoke.detail = 0;  // it would amplify rounding errors
   timeline.smokes = {{0, {0, 2, 0}, {0, 0.2f, 0}}};
   if (more_smoke)
     for (int i = 0; i < 6; ++i) {

@@ -67,7 +67,7 @@ TEST_F(FilmTest, AFrameThatFollowsNoneIsTheImageOfItsTime) {
   const scenario::Scenario scene = scenario();
   for (const std::uint32_t scale : {1u, 4u}) {
     Playback film(context(), scene, options(scale, true)), stills(context(), scene, options(scale, false));
-    // Of a single sample steps are half as long where smoke has detail.
+    // Stills of one sample halve their steps where smoke has detail; films do not.
     stills.set_step_scale(2);
     EXPECT_EQ(film.draw(2, 48).rgba, stills.draw(2, 48).rgba);
     EXPECT_NE(film.draw(2.04, 49).rgba, stills.draw(2.04, 49).rgba);
