@@ -28,7 +28,7 @@ float eroded(float density) {
   for (int i = 0; i < 8; ++i) {
     const vec3 place = lattice_point(uint(i), vec3(0.5));
     const vec4 noise = textureLod(noise_tile, place, 0.0);
-    remaining[i >> 2][i & 3] = erode(frame.look, density, noise, noise);
+    remaining[i >> 2][i & 3] = effective_erode(frame.look, density, noise);
   }
   // Along half a billow (shared/noise_functions.h) the noise hardly changes.
   const float k = frame.look.extinction * 0.125 / frame.look.noise_frequency;

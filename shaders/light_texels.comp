@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
+#include "shared/light_side.h"
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 256) in;
@@ -10,6 +11,8 @@ layout(scalar, binding = kBindTexelLists) readonly buffer Bricks { TexelList bri
 layout(binding = kBindDensity) uniform sampler3D density_atlas;
 layout(scalar, binding = kBindLightRows) buffer Rows { uint rows[]; };
 layout(scalar, binding = kBindCells) readonly buffer Cells { uint cells[]; };
+layout(binding = kBindInscatter, rgba16f) uniform writeonly image3D inscatter;
+layout(binding = kBindLightSide, rgba16f) uniform writeonly image3D light_side;
 layout(scalar, binding = kBindLightChanges) readonly buffer Changes { LightChange changes[]; };
 layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/smoke_texels.glsl"
@@ -120,6 +123,12 @@ void main() {
     const uint texel = rows[head + kTexelListHead + i] & 0xffffu;
     if (!in_change(brick, texel)) atomicOr(grown[texel], kWasListed);
   }
+  // Where light is unknown; what interpolates it beyond the list can tell.
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u)
+    if ((grown[i] & kListed) == 0u) {
+      imageStore(inscatter, texel_in_atlas(brick.slot, i), vec4(0.0));
+      imageStore(light_side, texel_in_atlas(brick.slot, i), vec4(0.0));
+    }
   barrier();
   write_list(brick, lane);
 }

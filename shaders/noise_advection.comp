@@ -94,7 +94,7 @@ float retained_fraction(float density, vec3 p_world, vec3 displacement) {
   for (uint i = 0u; i < 4u; ++i) {
     const vec3 within = (vec3(i & 1u, i >> 1u, (i ^ i >> 1u) & 1u) - 0.5) * (0.5 * frame.volume.voxel_size);
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + within + displacement, frame.time);
-    remaining[i] = erode(frame.look, density, noise, noise);
+    remaining[i] = effective_erode(frame.look, density, noise);
   }
   return effective_density(remaining, frame.look.extinction * frame.volume.voxel_size) / max(density, 1e-3);
 }

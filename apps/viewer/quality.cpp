@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::array kLevels{
     Quality{"full", 1, 1, 1, 1, 1, 1.0f / 8, true, true},
-    Quality{"half", 1, 2, 1, 1, 1, 1.0f / 8, true},
-    Quality{"quarter", 1, 4, 1, 1, 1.0f / 2, 1.0f / 8},
+    Quality{"half", 1, 2, 1, 1, 1, 1.0f / 8, true, true},
+    Quality{"quarter", 1, 4, 1, 1, 1.0f / 2, 1.0f / 8, false, true},
     Quality{"coarse", 1, 4, 1.5f, 4, 1.0f / 8, 1.0f / 16},
     Quality{"small", 0.5f, 2, 1.5f, 4, 1.0f / 16, 1.0f / 32},
     Quality{"smallest", 0.5f, 4, 2, 4, 1.0f / 16, 1.0f / 64},

@@ -66,7 +66,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
   float factor = step_factor(gathered.transmittance);
   Steps steps = steps_between(begin, end, jitter, factor);
   for (float t = begin + jitter * steps.ds; t < steps.after_last;) {
-    const MediaSpan span = media_span(ray, media, t, steps.ds);
+    MediaSpan span = media_span(ray, media, t, steps.ds);
     float t_stop = min(span.t_stop, steps.after_last);
     bool lengthened = false;
     // Steps that are all alike are one.
@@ -75,7 +75,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
     for (t = span.t_first; t < t_stop; t += alike * steps.ds) {
       const float dt = alike * steps.ds;
       const vec3 p_world = ray.origin + ray.direction * t;
-      const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
+      const MediaSample here = sample_media(media, span, p_world, t, gathered.transmittance, gathered.texture_samples);
       ++gathered.steps;
       const float passed_log2 = log2_transmittance(here, dt);
       if (kOnlyAbsorbs) {
@@ -84,7 +84,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
       }
       if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
-        const vec3 light = media_inscatter(media, here, gathered.transmittance, gathered.texture_samples);
+        const vec3 light = media_inscatter(span, here, gathered.texture_samples);
         if (add_step(t - jitter * steps.ds, dt, passed_log2, light, gathered)) return;
         // From the end of this step on they may be longer; more than rounding must remain.
         const float longer = step_factor(gathered.transmittance), rest = t + (1.0 - jitter) * steps.ds;

@@ -72,12 +72,14 @@ struct MediaSample {
   VolumesSample volumes;
 };
 
-MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, inout uint texture_samples) {
+/// `transmittance`: from the eye to the sample.
+MediaSample sample_media(MediaRay ray, inout MediaSpan span, vec3 p_world, float t, float transmittance,
+                         inout uint texture_samples) {
   MediaSample here;
   if (kHasSmoke) {
     here.smoke.density = 0.0;
     if (kSmokeAlone || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
-      here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
+      here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, transmittance, texture_samples);
   }
   if (kHasVolumes) {
     here.volumes = VolumesSample(0.0, vec3(0.0), vec3(0.0));
@@ -96,14 +98,13 @@ float log2_transmittance(MediaSample here, float ds) {
 }
 
 /// Radiance towards the eye, per unit of media_albedo, where the transmittance of a sample is below 1.
-/// `transmittance`: from the eye to the sample.
-vec3 media_inscatter(MediaRay ray, MediaSample here, float transmittance, inout uint texture_samples) {
-  if (kSmokeAlone) return smoke_inscatter(here.smoke, transmittance, texture_samples);
+vec3 media_inscatter(MediaSpan span, MediaSample here, inout uint texture_samples) {
+  if (kSmokeAlone) return smoke_inscatter(span.smoke, here.smoke, texture_samples);
   vec3 sum = vec3(0.0);
   float extinction = 0.0;
   if (kHasSmoke && here.smoke.density > 0.0) {
     const float smoke = frame.look.extinction * here.smoke.density;
-    sum += smoke * frame.look.albedo * smoke_inscatter(here.smoke, transmittance, texture_samples);
+    sum += smoke * frame.look.albedo * smoke_inscatter(span.smoke, here.smoke, texture_samples);
     extinction += smoke;
   }
   if (kHasVolumes) {

@@ -78,10 +78,10 @@ void add_smoke_block(WorldRay world, SmokeRay ray, float t, float ds, uint count
     if (t_step > span.bricks.t_next - 0.5 * ds) span = smoke_span(world, t_step, ds);
     if (t_step < span.bricks.t_first || t_step >= span.bricks.t_stop) continue;
     const SmokeSample here =
-        sample_smoke(ray, span, world.origin + world.direction * t_step, t_step, texture_samples);
+        sample_smoke(ray, span, world.origin + world.direction * t_step, t_step, 1.0, texture_samples);
     if (here.density <= 0.0) continue;
     const float extinction = frame.look.extinction * here.density;
-    block.steps[step].light += extinction * frame.look.albedo * smoke_inscatter(here, 1.0, texture_samples);
+    block.steps[step].light += extinction * frame.look.albedo * smoke_inscatter(span, here, texture_samples);
     block.steps[step].extinction += extinction;
   }
   next_smoke = span.bricks.slot == kNoSlot ? span.bricks.t_next : t;

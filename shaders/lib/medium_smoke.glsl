@@ -8,21 +8,20 @@
 #include "lib/frame.glsl"
 #include "lib/noise_tile.glsl"
 #include "lib/ray_holes.glsl"
+#include "shared/fine_light.h"
 #include "shared/light_side.h"
 #include "shared/media.h"
 
 const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kFineShadows = (kMedia & kMediumFineShadows) != 0u;
 const bool kHasDetail = (kMedia & kMediumDetail) != 0u;
-/// Below this fraction of light from one side it casts no fine shadows.
-const float kLeastSide = 0.02;
-/// So far beyond its voxels the texels of a brick reach, less the resolution of the texture unit [voxels].
-const float kInside = 0.5 - 1.0 / 64.0;
-
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
 layout(binding = kBindLightSide) uniform sampler3D light_side_atlas;
+layout(binding = kBindFineLight) uniform sampler3D fine_light;
 
+layout(binding = kBindDetailTile) uniform sampler3D detail_tile;
 layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
+layout(scalar, binding = kBindFinePages) readonly buffer FinePages { uint fine_pages[]; };
 
 struct SmokeRay {
   RayHoles holes;
@@ -34,7 +33,9 @@ SmokeRay smoke_ray(vec2 position_px) {
 
 struct SmokeSpan {
   BrickSpan bricks;
+  vec4 side;        // towards the light, and the fraction that comes from there; unknown: below 0
   vec3 uvw_offset;  // uvw = p_world * texels_per_metre + uvw_offset
+  vec3 fine_corner;  // of the page of fine light [texels]; below 0: none
 };
 
 SmokeSpan smoke_span(WorldRay world, float t, float ds) {
@@ -46,6 +47,7 @@ SmokeSpan smoke_span(WorldRay world, float t, float ds) {
   const uint slot = slot_at(volume.bricks, brick, edge);
   edge = slot != kNoSlot ? kBrickVoxels : edge;
   SmokeSpan span;
+  span.side = vec4(-1.0);
   const BrickAt at = BrickAt(vec3((brick * kBrickVoxels) & -edge), float(edge), slot, 0.0);
   span.bricks = brick_span(ray, inverse_of(ray), at, t, ds);
   // Cell 0 of a brick begins half a voxel before it.
@@ -55,15 +57,16 @@ SmokeSpan smoke_span(WorldRay world, float t, float ds) {
   }
   const vec3 corner = atlas_corner(volume.bricks, slot) - span.bricks.low;
   span.uvw_offset = corner * volume.bricks.atlas_texel - volume.origin_world * volume.texels_per_metre;
+  const uint page = kFineShadows && slot != kNoSlot ? fine_pages[slot] : 0u;
+  span.fine_corner = page > 0u ? vec3(fine_page_corner(page - 1u)) : vec3(-1.0);
   return span;
 }
 
 struct SmokeSample {
   float density;  // after erosion and holes; in a wall below 0: none
-  vec3 uvw, light_offset;
-  // With fine shadows.
-  vec3 p_world, low;  // low corner of the brick [voxels]
-  float even;         // density before erosion
+  vec3 p_world, uvw;
+  vec3 light_offset;  // from the point to its light lookup [voxels]
+  float relief;       // factor of its light: shadows of detail
 };
 
 /// The look that is drawn. Light in the smoke has detail's steep rims even where it is not drawn.
@@ -73,7 +76,42 @@ SmokeLook drawn_look() {
   return look;
 }
 
-SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, inout uint texture_samples) {
+/// Detail of the noise at a displaced point.
+vec2 detail_at(vec3 p_noise, float level, inout uint texture_samples) {
+  ++texture_samples;
+  return detail_of(textureLod(detail_tile, detail_point(frame.look, p_noise, frame.time), level).rg);
+}
+
+/// Behind what lets less than this through, shadows of detail are not seen; on average they change nothing.
+const float kLeastSeen = 1.0 / 8.0;
+/// Below this fraction of light from one side its direction is unknown.
+const float kLeastSide = 0.02;
+
+/// Where most light comes from at a point of the in-scatter, and the fraction that does. Else from above.
+vec4 side_at(vec3 uvw) {
+  const vec3 side = textureLod(light_side_atlas, uvw, 0.0).xyz;
+  const float fraction = length(side);
+  return fraction < kLeastSide ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(side / fraction, fraction);
+}
+
+/// A sample's noise, and its density.
+struct SmokeNoise {
+  vec3 p;      // displaced
+  vec2 noise;  // of the tile
+  float weight, level;  // of detail
+  float density, left;  // of which erosion leaves a fraction
+};
+
+float relief_at(SmokeNoise here, vec4 side, inout uint texture_samples) {
+  const SmokeLook look = frame.look;
+  const vec2 detail = detail_at(here.p + 0.5 * relief_path(look) * side.xyz, here.level, texture_samples);
+  return relief(look, here.left, eroded_fraction(look, here.density, here.noise + here.weight * detail),
+                effective_fraction(look, here.density, here.noise), side.w);
+}
+
+/// `transmittance`: from the eye to the sample.
+SmokeSample sample_smoke(SmokeRay ray, inout SmokeSpan span, vec3 p_world, float t, float transmittance,
+                         inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
   const VolumeLayout volume = frame.volume;
   const vec3 uvw = p_world * volume.texels_per_metre + span.uvw_offset;
@@ -88,58 +126,51 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, in
   }
   float density = smoke.density;
   ++texture_samples;
+  SmokeSample here = SmokeSample(density, p_world, uvw, smoke.light_offset, 1.0);
 
   // Noise, for erosion and for the rims of holes.
   if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
     const vec3 p_noise = p_world + texel.gba;
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_noise, frame.time);
     ++texture_samples;
-    vec4 detailed = noise;
-    if (kHasDetail) {
-      const vec2 weights = detail_weights(frame.look, t * frame.pixel_width);
-      // The rims of holes have it wherever they are.
-      if (any_hole_at(ray.holes, t) || detail_matters(frame.look, density, noise, weights))
-        detailed = detailed_noise(noise_tile, frame.look, p_noise, frame.time, noise, weights, texture_samples);
+    const vec2 erosion_noise = billows_and_wisps(noise);
+    const float pixel = t * frame.pixel_width;
+    const float weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0, level = detail_level(frame.look, pixel);
+    const float threshold = erosion_threshold(frame.look, density, erosion_noise);
+    const bool matters = kHasDetail && detail_matters(frame.look, density, threshold, weight);
+    vec2 detail = vec2(0.0);
+    // The rims of holes have it wherever they are.
+    if (matters || (weight > 0.0 && any_hole_at(ray.holes, t))) detail = detail_at(p_noise, level, texture_samples);
+    float left = 1.0;
+    if (frame.look.erosion > 0.0) {
+      left = eroded_fraction(drawn_look(), density, erosion_noise + weight * detail);
+      density = left * density_inside(frame.look, noise);
     }
-    if (frame.look.erosion > 0.0) density = erode(drawn_look(), density, noise, detailed);
     if (kHoles != kHolesNone)
-      density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * detailed.g - 1.0, density > 0.0);
+      density *= remaining_after_holes(ray.holes, t, p_world, rim_noise(noise, detail, weight), density > 0.0);
+    if (kFineShadows && matters && density > 0.0 && transmittance > kLeastSeen) {
+      if (span.side.w < 0.0) {
+        span.side = side_at(uvw + smoke.light_offset * volume.bricks.atlas_texel);
+        ++texture_samples;
+      }
+      here.relief = relief_at(SmokeNoise(p_noise, erosion_noise, weight, level, smoke.density, left), span.side,
+                              texture_samples);
+    }
   }
-  return SmokeSample(density, uvw, smoke.light_offset, p_world, span.bricks.low, smoke.density);
+  here.density = density;
+  return here;
 }
 
-/// Optical depth from a sample towards the light, over the path of shared/light_side.h, without holes.
-float depth_towards(SmokeSample here, vec3 towards, inout uint texture_samples) {
+vec3 smoke_inscatter(SmokeSpan span, SmokeSample here, inout uint texture_samples) {
   const VolumeLayout volume = frame.volume;
-  const vec3 local = (here.p_world - volume.origin_world) * volume.voxels_per_metre - here.low;
-  float sum = 0.0;
-  for (uint i = 0u; i < kSideSamples; ++i) {
-    const vec3 offset = towards * side_sample(i);
-    // Beyond the texels of the brick, as at their border; not on it, where rounding would meet other bricks.
-    const vec3 at = clamp(local + offset, vec3(-kInside), vec3(float(kBrickVoxels) + kInside)) - local;
-    const vec4 texel = textureLod(density_displacement_atlas, here.uvw + at * volume.bricks.atlas_texel, 0.0);
-    const vec3 p_world = here.p_world + offset * volume.voxel_size;
-    const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
-    sum += erode(drawn_look(), texel.r < 0.0 ? here.even : texel.r, noise, noise);
-    texture_samples += 2u;
-  }
-  return sum * side_depth(frame.look.extinction, volume.voxel_size);
-}
-
-/// Where less than this fraction of a sample reaches the eye, noise casts no shadows within a voxel: they would not be
-/// seen, and on average they change nothing.
-const float kLeastSeen = 1.0 / 16.0;
-
-vec3 smoke_inscatter(SmokeSample here, float transmittance, inout uint texture_samples) {
   ++texture_samples;
-  const vec3 uvw = here.uvw + here.light_offset * frame.volume.bricks.atlas_texel;
-  const vec3 light = textureLod(inscatter_atlas, uvw, 0.0).rgb;
-  if (!kFineShadows || transmittance < kLeastSeen) return light;
-  ++texture_samples;
-  const vec4 side = textureLod(light_side_atlas, uvw, 0.0);
-  const float fraction = length(side.xyz);
-  if (fraction < kLeastSide) return light;
-  return light * exp(fraction * (side.a - depth_towards(here, side.xyz / fraction, texture_samples)));
+  if (!kFineShadows || span.fine_corner.x < 0.0)
+    return here.relief *
+           textureLod(inscatter_atlas, here.uvw + here.light_offset * volume.bricks.atlas_texel, 0.0).rgb;
+  const vec3 voxel = (here.p_world - volume.origin_world) * volume.voxels_per_metre + here.light_offset;
+  const vec3 texel = span.fine_corner + fine_page_position(voxel - span.bricks.low);
+  const vec4 light = textureLod(fine_light, texel / vec3(textureSize(fine_light, 0)), 0.0);
+  return here.relief / max(light.a, 1.0 / 1024.0) * light.rgb;
 }
 
 #endif

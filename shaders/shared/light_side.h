@@ -1,8 +1,8 @@
 // From which side the light in the smoke comes, for its finest shadows: those of noise within a voxel or two.
 //
-// A texel of the smoke knows the noise by one value alone, so billows have no side in shadow. The march therefore
-// replaces the first kSideVoxels of the shadow ray of each sample: exp(-depth) of what the ray met there, through
-// texels, by that of the noise itself. What is behind is that of the texel's ray.
+// A texel of the smoke knows the noise by one value alone, so billows have no side in shadow. Fine light (fine_light.h)
+// therefore replaces the first kSideVoxels of the shadow ray of each point: exp(-depth) of what the ray met there,
+// through texels, by that of the noise itself. What is behind is that of the texel's ray.
 #ifndef BRUME_LIGHT_SIDE_H
 #define BRUME_LIGHT_SIDE_H
 #include "shared/shim.h"

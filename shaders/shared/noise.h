@@ -6,6 +6,10 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindNoiseTile, 21u);
 SHARED_BINDING(kBindBlueNoise, 22u);
+SHARED_BINDING(kBindDetailTile, 106u);
+
+/// Texels per axis of the tile of detail (erosion.h).
+SHARED_CONST uint kDetailTexels = 128u;
 
 struct NoiseParams {
   uint size;          // texels per axis of the tile

@@ -31,7 +31,7 @@ using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::l
     glm::lessThanEqual, glm::mix;
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4, glm::mat4x3, glm::bvec3;
-using glm::cos, glm::exp, glm::log, glm::pow, glm::sin, glm::sqrt, glm::tan;
+using glm::cos, glm::exp, glm::log, glm::log2, glm::pow, glm::sin, glm::sqrt, glm::tan;
 using glm::acos, glm::atan;
 using glm::normalize, glm::sign, glm::smoothstep, glm::step;
 using glm::packSnorm2x16, glm::unpackSnorm2x16, glm::unpackUnorm4x8;

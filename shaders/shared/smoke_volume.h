@@ -11,8 +11,10 @@
 //                half floats, for rays to lights. R: mean density of the texel after erosion,
 //                kInSolid in a solid voxel; G: the fraction of the density that erosion retains
 //   inscatter    half floats: radiance scattered towards the eye, per unit of albedo
+//                A: 1, or 0 where light is unknown, far from smoke
 //   light_side   half floats, where noise erodes the smoke (light_side.h). RGB: the direction that most light comes
 //                from, as long as the fraction of the light that does; A: the optical depth that is replaced
+//   fine_light   light at a finer resolution for bricks near the eye, see fine_light.h
 //   cells        per slot 9^3 uints, one per cell that overlaps the brick: boundary cell + 1, or 0 where the cell has
 //                no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   filled       per slot the box of cells that may hold smoke, see pack_cells; rays skip the rest of the brick

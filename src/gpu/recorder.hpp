@@ -143,7 +143,7 @@ class Recorder {
     glm::uvec2 size_px{0};
   };
   void blit(const Image& from, const WindowImage& to);
-  /// Generates the mip levels of a 2D image from its first.
+  /// Generates the mip levels of an image from its first.
   void make_mip_levels(const Image& image);
 
   struct Attachments {

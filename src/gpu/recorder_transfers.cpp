@@ -229,9 +229,9 @@ void Recorder::make_mip_levels(const Image& image) {
   for (std::uint32_t level = 1; level < image.info().mip_levels; ++level) {
     VkImageBlit blit{};
     blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
-    blit.srcOffsets[1] = {half(size.x, level - 1), half(size.y, level - 1), 1};
+    blit.srcOffsets[1] = {half(size.x, level - 1), half(size.y, level - 1), half(size.z, level - 1)};
     blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
-    blit.dstOffsets[1] = {half(size.x, level), half(size.y, level), 1};
+    blit.dstOffsets[1] = {half(size.x, level), half(size.y, level), half(size.z, level)};
     add_blit(image, image.handle(), VK_IMAGE_LAYOUT_GENERAL, blit, VK_FILTER_LINEAR);
     use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
         VK_IMAGE_LAYOUT_GENERAL);

@@ -36,7 +36,6 @@ scene::Camera camera_of(const brume_camera& camera) {
 
 scene::SmokeOptions options_of(const brume_smoke_look& look, float extinction) {
   scene::SmokeOptions options;
-  options.detail = 0;
   options.extinction = extinction;
   options.albedo = vec3_of(look.albedo);
   require(is_within(options.albedo, 0, 1), "`look.albedo` must be from 0 to 1");

@@ -1,6 +1,7 @@
 #include "passes/march.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/fine_light.h"
 #include "shared/gbuffer.h"
 #include "shared/light_side.h"
 #include "shared/noise.h"
@@ -47,6 +48,7 @@ MarchPass::MarchPass(gpu::Context& context, const Options& options)
       split_by_holes_(context.info().kind == "cpu"),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
+      repeat_mips_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}),
       nearest_(context, {VK_FILTER_NEAREST}) {
   if (options.media != 0) reserve(options.media);
 }
@@ -118,8 +120,11 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
                     {shared::kBindCorners, gpu::read(in.smoke.corners)},
                     {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
+                    {shared::kBindFineLight, gpu::sampled(in.fine_light, linear_)},
                     {shared::kBindLightSide, gpu::sampled(in.smoke.light_side, linear_)},
+                    {shared::kBindFinePages, gpu::read(in.fine_pages)},
                     {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
+                    {shared::kBindDetailTile, gpu::sampled(in.detail, repeat_mips_)},
                     {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
                     {shared::kBindBlueNoise, gpu::sampled(in.blue_noise, nearest_)},
                     {shared::kBindHoles, gpu::read(in.holes.holes)},

@@ -49,10 +49,13 @@ class MarchPass {
     const gpu::Buffer& frame;
     std::uint32_t media;  ///< Those that are marched through; reserved, with the kind of rays.
     const SmokeResources& smoke;
+    const gpu::Image& fine_light;   ///< FineLightPass::light.
+    const gpu::Buffer& fine_pages;  ///< FineLightPass::pages.
     VolumeResources volumes;
     const gpu::Image& volume_light;  ///< VolumeLightPass::light.
     const gpu::Image& sun_depths;    ///< VolumeLightPass::sun_depths.
     const gpu::Image& noise;
+    const gpu::Image& detail;  ///< Of the noise.
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
     const HoleResources& holes;
@@ -96,7 +99,7 @@ class MarchPass {
   /// without a GPU runs the code for holes even where there are none; on a GPU the workgroups that end at
   /// once cost more.
   const bool split_by_holes_;
-  gpu::Sampler linear_, repeat_, nearest_;
+  gpu::Sampler linear_, repeat_, repeat_mips_, nearest_;
 };
 
 }  // namespace brume::passes

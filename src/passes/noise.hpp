@@ -14,12 +14,17 @@ class NoisePass {
  public:
   explicit NoisePass(gpu::Context& context);
   void record(gpu::Recorder& recorder, const gpu::Image& tile, const shared::NoiseParams& params) const;
+  /// Fills a tile of detail from a tile of noise (shared/erosion.h): of make_detail_tile.
+  void record_detail(gpu::Recorder& recorder, const gpu::Image& tile, const gpu::Image& detail) const;
 
  private:
-  gpu::ComputePipeline pipeline_;
+  gpu::ComputePipeline pipeline_, detail_pipeline_;
+  gpu::Sampler repeat_;
 };
 
 /// An image that the pass can fill.
 gpu::Image make_noise_tile(gpu::Context& context, std::uint32_t size);
+/// RG8, shared::kDetailTexels^3 texels, and its mip levels.
+gpu::Image make_detail_tile(gpu::Context& context);
 
 }  // namespace brume::passes

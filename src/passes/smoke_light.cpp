@@ -113,6 +113,8 @@ void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& i
                     {shared::kBindTexelLists, gpu::read(listed_bricks_)},
                     {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
                     {shared::kBindLightRows, gpu::read_write(texel_lists_)},
+                    {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                    {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
                     {shared::kBindCells, gpu::read(in.smoke.cells)},
                     {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLightChanges, gpu::read(changes_)},

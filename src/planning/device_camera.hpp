@@ -13,4 +13,9 @@ constexpr float kNearPlane = 0.05f;  // [m]
 /// the lens: all of them see the plane that is sharp alike.
 shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample = {});
 
+/// Width of a pixel at a distance of 1 m, in the middle of the image [m].
+inline float pixel_width(const shared::Camera& camera, glm::uvec2 size_px) {
+  return 2 * glm::length(camera.up) / static_cast<float>(size_px.y);
+}
+
 }  // namespace brume::planning

@@ -85,8 +85,8 @@ struct Quality {
   /// 255; > 0. Above 1 fewer pixels are marched one by one, and the image may show what that of the full
   /// march hides.
   float resolve_error_scale = 1;
-  /// Noise within a voxel shadows the smoke, where there is noise (shaders/shared/light_side.h): billows have
-  /// a side in shadow, and the march takes up to twice as long.
+  /// Noise within a voxel shadows the smoke near the eye, where there is noise
+  /// (shaders/shared/fine_light.h): billows have a side in shadow, those of detail too.
   bool fine_shadows = true;
   /// The noise of smoke has its detail (shaders/shared/erosion.h): without it nothing is finer than a cell of
   /// the tile, and the march takes two thirds of the time.

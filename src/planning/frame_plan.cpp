@@ -153,6 +153,7 @@ FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Al
       holes{.holes = FrameVector<shared::Hole>(memory), .reaches = FrameVector<shared::HoleReach>(memory)},
       noise{.motions = FrameVector<shared::CloudMotion>(memory),
             .impulses = FrameVector<shared::Impulse>(memory)},
+      fine_light{.slots = FrameVector<std::uint32_t>(memory), .pages = FrameVector<std::uint32_t>(memory)},
       volume_light{.sweeps = FrameVector<shared::VolumeSweep>(memory)},
       indirect_light{.lights = FrameVector<shared::Light>(memory)} {}
 
@@ -174,6 +175,9 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   plan_volume_light(plan, history);
   plan_smoke_shadow_update(plan, target, history);
   plan_smoke_light(plan, history);
+  if ((plan.media.media & shared::kMediumFineShadows) != 0)
+    plan.fine_light = plan_fine_light(*plan.smoke, plan.visibility, plan.camera.eye_world,
+                                      pixel_width(plan.camera, plan.size_px), history.memory.get());
   plan.view_slice = input.debug.slice.value_or(
       slice_through_smoke(smoke.volume, input.view.camera.position_world, input.view.camera.target_world));
   return plan;

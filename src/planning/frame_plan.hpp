@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planning/decal_plan.hpp"
+#include "planning/fine_light_plan.hpp"
 #include "planning/frame_input.hpp"
 #include "planning/hole_plan.hpp"
 #include "planning/indirect_light_plan.hpp"
@@ -66,6 +67,7 @@ struct FramePlan {
   HolePlan holes;
   NoisePlan noise;
   std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
+  FineLightPlan fine_light;
   const SmokeLightPlan* smoke_light = nullptr;  ///< In the history, until it plans again; not null in a plan.
 
   VolumeLightPlan volume_light;

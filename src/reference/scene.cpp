@@ -35,6 +35,10 @@ const smoke::NoiseTile& noise_tile() {
   static const smoke::NoiseTile tile = smoke::make_noise_tile(smoke::kSmokeNoise);
   return tile;
 }
+const smoke::SmokeNoise& smoke_noise() {
+  static const smoke::SmokeNoise noise{noise_tile(), smoke::make_detail_tile(noise_tile())};
+  return noise;
+}
 
 /// Where volume i is at the steps of the shutter, from where it is at first; empty: it rests.
 std::vector<glm::mat4> motion_of(std::size_t i, const planning::FrameInput& frame,
@@ -121,7 +125,7 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
                                   std::span<const planning::FrameInput> later) {
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
-    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise_tile, masks));
+    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, smoke_noise, masks));
   for (std::size_t i = 0; i < frame.volumes.size(); ++i) {
     media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], noise_tile));
     media.back()->set_motion(motion_of(i, frame, later));

@@ -46,7 +46,8 @@ std::uint32_t largest_in_cell(const smoke::SmokeVolume& volume, std::uint32_t sl
 }  // namespace
 
 SmokeMedium::SmokeMedium(const planning::SmokeInput& smoke,
-                         const std::function<const smoke::NoiseTile&()>& noise, const smoke::MaskAtlas* masks)
+                         const std::function<const smoke::SmokeNoise&()>& noise,
+                         const smoke::MaskAtlas* masks)
     : Medium(smoke.look.phase), input_(smoke), masks_(masks) {
   if (smoke.look.erosion > 0 || (!smoke.holes.empty() && smoke.look.hole_rim > 0)) noise_ = &noise();
   if (noise_ && smoke.state)
@@ -113,15 +114,14 @@ SmokeMedium::Noise SmokeMedium::noise_at(const glm::vec3& p_world, const glm::ve
     const auto row = [&](int offset) { return glm::mix(texel[offset], texel[offset + 1], f.x); };
     p += glm::mix(glm::mix(row(0), row(10), f.y), glm::mix(row(100), row(110), f.y), f.z);
   }
-  const auto octave = [&](std::uint32_t i) {
-    return smoke::noise_at(*noise_, shared::noise_point(input_.look, p, input_.time, i));
-  };
-  const glm::vec4 tile = octave(0);
-  const glm::vec2 weights = shared::detail_weights(input_.look, 0);
-  // The rims of holes have it wherever they are.
-  if (holes_of_[slot].empty() && !shared::detail_matters(input_.look, density, tile, weights))
-    return {tile, tile};
-  return {tile, shared::with_detail(tile, octave(1), octave(2), weights)};
+  const shared::SmokeLook& look = input_.look;
+  const glm::vec4 tile = smoke::noise_at(noise_->tile, shared::noise_point(look, p, input_.time));
+  // The rims of holes have detail wherever they are.
+  const float threshold = shared::erosion_threshold(look, density, shared::billows_and_wisps(tile));
+  if (holes_of_[slot].empty() && !shared::detail_matters(look, density, threshold, look.detail))
+    return {tile, glm::vec2(0)};
+  const glm::vec4 texel = smoke::noise_at(noise_->detail, shared::detail_point(look, p, input_.time));
+  return {tile, shared::detail_of(glm::vec2(texel))};
 }
 
 float SmokeMedium::density(const glm::vec3& p_world) const {
@@ -133,12 +133,13 @@ float SmokeMedium::density(const glm::vec3& p_world) const {
   const std::uint32_t slot = volume.slot_at(brick);
   const shared::SmokeLook& look = input_.look;
   const Noise noise = noise_ ? noise_at(p_world, p_voxel, slot, brick, density) : Noise{};
-  if (look.erosion > 0) density = shared::erode(look, density, noise.tile, noise.detailed);
+  if (look.erosion > 0) density = shared::erode(look, density, noise.tile, noise.detail, look.detail);
   static const smoke::MaskAtlas kNoMasks;
   for (const std::uint32_t i : holes_of_[slot]) {
     if (!(density > 0)) return 0;
     const shared::Hole& hole = input_.holes[i];
-    const float rim = (2 * noise.detailed.g - 1) * shared::hole_rim(hole, look.hole_rim);
+    const float rim =
+        shared::rim_noise(noise.tile, noise.detail, look.detail) * shared::hole_rim(hole, look.hole_rim);
     density *= 1 - smoke::hole_strength_masked(hole, p_world, input_.time, rim, masks_ ? *masks_ : kNoMasks);
   }
   return density;

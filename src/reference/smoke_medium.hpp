@@ -16,7 +16,7 @@ class SmokeMedium final : public Medium {
  public:
   /// `smoke` has a volume; it and what it points to, the noise and the masks must outlive the medium. Asks
   /// for the noise if it needs any.
-  SmokeMedium(const planning::SmokeInput& smoke, const std::function<const smoke::NoiseTile&()>& noise,
+  SmokeMedium(const planning::SmokeInput& smoke, const std::function<const smoke::SmokeNoise&()>& noise,
               const smoke::MaskAtlas* masks);
 
   float extinction(const glm::vec3& p_world) const override {
@@ -29,9 +29,10 @@ class SmokeMedium final : public Medium {
   float density(const glm::vec3& p_world) const;
 
  private:
-  /// Noise at a point, without and with detail.
+  /// Noise at a point.
   struct Noise {
-    glm::vec4 tile{0.5f}, detailed{0.5f};
+    glm::vec4 tile{0.5f};
+    glm::vec2 detail{0};
   };
   Noise noise_at(const glm::vec3& p_world, const glm::vec3& p_voxel, std::uint32_t slot,
                  const glm::ivec3& brick, float density) const;
@@ -40,7 +41,7 @@ class SmokeMedium final : public Medium {
 
   const planning::SmokeInput& input_;
   const smoke::MaskAtlas* masks_;
-  const smoke::NoiseTile* noise_ = nullptr;           // null: none is needed
+  const smoke::SmokeNoise* noise_ = nullptr;          // null: none is needed
   std::vector<glm::vec3> displacements_;              // of the noise, by slot and texel; empty: none
   std::vector<std::vector<std::uint32_t>> holes_of_;  // by slot: those that may reach its brick
 };

@@ -62,7 +62,7 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.holes = plan.holes.layout();
   frame.frame_index = input.view.frame_index;
   frame.time = input.smoke.time;
-  frame.pixel_width = 2 * glm::length(plan.camera.up) / static_cast<float>(plan.size_px.y);
+  frame.pixel_width = planning::pixel_width(plan.camera, plan.size_px);
   frame.exposure = input.view.exposure;
   frame.tone = static_cast<std::uint32_t>(input.view.tone);
   frame.texture_bias = texture_bias(input.view.sample);

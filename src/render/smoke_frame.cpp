@@ -29,9 +29,11 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const 
       volume_upload_(context),
       hole_clusters_(context, stream, options.masks ? *options.masks : smoke::MaskAtlas()),
       noise_(passes::make_noise_tile(context, smoke::kSmokeNoise.size)),
+      detail_(passes::make_detail_tile(context)),
       noise_advection_pass_(context),
       shadow_pass_(context),
       light_pass_(context),
+      fine_light_pass_(context),
       volume_light_pass_(context),
       raycast_(options.raycast),
       march_pass_(context,
@@ -48,7 +50,10 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const 
 void SmokeFrame::make_noise() {
   if (has_noise_) return;
   const passes::NoisePass noise(context_);
-  stream_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
+  stream_.run([&](gpu::Recorder& recorder) {
+    noise.record(recorder, noise_, smoke::kSmokeNoise);
+    noise.record_detail(recorder, noise_, detail_);
+  });
   has_noise_ = true;
 }
 
@@ -78,6 +83,7 @@ void SmokeFrame::trim(glm::ivec3 atlas_bricks) {
   smoke_upload_.trim(atlas_bricks);
   noise_advection_pass_.trim();
   light_pass_.trim();
+  fine_light_pass_.trim();
 }
 
 void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
@@ -90,6 +96,7 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   if (plan.volume_light.is_lit && volume_light_pass_.reserve(plan.volume_light, plan.media.casters))
     plan.volume_light.update = true;
   if ((plan.media.media & shared::kMediumDisturbed) != 0) make_noise();
+  fine_light_pass_.reserve(plan.fine_light);
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(plan.media.casters);
   const auto rays = prepare_all_        ? passes::MarchRays::all
@@ -97,8 +104,10 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
                                         : passes::MarchRays::of_tiles;
   march_pass_.reserve(plan.media.media, rays);
   // With or without, whatever later frames choose.
-  if (prepare_all_ && (plan.media.media & shared::kMediumSmoke) != 0)
+  if (prepare_all_ && (plan.media.media & shared::kMediumSmoke) != 0) {
     march_pass_.reserve(plan.media.media ^ shared::kMediumFineShadows, rays);
+    march_pass_.reserve(plan.media.media & ~(shared::kMediumFineShadows | shared::kMediumDetail), rays);
+  }
   if (input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
       counting_march_.emplace(context_,
@@ -119,6 +128,7 @@ void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, c
   if (plan.smoke) noise_advection_pass_.upload(recorder, plan.noise);
   if (plan.smoke_shadows) passes::SmokeShadowPass::upload(recorder, *plan.smoke_shadows, shadows_);
   light_pass_.upload(recorder, *plan.smoke_light);
+  fine_light_pass_.upload(recorder, plan.fine_light);
   if (march_tiles_) passes::ResolvePass::upload(recorder, *march_tiles_);
 }
 
@@ -160,6 +170,7 @@ void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, co
     if (i < parts.size())
       recorder.concurrently([&] { light_pass_.record_gathers(recorder, inputs, parts[i]); });
   }
+  fine_light_pass_.record(recorder, plan.fine_light, {in.frame, resources(), noise_});
 }
 
 template <typename Record>
@@ -193,10 +204,13 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
   return {.frame = in.frame,
           .media = plan.media.media,
           .smoke = resources(),
+          .fine_light = fine_light_pass_.light(),
+          .fine_pages = fine_light_pass_.pages(),
           .volumes = volume_upload_.resources(),
           .volume_light = volume_light_pass_.light(),
           .sun_depths = volume_light_pass_.sun_depths(),
           .noise = noise_,
+          .detail = detail_,
           .depth = in.targets.gbuffer.depth,
           .blue_noise = in.blue_noise,
           .holes = holes()};

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "passes/accumulate.hpp"
+#include "passes/fine_light.hpp"
 #include "passes/march.hpp"
 #include "passes/noise_advection.hpp"
 #include "passes/raycast.hpp"
@@ -147,7 +148,7 @@ class SmokeFrame {
   passes::VolumeUpload volume_upload_;
   passes::HoleClusters hole_clusters_;
   passes::SmokeShadows shadows_;
-  gpu::Image noise_;
+  gpu::Image noise_, detail_;
   gpu::Buffer counters_;
   std::optional<passes::MarchTiles> march_tiles_;  ///< Where march_scale_ is above 1.
 
@@ -155,6 +156,7 @@ class SmokeFrame {
   passes::NoiseAdvectionPass noise_advection_pass_;
   passes::SmokeShadowPass shadow_pass_;
   passes::SmokeLightPass light_pass_;
+  passes::FineLightPass fine_light_pass_;
   passes::VolumeLightPass volume_light_pass_;
   std::optional<passes::RaycastForm> raycast_;
   std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/float4.hpp"
 #include "core/tasks.hpp"
+#include "shared/erosion.h"
 #include "shared/noise_functions.h"
 
 namespace brume::smoke {
@@ -30,20 +31,33 @@ Float4 lerp4(Float4 a, Float4 b, float f) {
   return a + f * (b - a);
 }
 
-}  // namespace
-
-NoiseTile make_noise_tile(const shared::NoiseParams& params) {
-  const std::uint32_t size = params.size;
+/// A tile of the values at its texels, [0, 1], over all threads.
+template <typename ValueAt>
+NoiseTile make_tile(std::uint32_t size, const ValueAt& value_at) {
   NoiseTile tile{size, std::vector<glm::u8vec4>(std::size_t{size} * size * size)};
   parallel_for(tile.texels.size(), size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto n = static_cast<std::uint32_t>(i);
-      const glm::vec4 noise =
-          shared::smoke_noise_texel(params, glm::uvec3(n % size, n / size % size, n / (size * size)));
+      const glm::vec4 noise = value_at(glm::uvec3(n % size, n / size % size, n / (size * size)));
       tile.texels[i] = glm::u8vec4(glm::clamp(noise, 0.0f, 1.0f) * 255.0f + 0.5f);
     }
   });
   return tile;
+}
+
+}  // namespace
+
+NoiseTile make_noise_tile(const shared::NoiseParams& params) {
+  return make_tile(params.size,
+                   [&](const glm::uvec3& texel) { return shared::smoke_noise_texel(params, texel); });
+}
+
+NoiseTile make_detail_tile(const NoiseTile& noise) {
+  return make_tile(shared::kDetailTexels, [&](const glm::uvec3& texel) {
+    const glm::vec3 p_tile = (glm::vec3(texel) + 0.5f) / float{shared::kDetailTexels};
+    return glm::vec4(
+        shared::detail_texel(noise_at(noise, p_tile), noise_at(noise, shared::finer_point(p_tile))), 0, 0);
+  });
 }
 
 glm::vec4 noise_at(const NoiseTile& tile, glm::vec3 p_tile) {

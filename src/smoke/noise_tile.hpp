@@ -21,6 +21,15 @@ struct NoiseTile {
 /// shared::smoke_noise_texel at every texel, rounded to 8 bits, over all threads.
 NoiseTile make_noise_tile(const shared::NoiseParams& params);
 
+/// The tile of its detail (shared/erosion.h), shared::kDetailTexels texels per
+/// axis, in the first two channels.
+NoiseTile make_detail_tile(const NoiseTile& noise);
+
+/// What smoke is eroded by.
+struct SmokeNoise {
+  NoiseTile tile, detail;
+};
+
 /// The tile's channels in [0, 1] at a point, linear between the centres of texels and repeating, as a sampler
 /// returns them. The tile's size must be a power of two, |p_tile| size below 2^31.
 glm::vec4 noise_at(const NoiseTile& tile, glm::vec3 p_tile);

@@ -79,7 +79,6 @@ class HostedPair : public testing::Test {
         whole_ = std::make_unique<render::Renderer>(*gpu_, *recording_, scenario_.scene, options);
       }
       planning::FrameInput input = planning::frame_input(scenario_, *simulation_, seconds, holes_);
-      input.smoke.look.detail = 0;  // which hosts do not have
       input.view.frame_index = static_cast<std::uint32_t>(frame);
       if (change_input_) change_input_(input);
       whole_->record_frame(recording_->recorder(), whole_->plan(input));

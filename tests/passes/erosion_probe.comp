@@ -1,4 +1,4 @@
-// Density after erosion at given noises.
+// Density after erosion at given noises, as rays from the eye and as light meets it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,8 +6,13 @@
 
 #include "probes.h"
 
+struct Noise {
+  vec4 tile;
+  vec2 detail;
+};
+
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindProbeIn) readonly buffer Noises { vec4 noises[]; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Noises { Noise noises[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer Densities { float densities[]; };
 layout(scalar, push_constant) uniform Push { float density, erosion, detail; };
 
@@ -17,5 +22,5 @@ void main() {
   SmokeLook look;
   look.erosion = erosion;
   look.detail = detail;
-  densities[i] = erode(look, density, noises[i], noises[i]);
+  densities[i] = erode(look, density, noises[i].tile, noises[i].detail, detail);
 }

@@ -68,11 +68,11 @@ class HoleClustersTest : public gpu::GpuTest {
       recorder.clear(smoke.inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, smoke);
       (plain ? plain_ : march_)
-          .record(
-              recorder,
-              {frame_buffer, shared::kMediumSmoke, smoke, volumes_.resources(), volumes_.resources().values,
-               volumes_.resources().values, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
-              target, counters);
+          .record(recorder,
+                  {frame_buffer, shared::kMediumSmoke, smoke, volumes_.resources().values, smoke.filled,
+                   volumes_.resources(), volumes_.resources().values, volumes_.resources().values,
+                   noise_tile_, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+                  target, counters);
     });
     return read_back<Half4>(target);
   }

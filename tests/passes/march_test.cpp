@@ -65,9 +65,10 @@ class MarchTest : public gpu::GpuTest {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
       march_.record(recorder,
-                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
-                     volumes_.resources().values, volumes_.resources().values, noise_tile_, depth_image,
-                     blue_noise_, hole_clusters.resources()},
+                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources().values,
+                     room.upload.resources().filled, volumes_.resources(), volumes_.resources().values,
+                     volumes_.resources().values, noise_tile_, noise_tile_, depth_image, blue_noise_,
+                     hole_clusters.resources()},
                     target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
@@ -160,9 +161,12 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
       const MarchPass::Inputs in{frame_buffer,
                                  shared::kMediumSmoke,
                                  room_.upload.resources(),
+                                 volumes_.resources().values,
+                                 room_.upload.resources().filled,
                                  volumes_.resources(),
                                  volumes_.resources().values,
                                  volumes_.resources().values,
+                                 noise_tile_,
                                  noise_tile_,
                                  depth,
                                  blue_noise_,

@@ -406,8 +406,8 @@ struct ErodedRange {
   shared::SmokeLook look{};
   glm::vec4 low{1}, high{0};
   std::pair<double, double> operator()(float density) const {
-    return {static_cast<double>(shared::erode(look, density, low, low)),
-            static_cast<double>(shared::erode(look, density, high, high))};
+    return {static_cast<double>(shared::erode(look, density, low, glm::vec2(0), 0)),
+            static_cast<double>(shared::erode(look, density, high, glm::vec2(0), 0))};
   }
 };
 

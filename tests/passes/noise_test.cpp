@@ -175,6 +175,26 @@ TEST_F(NoiseTile, IsThatOfTheProcessor) {
   }
 }
 
+TEST_F(NoiseTile, HasTheDetailOfTheProcessor) {
+  const NoisePass pass(context());
+  const gpu::Image tile = make_noise_tile(context(), smoke::kSmokeNoise.size);
+  const gpu::Image detail = make_detail_tile(context());
+  runner().run([&](gpu::Recorder& recorder) {
+    pass.record(recorder, tile, smoke::kSmokeNoise);
+    pass.record_detail(recorder, tile, detail);
+  });
+  const auto expected = smoke::make_detail_tile(smoke::make_noise_tile(smoke::kSmokeNoise));
+  const auto found = read_back<std::array<std::uint8_t, 2>>(detail);
+  ASSERT_EQ(found.size(), expected.texels.size());
+  int most = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (int c = 0; c < 2; ++c)
+      most =
+          std::max(most, std::abs(int{found[i][static_cast<std::size_t>(c)]} - int{expected.texels[i][c]}));
+  // A texel of noise may round otherwise, its weights are of 8 bits, and the slopes of both are up to 1.35.
+  EXPECT_LE(most, 4);
+}
+
 TEST_F(NoiseTile, TilesWithoutASeam) {
   constexpr std::uint32_t kSize = 48;
   const auto tile = make({kSize, 2, 9});

@@ -28,9 +28,10 @@ class SmokeMediumTest : public testing::TestWithParam<std::uint32_t> {
     return segment.a_world;
   }
 
-  static const smoke::NoiseTile& noise() {
+  static const smoke::SmokeNoise& noise() {
     static const smoke::NoiseTile tile = smoke::make_noise_tile({16, 4, 7});
-    return tile;
+    static const smoke::SmokeNoise both{tile, smoke::make_detail_tile(tile)};
+    return both;
   }
 
   smoke::SightScene scene_;

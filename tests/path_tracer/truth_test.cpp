@@ -99,8 +99,11 @@ struct Studio {
     if (!one.noisy) return;
     const smoke::NoiseTile tile = smoke::make_noise_tile(smoke::kSmokeNoise);
     noise = {tile.size, tile.texels};
+    const smoke::NoiseTile fine = smoke::make_detail_tile(tile);
+    detail = {fine.size, fine.texels};
     displacement = in_atlas(frame.smoke);
     truth.noise = &noise;
+    truth.detail = &detail;
     truth.displacement = &displacement;
   }
   Studio(const Studio&) = delete;
@@ -111,7 +114,7 @@ struct Studio {
   std::unique_ptr<Scene> scene;
   std::vector<shared::Light> lights;
   std::vector<TruthTriangle> triangles;
-  NoiseTile noise;
+  NoiseTile noise, detail;
   NoiseAdvectionField displacement;
   TruthScene truth;
 };

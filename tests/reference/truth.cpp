@@ -57,25 +57,22 @@ glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   return sum;
 }
 
-/// The noise of the tile, and with its detail.
+/// The noise of the tile, and its detail.
 struct TruthNoise {
-  glm::dvec4 tile{0.5}, detailed{0.5};
+  glm::dvec4 tile{0.5};
+  glm::dvec2 detail{0};
 };
 
 TruthNoise smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p_voxel) {
   if (scene.noise == nullptr) return {};
   const glm::dvec3 from = p_world + advection_at(scene, p_voxel),
                    rise(0, double{scene.look.rise} * scene.time, 0);
-  const auto octave = [&](double faster, double smaller, glm::dvec3 shift) {
-    return noise_at(*scene.noise,
-                    (from - faster * rise) * double{scene.look.noise_frequency} * smaller + shift);
-  };
-  const glm::dvec4 tile = octave(1, 1, glm::dvec3(0));
-  const double detail{scene.look.detail};
-  if (detail <= 0) return {tile, tile};
-  const glm::dvec4 detailed = tile + detail * (0.55 * (octave(1.25, 5.3, {0.31, 0.17, 0.73}) - 0.5) +
-                                               0.25 * (octave(1.5, 17.9, {0.61, 0.37, 0.13}) - 0.5));
-  return {tile, glm::clamp(detailed, 0.0, 1.0)};
+  const double frequency{scene.look.noise_frequency};
+  const glm::dvec4 tile = noise_at(*scene.noise, (from - rise) * frequency);
+  if (scene.detail == nullptr) return {tile, glm::dvec2(0)};
+  const glm::dvec4 texel =
+      noise_at(*scene.detail, (from - 1.25 * rise) * frequency * 5.3 + glm::dvec3(0.31, 0.17, 0.73));
+  return {tile, 0.54 * (2.0 * glm::dvec2(texel) - 1.0)};
 }
 
 /// Fraction of the smoke that a hole removes: the rule of shaders/shared/hole.h.
@@ -266,8 +263,9 @@ double truth_density(const TruthScene& scene, glm::dvec3 p_world) {
       eroding || scene.look.hole_rim > 0 ? smoke_noise(scene, p_world, p_voxel) : TruthNoise{};
   if (eroding)
     density = double{shared::erode(scene.look, static_cast<float>(density), glm::vec4(noise.tile),
-                                   glm::vec4(noise.detailed))};
-  const double rim = (2 * noise.detailed.g - 1) * double{scene.look.hole_rim};
+                                   glm::vec2(noise.detail), scene.look.detail)};
+  const double rim_noise = 2 * noise.tile.g - 1 + 1.5 * double{scene.look.detail} * noise.detail.x;
+  const double rim = std::clamp(rim_noise, -1.0, 1.0) * double{scene.look.hole_rim};
   for (const shared::Hole& hole : scene.holes) density *= 1 - hole_share(hole, p_world, scene.time, rim);
   return density;
 }

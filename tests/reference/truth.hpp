@@ -49,6 +49,7 @@ struct TruthScene {
   std::span<const shared::Light> lights;
   std::span<const TruthTriangle> triangles;
   const NoiseTile* noise = nullptr;                   ///< Required if look.erosion or look.hole_rim is not 0.
+  const NoiseTile* detail = nullptr;                  ///< Of the noise; null: it has none.
   const NoiseAdvectionField* displacement = nullptr;  ///< Null: no noise displacement.
   double view_step = 0.2;                             ///< Of the rays of the pixels [voxels].
   double light_step = 0.4;                            ///< Of the rays to the lights [voxels].

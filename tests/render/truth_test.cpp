@@ -67,11 +67,21 @@ class TruthTest : public gpu::GpuTest {
     std::unique_ptr<scenario::Simulation> simulation_;
     Renderer renderer_;
   };
-  static reference::NoiseTile noise_tile() {
+  struct Noise {
+    reference::NoiseTile tile, detail;
+  };
+  static Noise smoke_noise() {
     const passes::NoisePass pass(context());
     const gpu::Image tile = passes::make_noise_tile(context(), smoke::kSmokeNoise.size);
-    runner().run([&](gpu::Recorder& recorder) { pass.record(recorder, tile, smoke::kSmokeNoise); });
-    return {smoke::kSmokeNoise.size, read_back<glm::u8vec4>(tile)};
+    const gpu::Image detail = passes::make_detail_tile(context());
+    runner().run([&](gpu::Recorder& recorder) {
+      pass.record(recorder, tile, smoke::kSmokeNoise);
+      pass.record_detail(recorder, tile, detail);
+    });
+    Noise noise{{smoke::kSmokeNoise.size, read_back<glm::u8vec4>(tile)}, {shared::kDetailTexels, {}}};
+    for (const glm::u8vec2& texel : read_back<glm::u8vec2>(detail))
+      noise.detail.texels.emplace_back(texel.x, texel.y, 0, 0);
+    return noise;
   }
 };
 
@@ -127,7 +137,7 @@ void keep(const std::string& name, const image::Image8& truth, const image::Imag
 }
 
 TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
-  const reference::NoiseTile noise = noise_tile();
+  const Noise noise = smoke_noise();
   for (const TruthCase& one : truth_cases()) {
     SCOPED_TRACE(one.name);
     Studio studio(one.scenario, one.seconds);
@@ -149,7 +159,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     const auto triangles = reference::truth_triangles(one.scenario.scene);
     truth.triangles = triangles;
     if (one.noisy) {
-      truth.noise = &noise;
+      truth.noise = &noise.tile;
       truth.displacement = &drawn.displacement;
     }
     const auto pixels = reference::trace_truth(truth);
@@ -180,7 +190,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
 
 // Close enough that its octaves are wider than pixels, and in steps that are shorter than their cells.
 TEST_F(TruthTest, DetailDimsAsItShould) {
-  const reference::NoiseTile noise = noise_tile();
+  const Noise noise = smoke_noise();
   for (const TruthCase& one : truth_cases()) {
     if (!one.noisy) continue;
     Studio studio(one.scenario, one.seconds);
@@ -199,7 +209,8 @@ TEST_F(TruthTest, DetailDimsAsItShould) {
       truth.time = one.seconds;
       truth.volume = input.smoke.volume;
       truth.holes = studio.holes;
-      truth.noise = &noise;
+      truth.noise = &noise.tile;
+      truth.detail = &noise.detail;
       truth.displacement = &drawn.displacement;
       truth.view_step = 0.04;
       const auto pixels = reference::trace_truth(truth);

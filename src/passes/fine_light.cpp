@@ -1,0 +1,75 @@
+#include "passes/fine_light.hpp"
+
+#include "brume_shaders.hpp"
+#include "shared/light_side.h"
+#include "shared/noise.h"
+
+namespace brume::passes {
+namespace {
+
+/// Rows of kFinePagesAcross pages.
+gpu::Image make_pages(gpu::Context& context, std::uint32_t rows) {
+  constexpr std::uint32_t kEdge{shared::kFinePageTexels};
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = rows == 0 ? glm::uvec3(1) : glm::uvec3(shared::kFinePagesAcross * kEdge, rows * kEdge, kEdge);
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+}  // namespace
+
+FineLightPass::FineLightPass(gpu::Context& context)
+    : context_(context),
+      pipeline_(context, shaders::fine_light_comp),
+      linear_(context, {}),
+      repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
+  trim();
+}
+
+void FineLightPass::trim() {
+  light_ = make_pages(context_, 0);
+  gpu::shrink(context_, {&pages_, &slots_});
+}
+
+void FineLightPass::reserve(const planning::FineLightPlan& plan) {
+  const auto count = static_cast<std::uint32_t>(plan.slots.size());
+  const std::uint32_t rows = (count + shared::kFinePagesAcross - 1) / shared::kFinePagesAcross;
+  if (rows * std::uint32_t{shared::kFinePageTexels} > light_.info().size.y) {
+    light_ = gpu::Image();  // two do not have to fit
+    light_ = make_pages(context_, rows);
+  }
+  gpu::grow(context_, pages_, plan.pages.size() * sizeof(std::uint32_t));
+  gpu::grow(context_, slots_, plan.slots.size() * sizeof(std::uint32_t));
+}
+
+void FineLightPass::upload(gpu::Recorder& recorder, const planning::FineLightPlan& plan) const {
+  if (!plan.pages.empty()) recorder.upload(pages_, 0, std::as_bytes(std::span(plan.pages)));
+  if (!plan.slots.empty()) recorder.upload(slots_, 0, std::as_bytes(std::span(plan.slots)));
+}
+
+void FineLightPass::record(gpu::Recorder& recorder, const planning::FineLightPlan& plan,
+                           const Inputs& in) const {
+  if (plan.slots.empty()) return;
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                    {shared::kBindDensityDisplacement, gpu::sampled(in.smoke.density_displacement, linear_)},
+                    {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
+                    {shared::kBindLightSide, gpu::sampled(in.smoke.light_side, linear_)},
+                    {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
+                    {shared::kBindFineSlots, gpu::read(slots_)},
+                    {shared::kBindFineLight, gpu::stored(light_)},
+                });
+  constexpr std::uint32_t kEdge{shared::kFinePageTexels};
+  constexpr std::uint32_t kGroups = (kEdge + 3) / 4;
+  recorder.dispatch_threads(pipeline_, 4 * kGroups * kGroups, 4 * kGroups,
+                            4 * static_cast<std::uint32_t>(plan.slots.size()));
+}
+
+}  // namespace brume::passes

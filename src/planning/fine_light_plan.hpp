@@ -1,0 +1,26 @@
+// Which bricks of the smoke have fine light in a frame (shared/fine_light.h).
+#pragma once
+
+#include <cstdint>
+
+#include "core/frame_memory.hpp"
+#include "planning/smoke_visibility.hpp"
+#include "shared/fine_light.h"
+#include "smoke/smoke_bricks.hpp"
+
+namespace brume::planning {
+
+/// The most pages: 48 MiB of the device's memory.
+inline constexpr std::uint32_t kMostFinePages = 160;
+
+struct FineLightPlan {
+  FrameVector<std::uint32_t> slots;  ///< Of each page.
+  FrameVector<std::uint32_t> pages;  ///< Of each slot its page + 1; 0: none.
+};
+
+/// The visible bricks of which a fine texel is wider than two pixels, the nearest first. `pixel_width`: of a
+/// pixel at a distance of 1 m [m].
+FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibility& visibility,
+                              const glm::vec3& eye_world, float pixel_width, Allocator memory = {});
+
+}  // namespace brume::planning

@@ -1,0 +1,85 @@
+#include "planning/fine_light_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+constexpr float kVoxelSize = 0.5f;
+
+/// A row of smokes along x, in a world without walls.
+class FineLightPlanTest : public ::testing::Test {
+ protected:
+  FineLightPlanTest() {
+    for (int i = 0; i < 40; ++i) {
+      sim::ThrowSmoke event;
+      event.from = event.at = sim::position_from_metres(glm::dvec3(5 + 10 * i, 8, 10));
+      event.smoke.voxels = 1500;
+      world_.append(event).value_or_throw();
+    }
+    world_.advance_to(90);
+    volume_.update(world_);
+    visibility_ = all_smoke_visible(volume_);
+  }
+  /// From a point to the nearest of a slot's brick [m].
+  float distance(std::uint32_t slot, const glm::vec3& eye) const {
+    const glm::vec3 low = volume_.layout().origin_world + 8 * kVoxelSize * glm::vec3(volume_.brick_of(slot));
+    return glm::distance(eye, glm::clamp(eye, low, low + 8 * kVoxelSize));
+  }
+
+  voxel::BitGrid grid_{{{820, 40, 40}, kVoxelSize, glm::vec3(0)}};
+  voxel::SurfacePlanes planes_;
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeVisibility visibility_;
+};
+
+TEST_F(FineLightPlanTest, TakesTheNearestBricksFirst) {
+  for (const glm::vec3 eye : {glm::vec3(0, 8, 10), glm::vec3(200, 15, 2), glm::vec3(500, 8, 10)}) {
+    const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, 1e-4f);
+    ASSERT_GT(visibility_.visible_count, kMostFinePages);
+    ASSERT_EQ(plan.slots.size(), kMostFinePages);
+    ASSERT_EQ(plan.pages.size(), volume_.slot_count());
+    float farthest = 0;
+    for (const std::uint32_t slot : plan.slots) {
+      EXPECT_GE(distance(slot, eye), farthest);
+      farthest = distance(slot, eye);
+    }
+    for (std::uint32_t i = 0; i < visibility_.visible_count; ++i) {
+      const std::uint32_t slot = visibility_.slots[i], page = plan.pages[slot];
+      if (page > 0) {
+        EXPECT_EQ(plan.slots[page - 1], slot);
+      } else {
+        EXPECT_GE(distance(slot, eye), farthest);
+      }
+    }
+    EXPECT_EQ(std::count(plan.pages.begin(), plan.pages.end(), 0u),
+              std::ptrdiff_t{volume_.slot_count()} - std::ptrdiff_t{kMostFinePages});
+  }
+}
+
+TEST_F(FineLightPlanTest, LeavesOutWhatTwoPixelsAreWiderThan) {
+  const glm::vec3 eye(0, 8, 10);
+  // A texel of an eighth of a metre is as wide as two pixels at 30 m.
+  const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, 0.125f / 60);
+  EXPECT_FALSE(plan.slots.empty());
+  for (std::uint32_t i = 0; i < visibility_.visible_count; ++i) {
+    const std::uint32_t slot = visibility_.slots[i];
+    EXPECT_EQ(plan.pages[slot] > 0, distance(slot, eye) < 30) << distance(slot, eye);
+  }
+}
+
+TEST_F(FineLightPlanTest, HasNothingWithoutVisibleSmoke) {
+  const FineLightPlan plan = plan_fine_light(volume_, {}, glm::vec3(0), 1e-3f);
+  EXPECT_TRUE(plan.slots.empty());
+  EXPECT_EQ(plan.pages.size(), volume_.slot_count());
+  EXPECT_EQ(std::count(plan.pages.begin(), plan.pages.end(), 0u), std::ptrdiff_t{volume_.slot_count()});
+}
+
+}  // namespace
+}  // namespace brume::planning
