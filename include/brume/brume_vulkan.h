@@ -233,7 +233,7 @@ typedef struct brume_smoke_look {
 typedef struct brume_quality {
   float step_scale;           ///< Multiplies the steps of the march, [0.25, 16]; 0: 1.
   float resolve_error_scale;  ///< The same of the error of a reduced march, [0.25, 16]; 0: 1.
-  uint32_t no_fine_shadows;   ///< 1: noise does not shadow itself, which takes up to half of the march.
+  uint32_t no_fine_shadows;   ///< 1: noise does not shadow itself, which takes up to a third of the march.
   /// About which fraction of the light that changed is found in this frame, [1/16, 1]; 0: all. Below 1 it is
   /// as old as the inverse of that in frames.
   float light_update_fraction;

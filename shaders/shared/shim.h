@@ -17,7 +17,9 @@
 //   56 - 59  particles                    particles.h
 //   80 - 81  light paths of tanks         photons.h
 //   82 - 91  indirect light               indirect_light.h
-//   92       fine shadows in smoke        light_side.h
+//   94       fine shadows in smoke        light_side.h
+//   103 - 105  fine light in smoke        fine_light.h
+//   106      detail of the noise          noise.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H
