@@ -1,6 +1,10 @@
 #include "passes/fine_light.hpp"
 
+#include <algorithm>
+#include <bit>
+
 #include "brume_shaders.hpp"
+#include "core/error.hpp"
 #include "shared/light_side.h"
 #include "shared/noise.h"
 
@@ -33,12 +37,20 @@ void FineLightPass::trim() {
   gpu::shrink(context_, {&pages_, &slots_});
 }
 
-void FineLightPass::reserve(const planning::FineLightPlan& plan) {
+void FineLightPass::reserve(planning::FineLightPlan& plan) {
   const auto count = static_cast<std::uint32_t>(plan.slots.size());
   const std::uint32_t rows = (count + shared::kFinePagesAcross - 1) / shared::kFinePagesAcross;
-  if (rows * std::uint32_t{shared::kFinePageTexels} > light_.info().size.y) {
-    light_ = gpu::Image();  // two do not have to fit
-    light_ = make_pages(context_, rows);
+  const std::uint32_t held = light_.info().size.y / std::uint32_t{shared::kFinePageTexels};
+  if (rows > held) {
+    // As it grows with the smoke, in powers of two.
+    constexpr std::uint32_t kMostRows = planning::kMostFinePages / shared::kFinePagesAcross;
+    try {
+      light_ = make_pages(context_, std::min(std::bit_ceil(rows), kMostRows));
+    } catch (const Error& error) {
+      // Better smoke as it is without fine light than coarser smoke.
+      if (error.code() != ErrorCode::resource_limit) throw;
+      planning::keep_pages(plan, held * shared::kFinePagesAcross);
+    }
   }
   gpu::grow(context_, pages_, plan.pages.size() * sizeof(std::uint32_t));
   gpu::grow(context_, slots_, plan.slots.size() * sizeof(std::uint32_t));

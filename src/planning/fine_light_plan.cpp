@@ -29,4 +29,9 @@ FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibi
   return plan;
 }
 
+void keep_pages(FineLightPlan& plan, std::uint32_t count) {
+  for (std::size_t page = count; page < plan.slots.size(); ++page) plan.pages[plan.slots[page]] = 0;
+  plan.slots.resize(std::min<std::size_t>(plan.slots.size(), count));
+}
+
 }  // namespace brume::planning

@@ -22,5 +22,7 @@ struct FineLightPlan {
 /// pixel at a distance of 1 m [m].
 FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibility& visibility,
                               const glm::vec3& eye_world, float pixel_width, Allocator memory = {});
+/// Leaves only the first pages of a plan, which are the nearest.
+void keep_pages(FineLightPlan& plan, std::uint32_t count);
 
 }  // namespace brume::planning

@@ -23,7 +23,7 @@ class FineLightTest : public gpu::GpuTest {
   }
 
   /// The pages of a plan, one after the other, where all texels of the smoke have this light.
-  std::vector<glm::vec4> pages(const planning::FineLightPlan& plan, glm::vec4 inscatter, glm::vec4 side) {
+  std::vector<glm::vec4> pages(planning::FineLightPlan plan, glm::vec4 inscatter, glm::vec4 side) {
     FineLightPass pass(context());
     pass.reserve(plan);
     const auto frame = upload(std::vector{frame_});

@@ -74,6 +74,18 @@ TEST_F(FineLightPlanTest, LeavesOutWhatTwoPixelsAreWiderThan) {
   }
 }
 
+TEST_F(FineLightPlanTest, KeepsTheNearestPages) {
+  FineLightPlan plan = plan_fine_light(volume_, visibility_, glm::vec3(0, 8, 10), 1e-4f);
+  const FineLightPlan all = plan;
+  for (const std::uint32_t count : {kMostFinePages + 1, kMostFinePages, 7u, 0u}) {
+    keep_pages(plan, count);
+    ASSERT_EQ(plan.slots.size(), std::min(count, kMostFinePages));
+    EXPECT_TRUE(std::equal(plan.slots.begin(), plan.slots.end(), all.slots.begin()));
+    for (std::uint32_t slot = 0; slot < volume_.slot_count(); ++slot)
+      EXPECT_EQ(plan.pages[slot], all.pages[slot] <= count ? all.pages[slot] : 0u);
+  }
+}
+
 TEST_F(FineLightPlanTest, HasNothingWithoutVisibleSmoke) {
   const FineLightPlan plan = plan_fine_light(volume_, {}, glm::vec3(0), 1e-3f);
   EXPECT_TRUE(plan.slots.empty());
