@@ -1,5 +1,5 @@
-// In-scatter at the texels of the fine pages (shared/fine_light.h): that of the smoke's own texels, between which it is
-// interpolated, times the shadows of the noise around each.
+// In-scatter at the texels of the fine pages (shared/fine_light.h): interpolated between the texels of the smoke, times
+// the shadows of the noise around each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -20,8 +20,6 @@ layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
 layout(binding = kBindLightSide) uniform sampler3D light_side_atlas;
 layout(binding = kBindFineLight, rgba16f) uniform writeonly image3D fine_light;
 
-/// Below this fraction of light from one side it casts no fine shadows.
-const float kLeastSide = 0.02;
 /// So far beyond its voxels the texels of a brick reach, less the resolution of the texture unit [voxels].
 const float kInside = 0.5 - 1.0 / 64.0;
 

@@ -69,7 +69,7 @@ struct SmokeSample {
   float relief;       // factor of its light: shadows of detail
 };
 
-/// The look that is drawn. Light in the smoke has detail's steep rims even where it is not drawn.
+/// The look that is drawn. Light in the smoke counts detail even where it is not drawn.
 SmokeLook drawn_look() {
   SmokeLook look = frame.look;
   if (!kHasDetail) look.detail = 0.0;
@@ -84,8 +84,6 @@ vec2 detail_at(vec3 p_noise, float level, inout uint texture_samples) {
 
 /// Behind what lets less than this through, shadows of detail are not seen; on average they change nothing.
 const float kLeastSeen = 1.0 / 8.0;
-/// Below this fraction of light from one side its direction is unknown.
-const float kLeastSide = 0.02;
 
 /// Where most light comes from at a point of the in-scatter, and the fraction that does. Else from above.
 vec4 side_at(vec3 uvw) {

@@ -2,7 +2,7 @@
 //
 // A texel of the smoke knows the noise by one value alone, so billows have no side in shadow. Fine light (fine_light.h)
 // therefore replaces the first kSideVoxels of the shadow ray of each point: exp(-depth) of what the ray met there,
-// through texels, by that of the noise itself. What is behind is that of the texel's ray.
+// through texels, by the transmittance of the noise itself. Behind that the texel's own ray counts.
 #ifndef BRUME_LIGHT_SIDE_H
 #define BRUME_LIGHT_SIDE_H
 #include "shared/shim.h"
@@ -13,6 +13,8 @@ SHARED_BINDING(kBindLightSide, 94u);
 /// The replaced path [voxels], and its samples. Of one sample smoke is 7 to 12 % too bright; three change nothing.
 SHARED_CONST float kSideVoxels = 1.5f;
 SHARED_CONST uint kSideSamples = 2u;
+/// Below this fraction of light from one side it casts no fine shadows, and its direction counts as unknown.
+SHARED_CONST float kLeastSide = 0.02f;
 /// Optical depth of the smoke per density and sample.
 SHARED_FUNCTION float side_depth(float extinction, float voxel_size) {
   return kSideVoxels / float(kSideSamples) * extinction * voxel_size;

@@ -73,7 +73,7 @@ TEST_F(FineLightTest, IsUnknownWhereThatOfTheTexelsIs) {
   for (const glm::vec4& texel : pages(plan(2), glm::vec4(0), glm::vec4(1))) ASSERT_EQ(texel, glm::vec4(0));
 }
 
-// Of the path towards the light, what the texels know is replaced by what is there: density 1.
+// The depth that texels know of the path is replaced by its real one: density is 1.
 TEST_F(FineLightTest, ReplacesTheDepthOfThePathTowardsTheLight) {
   const float depth =
       float{shared::kSideSamples} * shared::side_depth(frame_.look.extinction, frame_.volume.voxel_size);
