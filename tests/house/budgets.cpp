@@ -16,6 +16,13 @@ double most_of(const std::string& name, const Seconds& budgets, double pace) {
   return (1.5 * budget_of(name, budgets) + 1) * pace;
 }
 
+double median_or_zero(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 Seconds parse_budgets(const std::string& text) {
@@ -42,16 +49,13 @@ std::set<std::string> cpu_programs(const std::string& table) {
   return programs;
 }
 
-double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& programs) {
+double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& cpu) {
   constexpr double kLeastBudget = 3;
-  std::vector<double> ratios;
+  std::vector<double> with_device, without;
   for (const auto& [name, seconds] : taken)
-    if (const double budget = budget_of(name, budgets); budget >= kLeastBudget && programs.contains(name))
-      ratios.push_back(seconds / budget);
-  if (ratios.empty()) return 0;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+    if (const double budget = budget_of(name, budgets); budget >= kLeastBudget)
+      (cpu.contains(name) ? without : with_device).push_back(seconds / budget);
+  return std::max(median_or_zero(without), median_or_zero(with_device));
 }
 
 std::vector<std::string> over_budget(const Seconds& taken, const Seconds& budgets, double pace) {

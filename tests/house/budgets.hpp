@@ -18,10 +18,11 @@ Seconds parse_budgets(const std::string& text);
 /// The programs with the label cpu in a build's table of tests (cmake/BrumeTests.cmake).
 std::set<std::string> cpu_programs(const std::string& table);
 
-/// How fast this machine is beside that of the budgets: the median of taken / budget over those programs that
-/// have a budget of at least three seconds. 0 if there are none. By programs without a device, as what a
-/// driver compiles is in a cache the next time.
-double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& programs);
+/// How slow this machine is beside that of the budgets: the median of taken / budget over programs that have
+/// a budget of at least three seconds, of those of `cpu` or of all others, whichever is more. 0 if there are
+/// none. Machines differ in one kind more than in the other; what a driver finds in its cache lets the others
+/// take less, which changes nothing then.
+double pace_of(const Seconds& taken, const Seconds& budgets, const std::set<std::string>& cpu);
 
 /// A line for each program that took more than half as much again as its budget at this pace, and a second.
 /// The budget of a program that is not listed is one second.
