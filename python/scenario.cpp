@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "planning/smoke_look.hpp"
 #include "scenario/tank.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
@@ -54,6 +55,12 @@ Level Scenario::level() const {
 smoke::SightSettings Scenario::sight_settings() const {
   const scene::SmokeOptions& smoke = loaded_->scenario.timeline.smoke;
   return {smoke.extinction, smoke.albedo, &loaded_->scenario.masks};
+}
+
+std::pair<shared::SmokeLook, double> Scenario::drawn_look() const {
+  const scenario::Scenario& shown = loaded_->scenario;
+  const scene::SmokeOptions& smoke = shown.timeline.smoke;
+  return {planning::smoke_look(smoke, shown.voxels.grid.layout().voxel_size), double{smoke.swirl_period}};
 }
 
 void Scenario::advance_to(double seconds) {

@@ -29,6 +29,7 @@ class Scenario : public Smoke {
   const smoke::SmokeVolume& volume() const override { return simulation_->volume(); }
   void update_volume() override {}
   smoke::SightSettings sight_settings() const override;
+  std::pair<shared::SmokeLook, double> drawn_look() const override;
 
  private:
   std::shared_ptr<Loaded> loaded_;

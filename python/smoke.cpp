@@ -10,12 +10,14 @@
 
 #include "core/tasks.hpp"
 #include "python/density.hpp"
+#include "smoke/noise_look.hpp"
 
 namespace brume::python {
 namespace {
 
 /// Lines between two looks for Ctrl-C, per core: 50 ms, in which starting the threads does not count.
 constexpr std::size_t kChunkOfCore = 1 << 16;
+constexpr std::size_t kDrawnChunkOfCore = 1 << 9;
 constexpr std::size_t kGatherGrain = 1 << 13;
 
 glm::vec3 point_at(const Points& points, std::size_t i) {
@@ -32,36 +34,52 @@ double processor_seconds() {
 
 }  // namespace
 
+std::pair<shared::SmokeLook, double> Smoke::drawn_look() const {
+  shared::SmokeLook look{};
+  smoke::set_noise(look, {});
+  return {look, smoke::SmokeInput().swirl_period};
+}
+
+/// With mutex_ locked. That of drawn smoke needs the other's holes and volume.
+void Smoke::make_sight(bool drawn) {
+  const sim::State& state = world().state();
+  const float time = state.seconds(state.tick);
+  const smoke::SightSettings settings = sight_settings();
+  if (!sight_) {
+    update_volume();
+    holes_ = smoke::holes_of(state, settings.masks);
+    sight_.emplace(volume(), world().grid(), holes_, time, settings);
+  }
+  if (!drawn || drawn_) return;
+  const auto [look, swirl_period] = drawn_look();
+  const smoke::SmokeInput input{&volume(), &state, holes_, look, swirl_period, time};
+  drawn_ = std::make_unique<const smoke::DrawnSight>(input, world().grid(), settings);
+}
+
 /// Calls query(sight). The first call notes the revision; later ones throw where it has changed since.
 template <typename Query>
-void Smoke::with_sight(std::optional<std::uint64_t>& revision, const Query& query) {
+void Smoke::with_sight(std::optional<std::uint64_t>& revision, bool drawn, const Query& query) {
   std::shared_lock lock(mutex_);
-  while (!sight_) {
+  while (!sight_ || (drawn && !drawn_)) {
     lock.unlock();
     {
       const std::unique_lock alone(mutex_);
-      if (!sight_) {
-        update_volume();
-        const sim::State& state = world().state();
-        const smoke::SightSettings settings = sight_settings();
-        holes_ = smoke::holes_of(state, settings.masks);
-        sight_.emplace(volume(), world().grid(), holes_, state.seconds(state.tick), settings);
-      }
+      make_sight(drawn);
     }
     lock.lock();
   }
   if (revision && *revision != revision_)
     throw Error(ErrorCode::internal, "another thread moved the smoke during the query");
   revision = revision_;
-  query(*sight_);
+  query(drawn ? drawn_->sight() : *sight_);
 }
 
 /// Calls query(sight, segments, number of the first) for all lines, part by part; ends at Ctrl-C.
 template <typename Query>
-void Smoke::in_chunks(const Lines& lines, const Query& query) {
+void Smoke::in_chunks(const Lines& lines, bool drawn, const Query& query) {
   released([&] {
     std::optional<std::uint64_t> revision;
-    const std::size_t chunk = kChunkOfCore * thread_count();
+    const std::size_t chunk = (drawn ? kDrawnChunkOfCore : kChunkOfCore) * thread_count();
     std::vector<smoke::Segment> segments(std::min(lines.count, chunk));
     for (std::size_t first = 0; first < lines.count; first += chunk) {
       const std::size_t count = std::min(chunk, lines.count - first);
@@ -70,7 +88,7 @@ void Smoke::in_chunks(const Lines& lines, const Query& query) {
         for (std::size_t i = begin; i < end; ++i)
           segments[i] = {point_at(lines.a, first + i), point_at(lines.b, first + i)};
       });
-      with_sight(revision, [&](const smoke::Sight& sight) {
+      with_sight(revision, drawn, [&](const smoke::Sight& sight) {
         query(sight, std::span<const smoke::Segment>(segments).first(count), first);
       });
       if (first + count < lines.count) stop_if_interrupted();
@@ -78,11 +96,11 @@ void Smoke::in_chunks(const Lines& lines, const Query& query) {
   });
 }
 
-py::object Smoke::optical_depth(const py::object& a, const py::object& b) {
+py::object Smoke::optical_depth(const py::object& a, const py::object& b, bool drawn) {
   const Lines lines = lines_of(a, "a", b, "b");
   py::array_t<float> result(lines.shape);
   float* const out = result.mutable_data();
-  in_chunks(lines,
+  in_chunks(lines, drawn,
             [&](const smoke::Sight& sight, std::span<const smoke::Segment> segments, std::size_t first) {
               sight.optical_depths(segments, {out + first, segments.size()}).value_or_throw();
             });
@@ -90,12 +108,12 @@ py::object Smoke::optical_depth(const py::object& a, const py::object& b) {
   return result;
 }
 
-py::object Smoke::visible(const py::object& a, const py::object& b, float threshold) {
+py::object Smoke::visible(const py::object& a, const py::object& b, float threshold, bool drawn) {
   if (!(threshold >= 0)) refuse("threshold", "expected an optical depth of at least 0");
   const Lines lines = lines_of(a, "a", b, "b");
   py::array_t<bool> result(lines.shape);
   auto* const out = reinterpret_cast<std::uint8_t*>(result.mutable_data());
-  in_chunks(lines,
+  in_chunks(lines, drawn,
             [&](const smoke::Sight& sight, std::span<const smoke::Segment> segments, std::size_t first) {
               sight.visible(segments, threshold, {out + first, segments.size()}).value_or_throw();
             });
@@ -109,7 +127,7 @@ py::tuple Smoke::sense(const py::object& origins, const py::object& directions, 
   float *const distance = distances.mutable_data(), *const depth = depths.mutable_data();
   std::vector<smoke::SensorRay> rays;
   std::vector<smoke::SensorSample> samples;
-  in_chunks(lines,
+  in_chunks(lines, false,
             [&](const smoke::Sight& sight, std::span<const smoke::Segment> segments, std::size_t first) {
               rays.clear();
               for (const smoke::Segment& s : segments) rays.push_back({s.a_world, s.b_world, max_distance});
@@ -133,7 +151,7 @@ double Smoke::time_optical_depth(const py::object& a, const py::object& b) {
     std::vector<float> depths(lines.count);
     double seconds = 0;
     std::optional<std::uint64_t> revision;
-    with_sight(revision, [&](const smoke::Sight& sight) {
+    with_sight(revision, false, [&](const smoke::Sight& sight) {
       const double start = processor_seconds();
       sight.optical_depths(segments, depths).value_or_throw();
       seconds = processor_seconds() - start;
@@ -201,22 +219,24 @@ void bind_state(SmokeClass& smoke) {
 void bind_queries(SmokeClass& smoke) {
   using namespace py::literals;
   smoke
-      .def("optical_depth", &Smoke::optical_depth, "a"_a, "b"_a,
+      .def("optical_depth", &Smoke::optical_depth, "a"_a, "b"_a, "drawn"_a = false,
            R"(Optical depth of the smoke between points; exp(-depth) of the light passes. Walls do not matter.
 
 a, b: points [m], shape (..., 3), both of the same shape or one of them (3,). Arrays of float32 in C order are
     read as they are, others are converted. Coordinates are finite and within 16384 m.
+drawn: of the smoke as pictures show it, eroded by noise and with frayed rims, some hundred times as slowly.
 Returns float32, shape (...); a float for two points of the shape (3,).
 
-Holes and blasts are part of it, the noise of pictures is not. The same bits for one line or among many, on
+Holes and blasts are part of it. The same bits for one line or among many, on
 every machine. Uses all cores and runs without the interpreter lock; Ctrl-C ends it. Raises ValueError for
 another shape or a point out of range, TypeError for what is no array of numbers.)")
-      .def("visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f,
+      .def("visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,
            R"(Whether b is visible from a: no solid voxel between them, and not too much smoke.
 
 a, b: as for optical_depth. The voxels that a and b lie in do not hide them.
 threshold: largest optical depth through which b is visible, at least 0; 3 lets 5 % of the light through,
     infinity means walls only.
+drawn: as for optical_depth: whether a player sees through a rim.
 Returns bool, shape (...); a bool for two points of the shape (3,). Faster than optical_depth.)")
       .def("sense", &Smoke::sense, "origins"_a, "directions"_a, "max_distance"_a = 100.0f,
            R"(What rays meet, as a depth camera measures it.

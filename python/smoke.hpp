@@ -7,13 +7,14 @@
 #include <optional>
 #include <shared_mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "python/arrays.hpp"
 #include "python/level.hpp"
 #include "sim/world.hpp"
+#include "smoke/drawn_sight.hpp"
 #include "smoke/holes.hpp"
-#include "smoke/sight.hpp"
 
 namespace brume::python {
 
@@ -40,14 +41,15 @@ class Smoke {
     return released([&] {
       const std::unique_lock lock(mutex_);
       sight_.reset();
+      drawn_.reset();
       ++revision_;
       return change();
     });
   }
   float extinction() const { return sight_settings().extinction; }
 
-  py::object optical_depth(const py::object& a, const py::object& b);
-  py::object visible(const py::object& a, const py::object& b, float threshold);
+  py::object optical_depth(const py::object& a, const py::object& b, bool drawn);
+  py::object visible(const py::object& a, const py::object& b, float threshold, bool drawn);
   py::tuple sense(const py::object& origins, const py::object& directions, float max_distance);
 
   /// Processor time [s] that Sight::optical_depths takes for lines that are prepared in advance.
@@ -59,17 +61,21 @@ class Smoke {
   /// Brings the volume to the world's tick.
   virtual void update_volume() = 0;
   virtual smoke::SightSettings sight_settings() const = 0;
+  /// How it is drawn, and how long its noise takes to roll around once [s].
+  virtual std::pair<shared::SmokeLook, double> drawn_look() const;
 
  private:
   template <typename Query>
-  void with_sight(std::optional<std::uint64_t>& revision, const Query& query);
+  void with_sight(std::optional<std::uint64_t>& revision, bool drawn, const Query& query);
+  void make_sight(bool drawn);
   template <typename Query>
-  void in_chunks(const Lines& lines, const Query& query);
+  void in_chunks(const Lines& lines, bool drawn, const Query& query);
 
   mutable std::shared_mutex mutex_;
   std::uint64_t revision_ = 0;
   std::vector<shared::Hole> holes_;    // of the sight
   std::optional<smoke::Sight> sight_;  // none: to be made
+  std::unique_ptr<const smoke::DrawnSight> drawn_;
 };
 
 void bind_smoke(py::module_& module);

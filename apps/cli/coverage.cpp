@@ -7,6 +7,8 @@
 
 #include "apps/cli/console.hpp"
 #include "core/progress.hpp"
+#include "planning/smoke_look.hpp"
+#include "smoke/drawn_sight.hpp"
 #include "smoke/holes.hpp"
 
 namespace brume::cli {
@@ -58,6 +60,16 @@ void at_every_tick(const scenario::Scenario& scenario, double begin, double end,
   }
 }
 
+SightSample sample_of(const smoke::Sight& sight, const SightLine& line) {
+  SightSample sample;
+  sample.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
+  sample.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
+  sample.hidden_by = sample.wall                             ? HiddenBy::wall
+                     : sample.optical_depth > line.threshold ? HiddenBy::smoke
+                                                             : HiddenBy::nothing;
+  return sample;
+}
+
 }  // namespace
 
 const char* name_of(HiddenBy by) {
@@ -68,16 +80,21 @@ SightSample sample_sight(const scenario::Scenario& scenario, const scenario::Sim
                          const SightLine& line) {
   const sim::State& state = simulation.world().state();
   const std::vector<shared::Hole> holes = smoke::holes_of(state, &scenario.masks);
-  const smoke::Sight sight(
-      simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
-      {scenario.timeline.smoke.extinction, scenario.timeline.smoke.albedo, &scenario.masks});
-  SightSample sample;
-  sample.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
-  sample.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
-  sample.hidden_by = sample.wall                             ? HiddenBy::wall
-                     : sample.optical_depth > line.threshold ? HiddenBy::smoke
-                                                             : HiddenBy::nothing;
-  return sample;
+  const scene::SmokeOptions& options = scenario.timeline.smoke;
+  const voxel::BitGrid& grid = simulation.world().grid();
+  const float time = state.seconds(state.tick);
+  const smoke::SightSettings settings{options.extinction, options.albedo, &scenario.masks};
+  if (line.drawn) {
+    const smoke::DrawnSight drawn({.volume = &simulation.volume(),
+                                   .state = &state,
+                                   .holes = holes,
+                                   .look = planning::smoke_look(options, grid.layout().voxel_size),
+                                   .swirl_period = double{options.swirl_period},
+                                   .time = time},
+                                  grid, settings);
+    return sample_of(drawn.sight(), line);
+  }
+  return sample_of(smoke::Sight(simulation.volume(), grid, holes, time, settings), line);
 }
 
 Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times) {

@@ -15,6 +15,7 @@ namespace brume::cli {
 struct SightLine {
   glm::vec3 from_world{0}, to_world{0};
   float threshold = 3;  ///< Optical depth above which smoke hides the far end.
+  bool drawn = false;   ///< Through the smoke of pictures.
 };
 
 enum class HiddenBy { nothing, wall, smoke };

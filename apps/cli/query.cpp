@@ -23,7 +23,7 @@ struct QueryOptions {
   std::string expect;
   float threshold = 3;
   unsigned shots = 0;
-  bool report = false;
+  bool report = false, drawn = false;
 };
 
 Json point(glm::vec3 p) {
@@ -104,6 +104,7 @@ void print_sample(const QueryOptions& options, const scenario::Scenario& scenari
                               {"to", point(line.to_world)},
                               {"threshold", line.threshold},
                               {"extinction", scenario.timeline.smoke.extinction},
+                              {"drawn", line.drawn},
                               {"visible", visible},
                               {"hidden_by", visible ? Json(nullptr) : Json(name_of(sample.hidden_by))},
                               {"optical_depth", sample.optical_depth},
@@ -183,9 +184,13 @@ void report_coverage(const QueryOptions& options, const scenario::Scenario& scen
     shots = fire(scenario, line, {options.shots, at, options.shots_every, options.spread}, times.end);
   }
   if (!options.json.empty()) {
-    Json report{{"timeline", options.timeline},   {"times", Json::list({times.begin, times.end})},
-                {"from", point(line.from_world)}, {"to", point(line.to_world)},
-                {"threshold", line.threshold},    {"extinction", scenario.timeline.smoke.extinction}};
+    Json report{{"timeline", options.timeline},
+                {"times", Json::list({times.begin, times.end})},
+                {"from", point(line.from_world)},
+                {"to", point(line.to_world)},
+                {"threshold", line.threshold},
+                {"extinction", scenario.timeline.smoke.extinction},
+                {"drawn", line.drawn}};
     report.update(coverage_json(coverage));
     if (options.shots > 0) report.set("shots", shots_json(shots));
     write_json(options.json, report);
@@ -200,8 +205,9 @@ void report_coverage(const QueryOptions& options, const scenario::Scenario& scen
 
 /// Of --sense, which has options of its own.
 void query_tank(const Arguments& arguments, const QueryOptions& options, Outputs& outputs) {
-  for (const char* option : {"--from", "--to", "--time", "--times", "--threshold", "--report", "--shots",
-                             "--shots-at", "--shots-every", "--spread", "--expect", "--voxel", "--scale"})
+  for (const char* option :
+       {"--from", "--to", "--time", "--times", "--threshold", "--report", "--shots", "--shots-at",
+        "--shots-every", "--spread", "--expect", "--voxel", "--scale", "--drawn"})
     arguments.refuse(option, "is for lines of sight; remove it, or --sense");
   SenseOptions sense = options.sense;
   sense.input = options.timeline;
@@ -215,7 +221,8 @@ void query(const Arguments& arguments, const QueryOptions& options, Outputs& out
   for (const auto& [option, value] : {std::pair("--from", &options.from), {"--to", &options.to}})
     if (value->empty())
       throw Error(ErrorCode::usage, std::string(option) + " is required, such as " + option + " 0,1.7,3");
-  const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold};
+  const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold,
+                       options.drawn};
   check_options(arguments, options);
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
@@ -258,6 +265,7 @@ Command add_query(CommandLine& program) {
                   "Optical depth above which smoke hides the target; default 3 (5 % transmittance)")
       .range(0.0, 1e6)
       .type_name("T");
+  arguments.add_flag("--drawn", options->drawn, "Through smoke as pictures show it, eroded by noise; slower");
   arguments.add_flag("--report", options->report, "List the intervals in which the target is hidden");
   arguments
       .add_option("--times", options->times, "Begin and end of the report [s]; default: the whole timeline")

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,10 +16,14 @@
 #include "core/log.hpp"
 #include "core/progress.hpp"
 #include "grids/files.hpp"
+#include "planning/smoke_look.hpp"
 #include "scenario/events.hpp"
+#include "scenario/simulation.hpp"
 #include "scenario/smoke_grid.hpp"
 #include "scene/load.hpp"
 #include "scene/text_reader.hpp"
+#include "smoke/drawn_smoke.hpp"
+#include "smoke/holes.hpp"
 #include "wire/packet.hpp"
 #include "wire/replay.hpp"
 
@@ -31,6 +36,7 @@ struct SimOptions {
   std::string timeline, record, replay, json, volumes, frames, fps = "24", up = "y";
   SceneOptions scene;
   std::optional<std::uint32_t> ticks, rate;
+  std::optional<double> detail;  // edge of voxels of drawn smoke [m]
   bool hash = false;
 };
 
@@ -43,10 +49,13 @@ FileKind volume_kind(const std::filesystem::path& path) {
 // are declared when the timeline is known.
 void check_volumes(const Arguments& arguments, const SimOptions& options, Outputs& outputs) {
   if (options.volumes.empty()) {
-    for (const char* option : {"--frames", "--fps", "--up"}) arguments.refuse(option, "requires --volumes");
+    for (const char* option : {"--frames", "--fps", "--up", "--detail"})
+      arguments.refuse(option, "requires --volumes");
     return;
   }
   expect_suffix("--volumes", options.volumes, {".vdb", ".nvdb", ".brv"});
+  if (options.detail)
+    arguments.refuse("--rate", "cannot be combined with --detail, which draws 64 ticks a second");
   parse_rate("--fps", options.fps);
   if (!is_numbered("--volumes", options.volumes)) {
     for (const char* option : {"--frames", "--fps"})
@@ -131,6 +140,8 @@ class VolumeFiles {
       : path_(options.volumes),
         numbered_(!path_.empty() && is_numbered("--volumes", path_)),
         schedule_(schedule),
+        scenario_(scenario),
+        detail_(options.detail),
         frame_(schedule.frames.first),
         outputs_(outputs) {
     grid_options_.up = options.up == "z" ? scenario::UpAxis::z : scenario::UpAxis::y;
@@ -140,29 +151,51 @@ class VolumeFiles {
                             schedule.frames.last);
   }
 
-  void take(const sim::State& state) {
+  void take(const sim::World& world) {
     if (path_.empty()) return;
+    const sim::State& state = world.state();
     if (!numbered_) {
-      if (state.tick + 1 == schedule_.ticks) save(plain_name(path_), state);
+      if (state.tick + 1 == schedule_.ticks) save(plain_name(path_), world);
       return;
     }
     for (; frame_ <= schedule_.frames.last && schedule_.tick_of(frame_) == state.tick; ++frame_) {
-      save(sequence_name(path_, frame_), state);
+      save(sequence_name(path_, frame_), world);
       outputs_.frame_done(frame_);
     }
   }
   std::uint32_t written() const { return written_; }
 
  private:
-  void save(const std::filesystem::path& path, const sim::State& state) {
+  void save(const std::filesystem::path& path, const sim::World& world) {
     stop_if_interrupted();
-    grids::save_grid_file(path, {{scenario::smoke_grid(state, grid_options_)}, {}}).value_or_throw();
+    grids::save_grid_file(path,
+                          {{detail_ ? drawn(world) : scenario::smoke_grid(world.state(), grid_options_)}, {}})
+        .value_or_throw();
     ++written_;
+  }
+
+  grids::Grid drawn(const sim::World& world) {
+    if (!simulation_) simulation_ = scenario::Simulation::create(scenario_).value_or_throw();
+    simulation_->advance_to(static_cast<double>(world.tick()) / world.settings().ticks_per_second);
+    const sim::State& state = simulation_->world().state();
+    const scene::SmokeOptions& look = scenario_.timeline.smoke;
+    const auto holes = smoke::holes_of(state, &scenario_.masks);
+    const smoke::DrawnSmoke smoke({.volume = &simulation_->volume(),
+                                   .state = &state,
+                                   .holes = holes,
+                                   .look = planning::smoke_look(look, state.layout.voxel_size),
+                                   .swirl_period = double{look.swirl_period},
+                                   .time = state.seconds(state.tick)},
+                                  smoke::smoke_noise, &scenario_.masks);
+    return scenario::drawn_smoke_grid(smoke, static_cast<float>(*detail_), grid_options_).value_or_throw();
   }
 
   std::filesystem::path path_;
   bool numbered_;
   const Schedule& schedule_;
+  const scenario::Scenario& scenario_;
+  std::optional<double> detail_;
+  std::unique_ptr<scenario::Simulation> simulation_;  // of drawn smoke, with the surfaces of doors
   std::uint32_t frame_, written_ = 0;
   scenario::SmokeGridOptions grid_options_;
   Outputs& outputs_;
@@ -238,7 +271,7 @@ void simulate(const SimOptions& options, Outputs& outputs) {
     world.advance_to(tick);
     run.take(world.state());
     if (!options.record.empty()) replay.checksums.push_back(wire::checksum_of(world.state()));
-    volumes.take(world.state());
+    volumes.take(world);
     job.advance();
   }
   if (!options.record.empty()) wire::save_replay(options.record, replay).value_or_throw();
@@ -271,7 +304,8 @@ Command add_sim(CommandLine& program) {
               "  brume sim scenes/demo.toml --ticks 64 --hash\n"
               "  brume sim scenes/demo.toml --record demo.brp\n"
               "  brume sim --replay demo.brp\n"
-              "  brume sim scenes/demo.toml --volumes smoke_%04d.vdb --frames 48-50 --up z");
+              "  brume sim scenes/demo.toml --volumes smoke_%04d.vdb --frames 48-50 --up z\n"
+              "  brume sim scenes/demo.toml --volumes end.vdb --detail 0.05");
   auto options = std::make_shared<SimOptions>();
   const Arguments arguments = command.arguments;
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").type_name("");
@@ -303,6 +337,12 @@ Command add_sim(CommandLine& program) {
       .add_option("--up", options->up, "Axis of --volumes that points up: y or, for Blender, z; default y")
       .one_of({"y", "z"})
       .type_name("y|z");
+  arguments
+      .add_option(
+          "--detail", options->detail,
+          "Write the smoke of --volumes as pictures show it, eroded and with holes, in voxels of M metres")
+      .range(0.005, 10.0)
+      .type_name("M");
   declare_json(arguments, options->json);
   command.run = [arguments, options, common = command.common] {
     check_options(arguments, *options, common->outputs);

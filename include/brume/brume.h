@@ -619,6 +619,34 @@ BRUME_API brume_result brume_field_optical_depths(const brume_field* field, cons
 /// ends at the first obstacle.
 BRUME_API brume_result brume_field_visible(const brume_field* field, const brume_segment* segments,
                                            size_t count, float threshold, uint8_t* visible) BRUME_NOEXCEPT;
+/// How noise erodes smoke in the picture: brume_smoke_look of brume_vulkan.h has the same members.
+typedef struct brume_drawn_params {
+  uint32_t struct_size;
+  const void* next;
+  float erosion;     ///< How much noise erodes, [0, 1].
+  float noise_size;  ///< Of its largest billows [m], [0.05, 100].
+  float detail;      ///< Weight of what is finer than a tenth of that, [0, 1]; a renderer's is 1.
+  float hole_rim;    ///< How far noise frays the rims of holes [m], [0, 1].
+  float swirl;       ///< How far noise swirls [m], [0, 10].
+  float rise;        ///< How fast noise rises [m/s], [-10, 10].
+} brume_drawn_params;
+
+static inline brume_drawn_params brume_drawn_defaults(void) {
+  brume_drawn_params params = {sizeof(brume_drawn_params), BRUME_NULL, 0.5f, 1.5f, 1.0f, 0.06f, 0.2f, 0.12f};
+  return params;
+}
+
+/// As brume_field_optical_depths, of the smoke as a renderer draws it at the state's tick: eroded by noise,
+/// with frayed rims. The same bits on every machine; some hundred times as slow. The first query after an
+/// update, or with other `params`, takes some milliseconds more. `params` may be null: the defaults.
+BRUME_API brume_result brume_field_drawn_depths(const brume_field* field, const brume_drawn_params* params,
+                                                const brume_segment* segments, size_t count,
+                                                float* depths) BRUME_NOEXCEPT;
+/// As brume_field_visible, likewise: whether a player sees through a rim, not only whether the smoke lets
+/// them.
+BRUME_API brume_result brume_field_drawn_visible(const brume_field* field, const brume_drawn_params* params,
+                                                 const brume_segment* segments, size_t count, float threshold,
+                                                 uint8_t* visible) BRUME_NOEXCEPT;
 /// Writes the first solid voxel along each segment, other than those that a and b lie in.
 BRUME_API brume_result brume_field_first_walls(const brume_field* field, const brume_segment* segments,
                                                size_t count, brume_wall* walls) BRUME_NOEXCEPT;

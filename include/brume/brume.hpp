@@ -366,6 +366,20 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
     check(brume_field_visible(get(), segments.data(), segments.size(), threshold, out.data()));
     return out;
   }
+  /// brume_field_drawn_depths: one for each segment.
+  std::vector<float> drawn_depths(const std::vector<brume_segment>& segments,
+                                  const brume_drawn_params& params = brume_drawn_defaults()) const {
+    std::vector<float> out(segments.size());
+    check(brume_field_drawn_depths(get(), &params, segments.data(), segments.size(), out.data()));
+    return out;
+  }
+  /// brume_field_drawn_visible: 1 for each visible segment, else 0.
+  Bytes drawn_visible(const std::vector<brume_segment>& segments, float threshold,
+                      const brume_drawn_params& params = brume_drawn_defaults()) const {
+    Bytes out(segments.size());
+    check(brume_field_drawn_visible(get(), &params, segments.data(), segments.size(), threshold, out.data()));
+    return out;
+  }
   /// The first solid voxel along a segment.
   std::optional<brume_wall> first_wall(const brume_segment& segment) const {
     const auto wall = detail::value_of<brume_wall>(

@@ -104,7 +104,7 @@ SHARED_FUNCTION float threads(vec3 p_tile, int cells, uint octaves, uint seed) {
 /// Equalises values of this mean and standard deviation to about uniform in [0, 1], so that a threshold x removes a
 /// fraction x. A logistic curve approximates the normal distribution.
 SHARED_FUNCTION float spread(float value, float mean, float deviation) {
-  return 1.0f / (1.0f + exp(-1.702f * (value - mean) / deviation));
+  return 1.0f / (1.0f + portable_exp(-1.702f * (value - mean) / deviation));
 }
 
 /// A texel of the tile of noise that erodes smoke. Each channel covers [0, 1] uniformly and is bright where smoke

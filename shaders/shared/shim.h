@@ -28,6 +28,8 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+
+#include "core/portable_math.hpp"
 namespace brume::shared {
 using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::length, glm::max, glm::min,
     glm::lessThanEqual, glm::mix;
@@ -39,6 +41,8 @@ using glm::normalize, glm::sign, glm::smoothstep, glm::step;
 using glm::packSnorm2x16, glm::unpackSnorm2x16, glm::unpackUnorm4x8;
 using glm::floatBitsToUint, glm::uintBitsToFloat;
 using uint = std::uint32_t;
+/// Of the same bits on every processor; shaders have their own.
+inline float portable_exp(float x) { return static_cast<float>(portable::exp(double{x})); }
 
 /// Where a shader has a resource, and what the shared header calls it.
 struct BindingIndex final {
@@ -53,6 +57,7 @@ struct BindingIndex final {
 #define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
 #define SHARED_BINDING(name, number) constexpr BindingIndex name{number, #name}
 #else
+#define portable_exp exp
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_FUNCTION

@@ -55,20 +55,38 @@ void check_queries(const brume_segment* segments, std::size_t count, const Out* 
              " must have finite coordinates within 16384 m of the world's origin");
 }
 
+const auto of_smoke = [](const SmokeField& field) { return &field.sight(); };
+
+/// The sight of a field's smoke as it is drawn.
+auto as_drawn(const brume_drawn_params* given) {
+  return [given](const SmokeField& field) {
+    const brume_drawn_params params = params_or(given, brume_drawn_defaults());
+    const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
+    require(within(params.erosion, 0, 1), "`erosion` must be from 0 to 1");
+    require(within(params.noise_size, 0.05f, 100), "`noise_size` must be from 0.05 to 100");
+    require(within(params.detail, 0, 1), "`detail` must be from 0 to 1");
+    require(within(params.hole_rim, 0, 1), "`hole_rim` must be from 0 to 1");
+    require(within(params.swirl, 0, 10), "`swirl` must be from 0 to 10");
+    require(within(params.rise, -10, 10), "`rise` must be from -10 to 10");
+    return field.drawn_sight(
+        {params.erosion, params.noise_size, params.detail, params.hole_rim, params.swirl, params.rise});
+  };
+}
+
 /// Answers queries: query(segments of a chunk, their results).
 template <typename Out, typename Query>
 brume_result answer(const char* function, const brume_field* field, const brume_segment* segments,
-                    std::size_t count, Out* out, Query query) noexcept {
+                    std::size_t count, Out* out, Query query, const auto& sight_of) noexcept {
   return Call(function).run([&](Call& call) {
     const brume_field& of = call.handle(field);
     check_queries(segments, count, out);
     call.read(of, [&] {
+      const auto sight = sight_of(*of.field);
       std::vector<smoke::Segment> chunk(std::min(count, kChunk));
       for (std::size_t first = 0; first < count; first += kChunk) {
         const std::size_t size = std::min(kChunk, count - first);
         std::transform(segments + first, segments + first + size, chunk.begin(), segment_of);
-        query(of.field->sight(), std::span<const smoke::Segment>(chunk).first(size),
-              std::span(out + first, size));
+        query(*sight, std::span<const smoke::Segment>(chunk).first(size), std::span(out + first, size));
       }
     });
   });
@@ -162,20 +180,39 @@ brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* b
 
 brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments, size_t count,
                                         float* depths) BRUME_NOEXCEPT {
-  return answer(__func__, field, segments, count, depths, find_depths);
+  return answer(__func__, field, segments, count, depths, find_depths, of_smoke);
 }
 
 brume_result brume_field_visible(const brume_field* field, const brume_segment* segments, size_t count,
                                  float threshold, uint8_t* visible) BRUME_NOEXCEPT {
-  return answer(__func__, field, segments, count, visible,
-                [&](const Sight& sight, std::span<const Segment> chunk, std::span<std::uint8_t> out) {
-                  find_visible(sight, chunk, threshold, out);
-                });
+  return answer(
+      __func__, field, segments, count, visible,
+      [&](const Sight& sight, std::span<const Segment> chunk, std::span<std::uint8_t> out) {
+        find_visible(sight, chunk, threshold, out);
+      },
+      of_smoke);
+}
+
+brume_result brume_field_drawn_depths(const brume_field* field, const brume_drawn_params* params,
+                                      const brume_segment* segments, size_t count,
+                                      float* depths) BRUME_NOEXCEPT {
+  return answer(__func__, field, segments, count, depths, find_depths, as_drawn(params));
+}
+
+brume_result brume_field_drawn_visible(const brume_field* field, const brume_drawn_params* params,
+                                       const brume_segment* segments, size_t count, float threshold,
+                                       uint8_t* visible) BRUME_NOEXCEPT {
+  return answer(
+      __func__, field, segments, count, visible,
+      [&](const Sight& sight, std::span<const Segment> chunk, std::span<std::uint8_t> out) {
+        find_visible(sight, chunk, threshold, out);
+      },
+      as_drawn(params));
 }
 
 brume_result brume_field_first_walls(const brume_field* field, const brume_segment* segments, size_t count,
                                      brume_wall* walls) BRUME_NOEXCEPT {
-  return answer(__func__, field, segments, count, walls, find_walls);
+  return answer(__func__, field, segments, count, walls, find_walls, of_smoke);
 }
 
 brume_result brume_field_densities(const brume_field* field, brume_voxel low, brume_voxel high,

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "sim/level_edit.hpp"
+#include "smoke/drawn_sight.hpp"
 #include "smoke/holes.hpp"
 
 namespace brume::api {
@@ -59,6 +60,7 @@ std::span<const voxel::Plane> SmokeField::planes_at(glm::ivec3 cell) const {
 
 void SmokeField::update(const sim::State& state) {
   sight_.reset();
+  drawn_sight_.reset();
   follow_edits(state.edits);
   volume_.update(state, grid());
   find_changed_bricks();
@@ -68,10 +70,26 @@ void SmokeField::update(const sim::State& state) {
 
 void SmokeField::look(const sim::State& state) {
   holes_ = smoke::holes_of(state, masks_.get());
+  sight_.emplace(volume_, grid(), holes_, state.seconds(state.tick), sight_settings());
+}
+
+smoke::SightSettings SmokeField::sight_settings() const {
   smoke::SightSettings settings;
   settings.extinction = extinction_;
   settings.masks = masks_.get();
-  sight_.emplace(volume_, grid(), holes_, state.seconds(state.tick), settings);
+  return settings;
+}
+
+std::shared_ptr<const smoke::Sight> SmokeField::drawn_sight(const smoke::NoiseLook& look) const {
+  const std::lock_guard lock(drawn_mutex_);
+  if (drawn_sight_ && drawn_look_ == look) return drawn_sight_;
+  smoke::SmokeInput input{
+      .volume = &volume_, .state = &state_, .holes = holes_, .time = state_.seconds(state_.tick)};
+  smoke::set_noise(input.look, look);
+  const auto drawn = std::make_shared<const smoke::DrawnSight>(input, grid(), sight_settings());
+  drawn_look_ = look;
+  drawn_sight_ = {drawn, &drawn->sight()};
+  return drawn_sight_;
 }
 
 void SmokeField::find_changed_bricks() {

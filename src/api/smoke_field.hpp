@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "api/objects.hpp"
+#include "smoke/noise_look.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
 
@@ -27,6 +29,8 @@ class SmokeField {
   const voxel::GridLayout& layout() const { return level_->grid.layout(); }
   sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
   const smoke::Sight& sight() const { return *sight_; }
+  /// Of the smoke as it is drawn, from its first use on. Safe for several threads at once.
+  std::shared_ptr<const smoke::Sight> drawn_sight(const smoke::NoiseLook& look) const;
   float extinction() const { return extinction_; }
   /// Those of the last state, of the field's masks.
   std::span<const shared::Hole> holes() const { return holes_; }
@@ -44,6 +48,7 @@ class SmokeField {
   void follow_edits(const std::shared_ptr<const sim::EditBlocks>& edits);
   void set_block(const sim::EditBlock& block);
   void look(const sim::State& state);
+  smoke::SightSettings sight_settings() const;
   void find_changed_bricks();
 
   std::shared_ptr<const LevelData> level_;
@@ -59,6 +64,9 @@ class SmokeField {
   std::vector<glm::ivec3> replaced_bricks_;               // changed, too, in the first update
   std::vector<brume_voxel> changed_bricks_;
   std::optional<smoke::Sight> sight_;
+  mutable std::mutex drawn_mutex_;
+  mutable smoke::NoiseLook drawn_look_;
+  mutable std::shared_ptr<const smoke::Sight> drawn_sight_;  // with that look; null: none yet
 };
 
 }  // namespace brume::api

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "brume_shaders.hpp"
-#include "planning/noise_motion.hpp"
+#include "planning/noise_plan.hpp"
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
 
@@ -21,7 +21,7 @@ NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
   trim();
-  gpu::grow(context, impulses_, planning::kMaxImpulses * sizeof(shared::Impulse));
+  gpu::grow(context, impulses_, smoke::kMaxImpulses * sizeof(shared::Impulse));
 }
 
 void NoiseAdvectionPass::trim() {
@@ -35,7 +35,7 @@ void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeBric
   parts_stale_ |= growth_.update(state, volume);
   parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
   displacements_stale_ |= gpu::grow(context_, displacements_, growth_.displacements().size_bytes());
-  gpu::grow(context_, motions_, plan.motions.size() * sizeof(shared::CloudMotion));
+  gpu::grow(context_, motions_, plan.motion.clouds.size() * sizeof(shared::CloudMotion));
   if (plan.slots_due) gpu::grow(context_, slots_due_, plan.slots_due->size() * sizeof(std::uint32_t));
 }
 
@@ -52,8 +52,8 @@ void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePl
   }
   growth_.clear_new_parts();
   parts_stale_ = displacements_stale_ = false;
-  recorder.upload(motions_, 0, std::as_bytes(std::span(plan.motions)));
-  recorder.upload(impulses_, 0, std::as_bytes(std::span(plan.impulses)));
+  recorder.upload(motions_, 0, std::as_bytes(std::span(plan.motion.clouds)));
+  recorder.upload(impulses_, 0, std::as_bytes(std::span(plan.motion.impulses)));
   if (plan.slots_due && !plan.slots_due->empty())
     recorder.upload(slots_due_, 0, std::as_bytes(std::span(*plan.slots_due)));
 }
@@ -79,7 +79,7 @@ void NoiseAdvectionPass::record(gpu::Recorder& recorder, const planning::NoisePl
                       {shared::kBindSlots, gpu::read(slots)},
                   },
                   shared::NoiseAdvectionParams{first, count, in.smoke.slot_count,
-                                               static_cast<std::uint32_t>(plan.impulses.size())});
+                                               static_cast<std::uint32_t>(plan.motion.impulses.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }
 }

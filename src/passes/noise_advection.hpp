@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passes/smoke_upload.hpp"
-#include "planning/noise_motion.hpp"
+#include "planning/noise_plan.hpp"
 #include "sim/state.hpp"
 #include "smoke/cloud_growth.hpp"
 

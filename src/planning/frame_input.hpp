@@ -16,7 +16,7 @@
 #include "shared/light.h"
 #include "sim/level_edit.hpp"
 #include "sim/state.hpp"
-#include "smoke/smoke_volume.hpp"
+#include "smoke/smoke_input.hpp"
 #include "voxel/bit_grid.hpp"
 
 namespace brume::planning {
@@ -67,15 +67,7 @@ struct LevelState {
   std::vector<scenario::MovedObject> moved;
 };
 
-struct SmokeInput {
-  const smoke::SmokeVolume* volume = nullptr;  ///< null: no smoke.
-  /// The clouds, shots, bodies and blasts that advect the noise; null: it only rises.
-  const sim::State* state = nullptr;
-  std::span<const shared::Hole> holes;  ///< At most shared::kMaxHoles are cut, the last ones.
-  shared::SmokeLook look{};
-  double swirl_period = 12;  ///< How long the noise takes to roll around once [s]; > 0.
-  float time = 0;            ///< The clock of the holes and of the noise [s].
-};
+using smoke::SmokeInput;
 
 struct Quality {
   /// Multiplies look.step_length, for devices that the usual steps are too expensive for; > 0. Light in the
@@ -86,7 +78,7 @@ struct Quality {
   /// march hides.
   float resolve_error_scale = 1;
   /// Noise within a voxel shadows the smoke near the eye, where there is noise
-  /// (shaders/shared/fine_light.h): billows have a side in shadow, those of detail too.
+  /// (shaders/shared/fine_light.h): billows are darker where they face away from the light.
   bool fine_shadows = true;
   /// The noise of smoke has its detail (shaders/shared/erosion.h): without it nothing is finer than a cell of
   /// the tile, and the march takes two thirds of the time.

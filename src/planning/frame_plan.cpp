@@ -79,15 +79,15 @@ void plan_level(FramePlan& plan, PlanHistory& history) {
 void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   const SmokeInput& smoke = plan.input.smoke;
   if (!plan.smoke) return;
-  plan.noise =
-      plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period, history.memory.get());
+  plan.noise.motion = smoke::noise_motion(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period,
+                                          history.memory.get());
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
     plan.noise.catches_up = history.noise.is_late();
     history.noise.invalidate();
     return;
   }
-  const auto slots_due = history.noise.slots_due(
-      {plan.smoke, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
+  const auto slots_due = history.noise.slots_due({plan.smoke, plan.visibility.slots, plan.noise.motion.clouds,
+                                                  plan.noise.motion.impulses, smoke.look, smoke.time});
   plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end(), history.memory.get());
   plan.noise.catches_up = !slots_due.empty();
 }
@@ -151,8 +151,8 @@ FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Al
       lit_media{.volumes = FrameVector<PlacedVolume>(memory)},
       changed_objects(memory),
       holes{.holes = FrameVector<shared::Hole>(memory), .reaches = FrameVector<shared::HoleReach>(memory)},
-      noise{.motions = FrameVector<shared::CloudMotion>(memory),
-            .impulses = FrameVector<shared::Impulse>(memory)},
+      noise{.motion = {.clouds = FrameVector<shared::CloudMotion>(memory),
+                       .impulses = FrameVector<shared::Impulse>(memory)}},
       fine_light{.slots = FrameVector<std::uint32_t>(memory), .pages = FrameVector<std::uint32_t>(memory)},
       volume_light{.sweeps = FrameVector<shared::VolumeSweep>(memory)},
       indirect_light{.lights = FrameVector<shared::Light>(memory)} {}

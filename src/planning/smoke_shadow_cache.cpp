@@ -67,8 +67,8 @@ void SmokeShadowCache::set_key(const SmokeShadowInputs& inputs, Key& key) {
   key.erosion = inputs.look.erosion;
   if (inputs.look.erosion > 0) {
     key.noise_look = noise_look_of(inputs.look);
-    key.motions.assign(inputs.noise->motions.begin(), inputs.noise->motions.end());
-    key.impulses.assign(inputs.noise->impulses.begin(), inputs.noise->impulses.end());
+    key.motions.assign(inputs.noise->motion.clouds.begin(), inputs.noise->motion.clouds.end());
+    key.impulses.assign(inputs.noise->motion.impulses.begin(), inputs.noise->motion.impulses.end());
     key.noise_time = inputs.time;
   }
   key.holes.assign(inputs.holes->holes.begin(), inputs.holes->holes.end());

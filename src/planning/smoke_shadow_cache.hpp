@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planning/hole_plan.hpp"
-#include "planning/noise_motion.hpp"
+#include "planning/noise_plan.hpp"
 #include "planning/smoke_shadow_plan.hpp"
 #include "planning/update_scheduler.hpp"
 

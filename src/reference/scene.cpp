@@ -30,16 +30,6 @@ float star_light(const glm::vec3& direction) {
   return (0.04f + std::pow(more.y, 10.0f)) * (1 - glm::smoothstep(0.0003f, 0.0016f, offset));
 }
 
-/// Made when the first medium needs it.
-const smoke::NoiseTile& noise_tile() {
-  static const smoke::NoiseTile tile = smoke::make_noise_tile(smoke::kSmokeNoise);
-  return tile;
-}
-const smoke::SmokeNoise& smoke_noise() {
-  static const smoke::SmokeNoise noise{noise_tile(), smoke::make_detail_tile(noise_tile())};
-  return noise;
-}
-
 /// Where volume i is at the steps of the shutter, from where it is at first; empty: it rests.
 std::vector<glm::mat4> motion_of(std::size_t i, const planning::FrameInput& frame,
                                  std::span<const planning::FrameInput> later) {
@@ -125,9 +115,9 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
                                   std::span<const planning::FrameInput> later) {
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
-    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, smoke_noise, masks));
+    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, smoke::smoke_noise, masks));
   for (std::size_t i = 0; i < frame.volumes.size(); ++i) {
-    media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], noise_tile));
+    media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], smoke::smoke_noise_tile));
     media.back()->set_motion(motion_of(i, frame, later));
   }
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);

@@ -3,6 +3,7 @@
 
 #include "grids/grid.hpp"
 #include "sim/state.hpp"
+#include "smoke/drawn_smoke.hpp"
 
 namespace brume::scenario {
 
@@ -20,5 +21,15 @@ struct SmokeGridOptions {
 /// voxel (i, j, k) is that of the simulation, its world is in metres. Metadata: `time` [s] (double), `tick`
 /// (int32) and `extinction` [1/m] (float).
 grids::Grid smoke_grid(const sim::State& state, const SmokeGridOptions& options);
+
+/// The most voxels of a grid of drawn smoke.
+constexpr std::uint64_t kMostDrawnVoxels = std::uint64_t{1} << 27;
+
+/// The same of the smoke as it is drawn, with noise and holes and up to walls, in voxels of any size [m] from
+/// the same corner of the level: what the centres of voxels see. Active voxels are those with smoke; full
+/// density is 1, the largest value 1 + erosion / 2. Of more than kMostDrawnVoxels in its bricks a failure
+/// (resource_limit).
+Result<grids::Grid> drawn_smoke_grid(const smoke::DrawnSmoke& smoke, float voxel_size,
+                                     const SmokeGridOptions& options);
 
 }  // namespace brume::scenario

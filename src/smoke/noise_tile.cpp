@@ -60,6 +60,16 @@ NoiseTile make_detail_tile(const NoiseTile& noise) {
   });
 }
 
+const NoiseTile& smoke_noise_tile() {
+  static const NoiseTile tile = make_noise_tile(kSmokeNoise);
+  return tile;
+}
+
+const SmokeNoise& smoke_noise() {
+  static const SmokeNoise noise{smoke_noise_tile(), make_detail_tile(smoke_noise_tile())};
+  return noise;
+}
+
 glm::vec4 noise_at(const NoiseTile& tile, glm::vec3 p_tile) {
   // From the centre of texel 0. The next texel's number wraps as the first's does.
   const auto size = static_cast<float>(tile.size);

@@ -30,6 +30,10 @@ struct SmokeNoise {
   NoiseTile tile, detail;
 };
 
+/// Those of kSmokeNoise: made by the first call, and kept. The tile alone takes half the time.
+const NoiseTile& smoke_noise_tile();
+const SmokeNoise& smoke_noise();
+
 /// The tile's channels in [0, 1] at a point, linear between the centres of texels and repeating, as a sampler
 /// returns them. The tile's size must be a power of two, |p_tile| size below 2^31.
 glm::vec4 noise_at(const NoiseTile& tile, glm::vec3 p_tile);

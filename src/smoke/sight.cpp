@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/tasks.hpp"
+#include "smoke/drawn_smoke.hpp"
 #include "smoke/sight_packet.hpp"
 #include "smoke/sight_smoke.hpp"
 #include "smoke/sight_walls.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 constexpr float kNeverEnough = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGrain = 512;  // queries of a task: some 0.2 ms
+constexpr std::size_t kDrawnGrain = 8;
+// What is above it stays above the threshold however it is rounded.
+constexpr float kMore = 1 + 0x1p-20f;
 
 bool is_point(glm::vec3 p) {
   return std::abs(p.x) <= kMaxSightMetres && std::abs(p.y) <= kMaxSightMetres &&
@@ -118,8 +122,10 @@ std::optional<SmokeRay> Sight::smoke_ray(glm::dvec3 a_world, glm::dvec3 b_world,
 }
 
 float Sight::depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const {
-  const float per_voxel = settings_.extinction * volume_.layout().voxel_size;
+  const float extinction = settings_.extinction, per_voxel = extinction * volume_.layout().voxel_size;
   if (!(per_voxel > 0)) return 0;
+  if (settings_.drawn)
+    return extinction * settings_.drawn->integral(a_world, b_world, kMore * enough / extinction);
   const auto ray = smoke_ray(a_world, b_world, scratch);
   if (!ray) return 0;
   return smoke_on_ray(volume_, *ray, holes_.empty() ? nullptr : &scratch, enough / per_voxel) * per_voxel;
@@ -129,6 +135,13 @@ template <typename LineOf>
 void Sight::depths(const LineOf& line_of_number, float enough, std::span<float> out) const {
   const float per_voxel = settings_.extinction * volume_.layout().voxel_size;
   std::fill(out.begin(), out.end(), 0.0f);
+  if (settings_.drawn) {
+    HolesOnRay none;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (const std::optional<Line> line = line_of_number(i))
+        out[i] = depth(line->a_world, line->b_world, enough, none);
+    return;
+  }
   SmokePacket packet(volume_, !holes_.empty(), enough / per_voxel, out);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::optional<Line> line = line_of_number(i);
@@ -139,6 +152,10 @@ void Sight::depths(const LineOf& line_of_number, float enough, std::span<float> 
   }
   packet.finish();
   for (float& depth : out) depth *= per_voxel;
+}
+
+std::size_t Sight::grain() const {
+  return settings_.drawn ? kDrawnGrain : kGrain;
 }
 
 std::optional<SightWall> Sight::wall(glm::dvec3 a_world, glm::dvec3 b_world, bool b_hides) const {
@@ -168,7 +185,7 @@ Result<float> Sight::optical_depth(glm::vec3 a_world, glm::vec3 b_world) const {
 
 Result<void> Sight::optical_depths(std::span<const Segment> segments, std::span<float> out) const {
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
-  parallel_for(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(segments.size(), grain(), [&](std::size_t begin, std::size_t end) {
     depths([&](std::size_t i) { return std::optional(line_of(segments[begin + i])); }, kNeverEnough,
            out.subspan(begin, end - begin));
   });
@@ -186,7 +203,7 @@ Result<void> Sight::visible(std::span<const Segment> segments, float threshold,
                             std::span<std::uint8_t> out) const {
   if (auto ok = check_threshold(threshold); !ok) return ok;
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
-  parallel_for(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(segments.size(), grain(), [&](std::size_t begin, std::size_t end) {
     std::array<float, kGrain> depth;
     const auto line = [&](std::size_t i) -> std::optional<Line> {
       const Line between = line_of(segments[begin + i]);
@@ -217,7 +234,7 @@ Result<SensorSample> Sight::sense(const SensorRay& ray, const SurfaceAlbedo& alb
 Result<void> Sight::sense(std::span<const SensorRay> rays, const SurfaceAlbedo& albedo,
                           std::span<SensorSample> out) const {
   if (auto ok = check_all(rays, out.size()); !ok) return ok;
-  parallel_for(rays.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rays.size(), grain(), [&](std::size_t begin, std::size_t end) {
     std::array<float, kGrain> depth;
     const auto line = [&](std::size_t i) {
       out[begin + i] = surface_sample(rays[begin + i], albedo);

@@ -25,6 +25,7 @@
 
 namespace brume::smoke {
 
+class DrawnSmoke;
 struct SmokeRay;
 
 /// Largest coordinate of a point [m]: that of a Position.
@@ -35,6 +36,9 @@ struct SightSettings {
   glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
   /// Those of holes_of; must outlive the Sight. Required where a hole is a mask.
   const MaskAtlas* masks = nullptr;
+  /// Optical depths are those of the smoke as it is drawn, a hundred times as slowly; must outlive the Sight,
+  /// be of its volume, and brings holes and time of its own. Null: without its noise.
+  const DrawnSmoke* drawn = nullptr;
 };
 
 struct Segment {
@@ -96,6 +100,7 @@ class Sight {
                      std::span<SensorSample> out) const;
 
  private:
+  std::size_t grain() const;
   std::optional<SmokeRay> smoke_ray(glm::dvec3 a_world, glm::dvec3 b_world, HolesOnRay& holes) const;
   float depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const;
   /// depth() of many lines into `out`, in packets. `line(i)` returns the ends of line i, or nothing for a

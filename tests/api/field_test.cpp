@@ -334,5 +334,57 @@ TEST_F(FieldTest, LevelsFromTrianglesAreVoxelized) {
   EXPECT_EQ(layout.size.x, 96 + 6);
 }
 
+// What of it is drawn: DrawnSmokeTest.
+TEST_F(FieldTest, DrawnSmokeIsErodedAndTheSameFromEveryThread) {
+  World world = this->world();
+  Field field = field_at(world, 280);
+  const auto segments = match_.segments(300, 8);
+  const auto smooth = field.optical_depths(segments), drawn = field.drawn_depths(segments);
+  EXPECT_NE(drawn, smooth);
+  brume_drawn_params none = brume_drawn_defaults();
+  none.erosion = none.hole_rim = 0;
+  const auto without = field.drawn_depths(segments, none);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    // Steps of 1.8 cm, where it begins and ends.
+    EXPECT_NEAR(without[i], smooth[i], params_.extinction * 20 * 0.018f);
+  }
+  const auto visible = field.drawn_visible(segments, 1);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    EXPECT_EQ(visible[i] != 0, !field.first_wall(segments[i]) && drawn[i] <= 1) << i;
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 3; ++i)
+    threads.emplace_back([&, i] {
+      for (int round = 0; round < 4; ++round)
+        EXPECT_EQ(field.drawn_depths(segments, i == 1 ? none : brume_drawn_defaults()),
+                  i == 1 ? without : drawn);
+    });
+  threads.clear();
+  // Of the state of the last update.
+  field.update(world.state());
+  EXPECT_EQ(field.drawn_depths(segments), drawn);
+  world.advance_to(300);
+  field.update(world.state());
+  EXPECT_NE(field.drawn_depths(segments), drawn);
+}
+
+TEST_F(FieldTest, DrawnSmokeChecksItsParameters) {
+  World world = this->world();
+  const Field field = field_at(world, 100);
+  const auto segments = match_.segments(2, 8);
+  std::vector<float> out(2);
+  using Member = float brume_drawn_params::*;
+  for (const Member member :
+       {&brume_drawn_params::erosion, &brume_drawn_params::noise_size, &brume_drawn_params::detail,
+        &brume_drawn_params::hole_rim, &brume_drawn_params::swirl, &brume_drawn_params::rise})
+    for (const float bad : {-11.0f, 101.0f, std::nanf("")}) {
+      brume_drawn_params params = brume_drawn_defaults();
+      params.*member = bad;
+      EXPECT_EQ(brume_field_drawn_depths(field.get(), &params, segments.data(), 2, out.data()),
+                BRUME_ERROR_ARGUMENT);
+    }
+  EXPECT_EQ(brume_field_drawn_depths(field.get(), nullptr, segments.data(), 2, out.data()), BRUME_OK);
+  EXPECT_EQ(out, field.drawn_depths(segments));
+}
+
 }  // namespace
 }  // namespace brume::api

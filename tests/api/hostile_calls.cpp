@@ -287,6 +287,17 @@ void Hostile::field_query() {
                       [&](const brume_segment* lines, std::size_t number, std::uint8_t* out) {
                         return brume_field_visible(handle(fields_), lines, number, threshold, out);
                       });
+  brume_drawn_params drawn = brume_drawn_defaults();
+  drawn.erosion = real(1);
+  drawn.detail = real(1);
+  const brume_drawn_params* const look = chance(0.5) ? nullptr : spoiled(drawn);
+  query<float>("brume_field_drawn_depths", [&](const brume_segment* lines, std::size_t number, float* out) {
+    return brume_field_drawn_depths(handle(fields_), look, lines, number, out);
+  });
+  query<std::uint8_t>(
+      "brume_field_drawn_visible", [&](const brume_segment* lines, std::size_t number, std::uint8_t* out) {
+        return brume_field_drawn_visible(handle(fields_), look, lines, number, threshold, out);
+      });
   query<brume_wall>("brume_field_first_walls",
                     [&](const brume_segment* lines, std::size_t number, brume_wall* out) {
                       return brume_field_first_walls(handle(fields_), lines, number, out);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
 
 namespace brume::cli {
@@ -60,6 +62,24 @@ TEST_F(Query, SmokeHidesWhileItLasts) {
   EXPECT_NEAR(during["transmittance"].get<double>(), std::exp(-during["optical_depth"].get<double>()), 1e-9);
   EXPECT_TRUE(answer(across({"--time", "1", "--threshold", "1000"}))["visible"]);
   EXPECT_TRUE(answer(across({"--time", "2.9"}))["visible"]);
+}
+
+TEST_F(Query, DrawnSmokeIsErodedByTheSceneSNoise) {
+  const Json smooth = answer(across({"--time", "1"})), drawn = answer(across({"--time", "1", "--drawn"}));
+  EXPECT_FALSE(smooth["drawn"]);
+  EXPECT_TRUE(drawn["drawn"]);
+  EXPECT_NE(drawn["optical_depth"], smooth["optical_depth"]);
+  EXPECT_EQ(drawn["first_solid"], smooth["first_solid"]);
+  folder_.write("smooth.toml", std::regex_replace(*read_text_file(folder_.path() / "smoke.toml"),
+                                                  std::regex("extinction"), "erosion = 0\nextinction"));
+  const Outcome run = run_brume(folder_.path(), {"query", "smooth.toml", "--from", "-1.6,2.5,-1.6", "--to",
+                                                 "1.6,2.5,1.6", "--time", "1", "--drawn", "--json", "-"});
+  // Steps of 1.8 cm where the smoke begins and ends.
+  EXPECT_NEAR(Json::parse(run.out)["optical_depth"].get<double>(), smooth["optical_depth"].get<double>(),
+              4 * 0.04);
+  const Json report = answer(across({"--report", "--times", "0.9-1.1", "--drawn"}));
+  EXPECT_NEAR(report["intervals"][0]["max_optical_depth"].get<double>(), drawn["optical_depth"].get<double>(),
+              4 * 0.2);
 }
 
 TEST_F(Query, WallsHideWithoutSmoke) {

@@ -134,6 +134,8 @@ TEST(Sim, FailuresAreOneLine) {
   expect_failure({"sim", "room.toml", "--frames", "0-1"}, 2, "--frames");
   expect_failure({"sim", "room.toml", "--volumes", "a.raw"}, 2, "a.raw: unknown file suffix");
   expect_failure({"sim", "room.toml", "--volumes", "a_%s.brv"}, 2, "%04d");
+  expect_failure({"sim", "room.toml", "--detail", "0.1"}, 2, "--volumes");
+  expect_failure({"sim", "room.toml", "--volumes", "a.brv", "--detail", "0.1", "--rate", "60"}, 2, "--rate");
   expect_failure({"sim", "room.toml", "--volumes", "a.brv", "--fps", "30"}, 2, "numbered files");
   expect_failure({"sim", "room.toml", "--volumes", "a_%d.brv", "--frames", "8-9", "--ticks", "20"}, 2,
                  "tick 24");

@@ -2,7 +2,7 @@
 //
 //   state    sim::State::hash(), every tick          level    voxels and planes of the level, at tick 0
 //   voxels   densities of all voxels, every 16       sight    optical depths and what is visible, every 64
-//   second   the state hashes of 64 ticks, every 64
+//   second   the state hashes of 64 ticks, every 64       drawn    optical depths of drawn smoke, every 320
 //
 //   busy_match [--threads N] [--calls N] [--mode straight|rollback|late|snapshot] [--expect FILE]
 //
@@ -24,7 +24,9 @@
 #include "core/hash.hpp"
 #include "core/tasks.hpp"
 #include "sim/world.hpp"
+#include "smoke/drawn_smoke.hpp"
 #include "smoke/holes.hpp"
+#include "smoke/noise_look.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
 #include "tests/determinism/match.hpp"
@@ -135,6 +137,32 @@ std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& wor
   return hash_values(std::span<const float>(depths), hash_values(std::span<const std::uint8_t>(visible)));
 }
 
+/// A tile of few texels: noise is the same at any size.
+const smoke::SmokeNoise& smoke_noise() {
+  static const smoke::NoiseTile tile = smoke::make_noise_tile({16, 4, 7});
+  static const smoke::SmokeNoise noise{tile, smoke::make_detail_tile(tile)};
+  return noise;
+}
+
+std::uint64_t hash_drawn(const smoke::SmokeVolume& volume, const sim::World& world,
+                         const smoke::MaskAtlas& masks) {
+  Random random(world.tick());
+  const auto metres = [&] {
+    return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
+  };
+  const auto holes = smoke::holes_of(world.state(), &masks);
+  const float time = world.state().seconds(world.tick());
+  smoke::SmokeInput input{.volume = &volume, .state = &world.state(), .holes = holes, .time = time};
+  smoke::set_noise(input.look, {});
+  const smoke::DrawnSmoke drawn(input, smoke_noise, &masks);
+  const smoke::Sight sight(volume, world.grid(), holes, time, {.masks = &masks, .drawn = &drawn});
+  std::vector<smoke::Segment> segments(48);
+  for (smoke::Segment& segment : segments) segment = {metres(), metres()};
+  std::vector<float> depths(segments.size());
+  sight.optical_depths(segments, depths).value_or_throw();
+  return hash_values(std::span<const float>(depths));
+}
+
 /// A world that reports its hashes at every tick that it reaches.
 class Match {
  public:
@@ -164,6 +192,7 @@ class Match {
     report_.add(tick, "voxels", hash_densities(world_->state()));
     volume_.update(*world_);
     if (tick % 64 == 0) report_.add(tick, "sight", hash_sight(volume_, *world_, masks_));
+    if (tick % 320 == 0) report_.add(tick, "drawn", hash_drawn(volume_, *world_, masks_));
   }
 
  private:

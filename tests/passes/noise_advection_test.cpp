@@ -6,8 +6,6 @@
 #include <numbers>
 
 #include "passes/noise.hpp"
-#include "planning/noise_displacement.hpp"
-#include "planning/noise_motion.hpp"
 #include "shared/erosion.h"
 #include "shared/frame.h"
 #include "smoke/holes.hpp"
@@ -15,6 +13,7 @@
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
 #include "tests/reference/noise.hpp"
+#include "tests/smoke/displacements.hpp"
 
 namespace brume::passes {
 namespace {
@@ -32,9 +31,9 @@ sim::Cloud cloud_of(const sim::SmokeSettings& settings, std::uint32_t detonation
 TEST(CloudMotion, IsBoundedAndContinuousOverALife) {
   const sim::Cloud cloud = cloud_of({3000, 64, 64, 128}, 32);
   constexpr double kStep = 1.0 / 1920;
-  shared::CloudMotion before = planning::cloud_motion(cloud, kTicks, 0, 12);
+  shared::CloudMotion before = smoke::cloud_motion(cloud, kTicks, 0, 12);
   for (double t = kStep; t < 5; t += kStep) {
-    const shared::CloudMotion now = planning::cloud_motion(cloud, kTicks, t, 12);
+    const shared::CloudMotion now = smoke::cloud_motion(cloud, kTicks, t, 12);
     EXPECT_GE(now.grown, -1.0f / 7 - 1e-6f);
     EXPECT_LE(now.grown, 1.5f);
     EXPECT_GE(std::hypot(now.swirl_cos, now.swirl_sin), 0.999f);
@@ -50,7 +49,7 @@ TEST(CloudMotion, CarriesOutwardWhileItBloomsAndDiesDown) {
   const sim::Cloud cloud = cloud_of({3000, 64, 1152, 128}, 0);
   double before = 1e9, fastest_late = 0, fastest = 0;
   for (int frame = 8; frame < 240; ++frame) {
-    const auto grown = static_cast<double>(planning::cloud_motion(cloud, kTicks, frame / 24.0, 12).grown);
+    const auto grown = static_cast<double>(smoke::cloud_motion(cloud, kTicks, frame / 24.0, 12).grown);
     if (frame > 8) {
       EXPECT_LE(grown, before + 1e-6);  // never back
       (frame < 24 ? fastest : fastest_late) = std::max(frame < 24 ? fastest : fastest_late, before - grown);
@@ -77,7 +76,7 @@ TEST(Impulses, OfAShotBeginAndEndWithNothing) {
   const float radius = smoke::hole_of(world.state().holes[0], world.state()).radius;
   float most = 0;
   for (double t = 2; t < 5; t += 1.0 / 480) {
-    const auto impulses = planning::impulses_of(world.state(), t);
+    const auto impulses = smoke::impulses_of(world.state(), t);
     if (impulses.empty()) continue;
     const float along = impulses[0].along.x;
     EXPECT_GE(along, 0.0f);
@@ -86,8 +85,8 @@ TEST(Impulses, OfAShotBeginAndEndWithNothing) {
     most = std::max(most, along);
   }
   EXPECT_GT(most, 1.5f * radius);
-  EXPECT_TRUE(planning::impulses_of(world.state(), 2.0).empty());
-  EXPECT_TRUE(planning::impulses_of(world.state(), 4.5).empty());
+  EXPECT_TRUE(smoke::impulses_of(world.state(), 2.0).empty());
+  EXPECT_TRUE(smoke::impulses_of(world.state(), 4.5).empty());
 }
 
 TEST(Impulses, OfABodyFollowItAndDieDown) {
@@ -100,15 +99,15 @@ TEST(Impulses, OfABodyFollowItAndDieDown) {
     world.append(move).value_or_throw();
   }
   world.advance_to(26);
-  const auto now = planning::impulses_of(world.state(), 26.0 / kTicks);
+  const auto now = smoke::impulses_of(world.state(), 26.0 / kTicks);
   ASSERT_EQ(now.size(), 1u);
   EXPECT_LT(glm::distance(now[0].to_world, glm::vec3(3, 1, 4)), 1e-3f);
   EXPECT_LT(glm::distance(now[0].from_world, glm::vec3(1, 1, 4)), 1e-3f);  // half a second of its path
   EXPECT_NEAR(now[0].along.x, 0.6, 1e-4);
-  const auto later = planning::impulses_of(world.state(), 26.0 / kTicks + 0.75);
+  const auto later = smoke::impulses_of(world.state(), 26.0 / kTicks + 0.75);
   ASSERT_EQ(later.size(), 1u);
   EXPECT_NEAR(later[0].along.x, 0.3, 1e-3);
-  EXPECT_TRUE(planning::impulses_of(world.state(), 26.0 / kTicks + 1.51).empty());
+  EXPECT_TRUE(smoke::impulses_of(world.state(), 26.0 / kTicks + 1.51).empty());
 }
 
 TEST(Impulses, OfABlastCarryOutwards) {
@@ -120,8 +119,8 @@ TEST(Impulses, OfABlastCarryOutwards) {
   blast.radius = 2 * 1024;
   world.append(blast).value_or_throw();
   world.advance_to(65);
-  EXPECT_TRUE(planning::impulses_of(world.state(), 1.0).empty());
-  const auto open = planning::impulses_of(world.state(), 1.2);
+  EXPECT_TRUE(smoke::impulses_of(world.state(), 1.0).empty());
+  const auto open = smoke::impulses_of(world.state(), 1.2);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].along, glm::vec3(0));
   EXPECT_NEAR(open[0].radius, 3, 1e-3);
@@ -149,7 +148,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     frame_.look.erosion = erosion;
     frame_.time = static_cast<float>(seconds);
     const auto frame = upload(std::vector{frame_});
-    const planning::NoisePlan plan = planning::plan_noise(state, seconds, 12);
+    const planning::NoisePlan plan{smoke::noise_motion(state, seconds, 12)};
     pass.reserve(state, room_.volume, plan);
     runner().run([&](gpu::Recorder& recorder) {
       pass.upload(recorder, plan);
@@ -214,7 +213,7 @@ TEST_F(NoiseAdvectionTest, CarriesAsTheReference) {
   const sim::Cloud& cloud = *state().clouds.at(0).cloud;
   for (const double seconds : {0.3, 0.8, 6.0}) {
     const auto texels = record(state(), seconds, 0);
-    const shared::CloudMotion motion = planning::cloud_motion(cloud, kTicks, seconds, 12);
+    const shared::CloudMotion motion = smoke::cloud_motion(cloud, kTicks, seconds, 12);
     int compared = 0;
     for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
       // In the open, where all voxels around belong to the cloud, its growth is a straight line.
@@ -280,11 +279,12 @@ double displacement_bound(double expected, double swirl) {
 /// Compares all texels for which compared(voxel) holds, and returns how many have a displacement.
 std::size_t NoiseAdvectionTest::compare_with_processor(double seconds, auto compared) {
   const auto device = record(state(), seconds, 0);
-  const auto processor = planning::noise_displacement(room_.volume, state(), frame_.look, seconds, 12);
+  const auto processor =
+      smoke::displacements_of({room_.volume, state(), frame_.look, seconds, 12}, room_.volume);
   EXPECT_EQ(processor.size(), std::size_t{1000} * room_.volume.slot_count());
   double swirl = 0;
   for (const sim::LiveCloud& live : state().clouds) {
-    const shared::CloudMotion motion = planning::cloud_motion(*live.cloud, kTicks, seconds, 12);
+    const shared::CloudMotion motion = smoke::cloud_motion(*live.cloud, kTicks, seconds, 12);
     swirl = std::max<double>(swirl,
                              frame_.look.swirl * (std::abs(motion.swirl_cos) + std::abs(motion.swirl_sin)));
   }
@@ -343,13 +343,13 @@ TEST_F(NoiseAdvectionTest, DisplacesAsTheProcessorWhereCloudsMeetAndImpulsesAct)
   show(448);
   ASSERT_EQ(state().clouds.size(), 2u);
   const double seconds = 448.0 / kTicks;
-  ASSERT_EQ(planning::impulses_of(state(), seconds).size(), 3u);
+  ASSERT_EQ(smoke::impulses_of(state(), seconds).size(), 3u);
   const std::size_t displaced = compare_with_processor(seconds, [&](glm::ivec3 voxel) {
     // Well behind a front, in a cloud: elsewhere all weights may be near 0, and their ratio hardly
     // determined.
     return std::ranges::any_of(state().clouds, [&](const sim::LiveCloud& live) {
       const glm::ivec3 from_source = voxel - live.cloud->origin().source;
-      const float front = planning::cloud_motion(*live.cloud, kTicks, seconds, 12).front;
+      const float front = smoke::cloud_motion(*live.cloud, kTicks, seconds, 12).front;
       if (glm::length(glm::vec3(from_source)) > front - 6) return false;
       for (int i = 0; i < 125; ++i)
         if (!live.cloud->voxels().contains(voxel + glm::ivec3(i % 5, i / 5 % 5, i / 25) - 2)) return false;

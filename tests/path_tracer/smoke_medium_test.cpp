@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "planning/noise_displacement.hpp"
+#include "planning/frame_input.hpp"
 #include "tests/path_tracer/statistics.hpp"
 #include "tests/reference/hole.hpp"
 #include "tests/reference/smoke_integral.hpp"

@@ -2,12 +2,12 @@
 #include "tests/reference/truth.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/device_lights.hpp"
-#include "planning/noise_displacement.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/path_tracer.hpp"
 #include "smoke/noise_tile.hpp"
 #include "tests/path_tracer/statistics.hpp"
 #include "tests/render/truth_scenes.hpp"
+#include "tests/smoke/displacements.hpp"
 
 namespace brume::reference {
 namespace {
@@ -17,8 +17,8 @@ constexpr std::uint32_t kSamples = 2048;
 
 /// The displacement by slots as the texels of an atlas.
 NoiseAdvectionField in_atlas(const planning::SmokeInput& smoke) {
-  const std::vector<glm::vec3> slots = planning::noise_displacement(*smoke.volume, *smoke.state, smoke.look,
-                                                                    double{smoke.time}, smoke.swirl_period);
+  const std::vector<glm::vec3> slots = smoke::displacements_of(
+      {*smoke.volume, *smoke.state, smoke.look, double{smoke.time}, smoke.swirl_period}, *smoke.volume);
   const shared::BrickLayout& bricks = smoke.volume->layout().bricks;
   NoiseAdvectionField field{bricks.atlas_bricks * shared::kBrickTexels, {}};
   field.texels.resize(static_cast<std::size_t>(field.size.x) * static_cast<std::size_t>(field.size.y) *

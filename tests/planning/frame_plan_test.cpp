@@ -125,7 +125,7 @@ TEST_F(FramePlanTest, OnlyAQuarterOfTheLightOrLessSlicesNoise) {
   const FramePlan next = plan();
   ASSERT_TRUE(next.noise.slots_due);
   EXPECT_LT(next.noise.slots_due->size(), next.visibility.slots.size());
-  EXPECT_EQ(next.noise.motions.size(), 1u);
+  EXPECT_EQ(next.noise.motion.clouds.size(), 1u);
   ASSERT_TRUE(next.smoke_shadows);
   EXPECT_EQ(next.smoke_shadows->spread, 2u);
 }
@@ -162,7 +162,7 @@ TEST_F(FramePlanTest, WithoutSmokeNothingIsUpdated) {
   const FramePlan none = plan();
   EXPECT_TRUE(none.visibility.slots.empty());
   EXPECT_TRUE(none.smoke_light->parts.empty());
-  EXPECT_TRUE(none.noise.motions.empty());
+  EXPECT_TRUE(none.noise.motion.clouds.empty());
   EXPECT_EQ(none.holes.layout().count, 0u);
   EXPECT_FALSE(plan().smoke_shadows);
   EXPECT_TRUE(none.state().clouds.empty());

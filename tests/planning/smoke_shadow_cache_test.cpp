@@ -164,15 +164,15 @@ TEST_F(SmokeShadowCacheTest, HolesMoveWithTheClock) {
 }
 
 TEST_F(SmokeShadowCacheTest, NoiseMovesWithTheClockAndWithImpulses) {
-  noise_.impulses.resize(1);
+  noise_.motion.impulses.resize(1);
   update();
-  noise_.impulses[0].radius = 1;
+  noise_.motion.impulses[0].radius = 1;
   EXPECT_FALSE(update()) << "no noise, nothing to move";
   inputs_.look.erosion = 0.5f;
   expect_one_update("erosion");
   inputs_.time += 0.1f;
   expect_one_update("time");
-  noise_.impulses[0].radius = 2;
+  noise_.motion.impulses[0].radius = 2;
   expect_one_update("an impulse");
   inputs_.look.swirl += 0.1f;
   expect_one_update("the swirl");

@@ -93,6 +93,16 @@ class ScenarioTest(unittest.TestCase):
         self.assertAlmostEqual(scenario.optical_depth(eye, head), depth, delta=0.0005)
         self.assertEqual(scenario.visible(eye, head), "visible         yes" in text)
 
+    def test_drawn_sight_is_that_of_the_program(self):
+        eye, head = (-5.2, 1.35, 10.8), (-1.75, 1.65, -3)
+        text = run_brume("query", DEMO, "--from", ",".join(map(str, eye)), "--to", ",".join(map(str, head)), "--time",
+                         3.2, "--drawn")
+        scenario = brume.load(DEMO)
+        scenario.advance_to(3.2)
+        depth = float(re.search(r"optical depth +([0-9.]+)", text).group(1))
+        self.assertAlmostEqual(scenario.optical_depth(eye, head, drawn=True), depth, delta=0.0005)
+        self.assertNotAlmostEqual(scenario.optical_depth(eye, head), depth, delta=0.0005)
+
     def test_level_and_density(self):
         scenario = brume.load(DEMO)
         scenario.advance_to(2)

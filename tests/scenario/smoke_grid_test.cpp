@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "grids/check.hpp"
+#include "core/box.hpp"
 #include "sim/world.hpp"
+#include "smoke/noise_look.hpp"
 #include "smoke/smoke_volume.hpp"
 #include "voxel/surface_planes.hpp"
 
@@ -113,6 +115,62 @@ TEST(SmokeGrid, SaysWhatAndWhenItIs) {
   EXPECT_EQ(metadata_of<float>(grid, "extinction", "float"), 2.5f);
   EXPECT_EQ(metadata_of<std::int32_t>(grid, "tick", "int32"), 72);
   EXPECT_EQ(metadata_of<double>(grid, "time", "double"), 1.125);
+}
+
+/// What a hall's smoke is drawn from at its tick.
+smoke::SmokeInput input_of(const Hall& hall, const smoke::SmokeVolume& volume, const smoke::NoiseLook& look) {
+  smoke::SmokeInput input{.volume = &volume,
+                          .state = &hall.world.state(),
+                          .holes = {},
+                          .time = hall.world.state().seconds(hall.world.tick())};
+  smoke::set_noise(input.look, look);
+  return input;
+}
+
+TEST(SmokeGrid, DrawnWithoutNoiseIsTheDensityOfTheState) {
+  Hall hall;
+  hall.world.advance_to(70);
+  smoke::SmokeVolume volume(hall.level, hall.planes);
+  volume.update(hall.world);
+  const smoke::DrawnSmoke smoke(input_of(hall, volume, {.erosion = 0}), smoke::smoke_noise, nullptr);
+  const grids::Grid expected = smoke_grid(hall.world.state(), {});
+  const grids::Grid same = drawn_smoke_grid(smoke, 0.5f, {}).value_or_throw();
+  EXPECT_EQ(same.world_from_index, expected.world_from_index);
+  int dense = 0;
+  for_each_in(Box<int>{glm::ivec3(0), hall.level.layout().size}, [&](glm::ivec3 voxel) {
+    if (hall.level.solid(voxel)) return;
+    // A voxel's centre is rounded to 2^-21 m, and densities change by at most 1 in half a metre.
+    EXPECT_NEAR(value_at(same, voxel).density, value_at(expected, voxel).density, 1e-5);
+    dense += value_at(expected, voxel).density > 0;
+  });
+  EXPECT_GT(dense, 500);
+}
+
+TEST(SmokeGrid, DrawnSmokeIsThatOfPointsInVoxelsOfAnySize) {
+  Hall hall;
+  hall.world.advance_to(90);
+  smoke::SmokeVolume volume(hall.level, hall.planes);
+  volume.update(hall.world);
+  const smoke::DrawnSmoke smoke(input_of(hall, volume, {}), smoke::smoke_noise, nullptr);
+  for (const float size : {0.09f, 0.2f, 0.7f}) {
+    const grids::Grid grid = drawn_smoke_grid(smoke, size, {UpAxis::y, 7}).value_or_throw();
+    grids::check_grid(grid).value_or_throw();
+    EXPECT_EQ(metadata_of<float>(grid, "extinction", "float"), 7);
+    EXPECT_EQ(metadata_of<std::int32_t>(grid, "tick", "int32"), 90);
+    int smoky = 0;
+    const glm::ivec3 voxels(glm::vec3(hall.level.layout().size) * 0.5f / size);
+    for_each_in(Box<int>{glm::ivec3(-2), voxels}, [&](glm::ivec3 voxel) {
+      const glm::vec3 centre = hall.level.layout().origin_world + size * (glm::vec3(voxel) + 0.5f);
+      const Value value = value_at(grid, voxel);
+      EXPECT_EQ(value.density, smoke.density(centre));
+      EXPECT_EQ(value.active, value.density > 0);
+      smoky += value.active;
+    });
+    EXPECT_GT(smoky, 50);
+  }
+  const auto too_fine = drawn_smoke_grid(smoke, 0.005f, {});
+  ASSERT_FALSE(too_fine);
+  EXPECT_EQ(too_fine.failure().code, ErrorCode::resource_limit);
 }
 
 }  // namespace

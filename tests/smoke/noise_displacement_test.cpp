@@ -1,13 +1,12 @@
-#include "planning/noise_displacement.hpp"
+#include "smoke/noise_displacement.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/tasks.hpp"
-#include "planning/noise_motion.hpp"
 #include "sim/world.hpp"
+#include "tests/smoke/displacements.hpp"
 #include "voxel/surface_planes.hpp"
 
-namespace brume::planning {
+namespace brume::smoke {
 namespace {
 
 // NoiseAdvectionTest compares with the device.
@@ -24,24 +23,15 @@ class NoiseDisplacementTest : public ::testing::Test {
     look_.swirl_width = 3;
   }
   std::vector<glm::vec3> displacement() const {
-    return noise_displacement(volume_, world_.state(), look_, 300.0 / 64, 12);
+    return displacements_of(NoiseDisplacement(volume_, world_.state(), look_, 300.0 / 64, 12), volume_);
   }
 
   voxel::BitGrid grid_{{glm::ivec3(32), 0.5f, glm::vec3(0)}};
   voxel::SurfacePlanes planes_;
   sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeVolume volume_{grid_, planes_};
   shared::SmokeLook look_{};
 };
-
-TEST_F(NoiseDisplacementTest, IsTheSameOnAnyNumberOfThreads) {
-  set_thread_count(1);
-  const auto one = displacement();
-  set_thread_count(2);
-  const auto two = displacement();
-  set_thread_count(0);
-  EXPECT_EQ(one, two);
-}
 
 TEST_F(NoiseDisplacementTest, OfGrowthPointsAlongIt) {
   look_.swirl = 0;
@@ -71,4 +61,4 @@ TEST_F(NoiseDisplacementTest, OfGrowthPointsAlongIt) {
 }
 
 }  // namespace
-}  // namespace brume::planning
+}  // namespace brume::smoke

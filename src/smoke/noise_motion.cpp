@@ -1,12 +1,12 @@
-#include "planning/noise_motion.hpp"
+#include "smoke/noise_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/portable_math.hpp"
 #include "smoke/holes.hpp"
 
-namespace brume::planning {
+namespace brume::smoke {
 namespace {
 
 // A blooming cloud's noise is at most this much finer than when it is grown: what is finer the march misses.
@@ -40,12 +40,13 @@ double front_voxels(const sim::Cloud& cloud, double tick) {
     return static_cast<double>(cloud.undissolved_phase(static_cast<std::uint32_t>(t)).front) /
            (static_cast<double>(sim::kFrontUnit) * sim::kFaceStep);
   };
-  return std::lerp(at(low), at(low + 1), std::max(tick, 0.0) - low);
+  const double first = at(low);
+  return first + (std::max(tick, 0.0) - low) * (at(low + 1) - first);
 }
 
 void add_shot(const sim::BulletHole& open, const sim::State& state, double seconds,
               FrameVector<shared::Impulse>& out) {
-  const shared::Hole hole = smoke::hole_of(open, state);
+  const shared::Hole hole = hole_of(open, state);
   const double age = seconds - static_cast<double>(hole.time_start);
   const double length = static_cast<double>(hole.time_to_reach_far) +
                         static_cast<double>(hole.time_to_expand) +
@@ -109,20 +110,20 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
   const double grown =
       front_voxels(cloud, static_cast<double>(origin.detonation_tick) + origin.settings.bloom_ticks);
   const double now = std::max(front_voxels(cloud, tick), 1e-3);
-  const double finer = std::min(std::pow(std::max(grown / now, 1.0), kFollow), kMostGrown);
-  const double creep = kCreep * (1 - std::exp(-age / kCreepSeconds));
+  const double finer = std::min(portable::pow(std::max(grown / now, 1.0), kFollow), kMostGrown);
+  const double creep = kCreep * (1 - portable::exp(-age / kCreepSeconds));
 
   // The rolls of all clouds keep pace, so that they blend where clouds meet; a new one's are only ahead.
-  const double ahead = kSwirlLead * (1 - std::exp(-age / kSwirlLeadSeconds));
-  const double turns = std::fmod(seconds / std::max(swirl_period, kMinSwirlPeriod), 1.0) + ahead;
-  const double angle = 2 * std::numbers::pi * turns;
+  const double ahead = kSwirlLead * (1 - portable::exp(-age / kSwirlLeadSeconds));
+  const auto [sine, cosine] = portable::sine_cosine_of_turns(
+      std::fmod(seconds / std::max(swirl_period, kMinSwirlPeriod), 1.0) + ahead);
   // What dissolves is drawn out.
   const double dissolve = (tick - static_cast<double>(origin.detonation_tick) - origin.settings.bloom_ticks -
                            origin.settings.hold_ticks) /
                           origin.settings.dissolve_ticks;
   const double wide = 1 + kDrawnOut * smooth(dissolve);
-  return {static_cast<float>(finer - 1 - creep), static_cast<float>(wide * std::cos(angle)),
-          static_cast<float>(wide * std::sin(angle)), static_cast<float>(now),
+  return {static_cast<float>(finer - 1 - creep), static_cast<float>(wide * cosine),
+          static_cast<float>(wide * sine), static_cast<float>(now),
           static_cast<float>(1 - kGoneWeight * smooth(dissolve))};
 }
 
@@ -138,13 +139,12 @@ FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds
   return impulses;
 }
 
-NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period, Allocator memory) {
-  NoisePlan plan{.motions = FrameVector<shared::CloudMotion>(memory),
-                 .impulses = impulses_of(state, seconds, memory)};
-  plan.motions.reserve(state.clouds.size());
+NoiseMotion noise_motion(const sim::State& state, double seconds, double swirl_period, Allocator memory) {
+  NoiseMotion motion{FrameVector<shared::CloudMotion>(memory), impulses_of(state, seconds, memory)};
+  motion.clouds.reserve(state.clouds.size());
   for (const sim::LiveCloud& live : state.clouds)
-    plan.motions.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));
-  return plan;
+    motion.clouds.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));
+  return motion;
 }
 
-}  // namespace brume::planning
+}  // namespace brume::smoke

@@ -1,13 +1,11 @@
-// What advects the noise in the smoke at a time, as the advection pass reads it.
+// What advects the noise in the smoke at a time: the same bits on every machine.
 #pragma once
-
-#include <optional>
 
 #include "core/frame_memory.hpp"
 #include "shared/noise_advection.h"
 #include "sim/state.hpp"
 
-namespace brume::planning {
+namespace brume::smoke {
 
 /// The shortest time that a roll of the noise takes [s]; shorter periods count as this one.
 constexpr double kMinSwirlPeriod = 0.1;
@@ -27,17 +25,12 @@ constexpr std::size_t kMaxImpulses = 64;
 /// at rest.
 FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory = {});
 
-/// The noise of a frame.
-struct NoisePlan {
-  FrameVector<shared::CloudMotion> motions;  ///< Of the state's clouds, in their order.
+struct NoiseMotion {
+  FrameVector<shared::CloudMotion> clouds;  ///< Of the state's clouds, in their order.
   FrameVector<shared::Impulse> impulses;
-  /// The slots whose noise the frame advects; empty: all of its slots.
-  std::optional<FrameVector<std::uint32_t>> slots_due = std::nullopt;
-  /// Time-sliced noise catches up: it changes, though its inputs may be those of the frame before.
-  bool catches_up = false;
 };
 
-/// What advects the noise of a state `seconds` after tick 0, in all slots.
-NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period, Allocator memory = {});
+/// What advects the noise of a state `seconds` after tick 0.
+NoiseMotion noise_motion(const sim::State& state, double seconds, double swirl_period, Allocator memory = {});
 
-}  // namespace brume::planning
+}  // namespace brume::smoke

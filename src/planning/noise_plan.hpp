@@ -1,0 +1,19 @@
+// The noise of a frame: what advects it, and where.
+#pragma once
+
+#include <optional>
+
+#include "core/frame_memory.hpp"
+#include "smoke/noise_motion.hpp"
+
+namespace brume::planning {
+
+struct NoisePlan {
+  smoke::NoiseMotion motion;
+  /// The slots whose noise the frame advects; empty: all of its slots.
+  std::optional<FrameVector<std::uint32_t>> slots_due = std::nullopt;
+  /// Time-sliced noise catches up: it changes, though its inputs may be those of the frame before.
+  bool catches_up = false;
+};
+
+}  // namespace brume::planning

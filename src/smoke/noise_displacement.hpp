@@ -1,0 +1,36 @@
+// The displacement of the smoke's noise at a time, as shaders/noise_advection.comp stores it, on the CPU.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "shared/frame.h"
+#include "sim/state.hpp"
+#include "smoke/cloud_growth.hpp"
+#include "smoke/noise_motion.hpp"
+#include "smoke/smoke_volume.hpp"
+
+namespace brume::smoke {
+
+class NoiseDisplacement {
+ public:
+  /// `seconds` after tick 0. `volume` holds the smoke of the state, must outlive this and stay as it is.
+  NoiseDisplacement(const SmokeVolume& volume, const sim::State& state, const shared::SmokeLook& look,
+                    double seconds, double swirl_period);
+
+  /// Writes those of a brick's texels [m], x + 10 (y + 10 z): the noise at a point is that of the point + its
+  /// displacement. 0 where no texel next to it in its brick holds smoke.
+  void write(std::uint32_t slot, std::span<glm::vec3, shared::kTexelsPerBrick> out) const;
+
+ private:
+  glm::vec4 growth_at(std::uint32_t part, glm::ivec3 local) const;
+  glm::vec3 by_clouds(std::uint32_t slot, glm::ivec3 local, glm::vec3 p_world) const;
+  glm::vec3 by_impulses(glm::vec3 p_world) const;
+
+  const SmokeVolume& volume_;
+  float swirl_, swirl_width_;
+  NoiseMotion motion_;
+  CloudGrowth growth_;
+};
+
+}  // namespace brume::smoke
