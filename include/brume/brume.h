@@ -637,8 +637,9 @@ static inline brume_drawn_params brume_drawn_defaults(void) {
 }
 
 /// As brume_field_optical_depths, of the smoke as a renderer draws it at the state's tick: eroded by noise,
-/// with frayed rims. The same bits on every machine; some hundred times as slow. The first query after an
-/// update, or with other `params`, takes some milliseconds more. `params` may be null: the defaults.
+/// with frayed rims. The same bits on every machine; some hundred times as slow. The first query of a
+/// process makes the noise, in a second of processor time; the first after an update, or with other `params`,
+/// takes some milliseconds more. `params` may be null: the defaults.
 BRUME_API brume_result brume_field_drawn_depths(const brume_field* field, const brume_drawn_params* params,
                                                 const brume_segment* segments, size_t count,
                                                 float* depths) BRUME_NOEXCEPT;
