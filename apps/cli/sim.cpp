@@ -187,7 +187,9 @@ class VolumeFiles {
                                    .swirl_period = double{look.swirl_period},
                                    .time = state.seconds(state.tick)},
                                   smoke::smoke_noise, &scenario_.masks);
-    return scenario::drawn_smoke_grid(smoke, static_cast<float>(*detail_), grid_options_).value_or_throw();
+    auto grid = scenario::drawn_smoke_grid(smoke, static_cast<float>(*detail_), grid_options_);
+    if (!grid) throw Error(grid.failure().code, "--detail: " + grid.failure().message);
+    return std::move(*grid);
   }
 
   std::filesystem::path path_;

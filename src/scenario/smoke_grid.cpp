@@ -116,9 +116,9 @@ Result<grids::Grid> drawn_smoke_grid(const smoke::DrawnSmoke& smoke, float voxel
   // Bricks that the smoke's touch are at most so many, before they are listed.
   const double across = std::ceil(double{volume.layout().voxel_size} / double{voxel_size}) + 1;
   if (volume.slot_count() * across * across * across * grids::kBrickVoxels > double{kMostDrawnVoxels})
-    return Failure{ErrorCode::resource_limit,
-                   "smoke in voxels of " + std::to_string(voxel_size) + " m may need more than " +
-                       std::to_string(kMostDrawnVoxels) + " voxels; choose larger ones"};
+    return Failure{ErrorCode::resource_limit, "smoke in voxels of this size may need more than " +
+                                                  std::to_string(kMostDrawnVoxels) +
+                                                  " voxels; choose larger ones"};
   grids::Grid grid = grid_of(state, layout, options);
   add_bricks(grid, brick_origins(volume, layout), [&](glm::ivec3 origin, float* values) {
     grids::Brick brick{origin, {}};

@@ -124,7 +124,9 @@ class DrawnTest(unittest.TestCase):
         a, b = lines_through(world, 500)
         smooth, drawn = world.optical_depth(a, b), world.optical_depth(a, b, drawn=True)
         self.assertFalse(np.array_equal(smooth, drawn))
-        self.assertAlmostEqual(float(drawn.sum() / smooth.sum()), 1, delta=0.15)
+        # Erosion multiplies what is there: less at rims, more inside.
+        self.assertTrue((drawn[smooth == 0] == 0).all())
+        self.assertTrue((drawn < smooth).any() and (drawn > smooth).any())
         self.assertTrue(np.array_equal(world.visible(a, b, 1, drawn=True), drawn <= 1))
         self.assertEqual(world.optical_depth(a[3], b[3], drawn=True), drawn[3])
         world.advance_to(2)
