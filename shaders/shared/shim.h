@@ -41,7 +41,7 @@ using glm::normalize, glm::sign, glm::smoothstep, glm::step;
 using glm::packSnorm2x16, glm::unpackSnorm2x16, glm::unpackUnorm4x8;
 using glm::floatBitsToUint, glm::uintBitsToFloat;
 using uint = std::uint32_t;
-/// Of the same bits on every processor; shaders have their own.
+/// Returns the same bits on every processor. Shaders use the built-in exp.
 inline float portable_exp(float x) { return static_cast<float>(portable::exp(double{x})); }
 
 /// Where a shader has a resource, and what the shared header calls it.

@@ -29,7 +29,7 @@ class SmokeField {
   const voxel::GridLayout& layout() const { return level_->grid.layout(); }
   sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
   const smoke::Sight& sight() const { return *sight_; }
-  /// Of the smoke as it is drawn, from its first use on. Safe for several threads at once.
+  /// Queries of the drawn smoke; built on first use and kept until the next update. Thread-safe.
   std::shared_ptr<const smoke::Sight> drawn_sight(const smoke::NoiseLook& look) const;
   float extinction() const { return extinction_; }
   /// Those of the last state, of the field's masks.

@@ -1,6 +1,7 @@
-// Elementary functions with the same bits on every machine: by sums, products, quotients and rounding alone,
-// which IEEE 754 defines, where those of C libraries differ in their last bits. Build with -ffp-contract=off.
-// Their error is below 10^-14 of the result, of sine and cosine below 10^-15.
+// Elementary functions that return the same bits on every machine; those of C libraries differ in the last
+// bits. They use only operations that IEEE 754 defines exactly (sums, products, quotients, rounding), and
+// need -ffp-contract=off. The relative error is below 10^-14; sine and cosine have an absolute error below
+// 10^-15.
 #pragma once
 
 namespace brume::portable {

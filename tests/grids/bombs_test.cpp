@@ -61,13 +61,13 @@ TEST_F(Bombs, AreFortyAndMore) {
   EXPECT_GE(vdb_bombs(folder).size() + nvdb_bombs(folder).size() + brv_bombs().size(), 40u);
 }
 
-TEST_F(Bombs, SixtyNineBillionVoxelsAreRefusedInLessThanASecond) {
+TEST_F(Bombs, SixtyNineBillionVoxelsAreRefusedBeforeTheyAreMade) {
   const auto path = folder_.path() / "huge.vdb";
   save_grid_file(path, {{huge_tile()}, {}}).value_or_throw();
   EXPECT_LT(std::filesystem::file_size(path), 1000u);
   const double before = child_costs().cpu_seconds;
   const auto file = load_grid_file(path);
-  EXPECT_LT(child_costs().cpu_seconds - before, 1);
+  EXPECT_LT(child_costs().cpu_seconds - before, kMostSeconds);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.failure().code, ErrorCode::resource_limit);
   EXPECT_NE(file.failure().message.find("68719476736 active voxels"), std::string::npos);

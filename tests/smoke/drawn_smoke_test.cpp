@@ -68,7 +68,8 @@ TEST_P(DrawnSmokeTest, StepsAreShortEnoughForDetail) {
   std::printf("of %.3f m on average off by %.4f m at most, %.4f m in root mean square\n",
               sum / static_cast<double>(found.size()), most,
               std::sqrt(squares / static_cast<double>(found.size())));
-  EXPECT_LT(most, 0.05);
+  // Six surfaces of full smoke (clouds, walls, holes), each half a step of 1.77 cm too early or too late.
+  EXPECT_LT(most, 6 * 0.5 * 0.0177);
 }
 
 TEST_P(DrawnSmokeTest, IsTheSameAloneAmongManyAndOnAnyNumberOfThreads) {
