@@ -30,7 +30,7 @@ struct MediaRay {
 MediaRay media_ray(WorldRay world, vec2 position_px) {
   MediaRay ray;
   ray.world = world;
-  if (kHasSmoke) ray.smoke = smoke_ray(position_px);
+  if (kHasSmoke) ray.smoke = smoke_ray(world.direction, position_px);
   if (kHasVolumes && !kHasSeveral) ray.volumes = volumes_ray(world);
   return ray;
 }
@@ -73,7 +73,7 @@ struct MediaSample {
 };
 
 /// `transmittance`: from the eye to the sample.
-MediaSample sample_media(MediaRay ray, inout MediaSpan span, vec3 p_world, float t, float transmittance,
+MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, float transmittance,
                          inout uint texture_samples) {
   MediaSample here;
   if (kHasSmoke) {

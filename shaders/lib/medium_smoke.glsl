@@ -24,16 +24,14 @@ layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 layout(scalar, binding = kBindFinePages) readonly buffer FinePages { uint fine_pages[]; };
 
 struct SmokeRay {
+  vec3 direction;
   RayHoles holes;
 };
 
-SmokeRay smoke_ray(vec2 position_px) {
-  return SmokeRay(holes_of_ray(position_px));
-}
+SmokeRay smoke_ray(vec3 direction, vec2 position_px) { return SmokeRay(direction, holes_of_ray(position_px)); }
 
 struct SmokeSpan {
   BrickSpan bricks;
-  vec4 side;        // towards the light, and the fraction that comes from there; unknown: below 0
   vec3 uvw_offset;  // uvw = p_world * texels_per_metre + uvw_offset
   vec3 fine_corner;  // of the page of fine light [texels]; below 0: none
 };
@@ -47,7 +45,6 @@ SmokeSpan smoke_span(WorldRay world, float t, float ds) {
   const uint slot = slot_at(volume.bricks, brick, edge);
   edge = slot != kNoSlot ? kBrickVoxels : edge;
   SmokeSpan span;
-  span.side = vec4(-1.0);
   const BrickAt at = BrickAt(vec3((brick * kBrickVoxels) & -edge), float(edge), slot, 0.0);
   span.bricks = brick_span(ray, inverse_of(ray), at, t, ds);
   // Cell 0 of a brick begins half a voxel before it.
@@ -92,23 +89,29 @@ vec4 side_at(vec3 uvw) {
   return fraction < kLeastSide ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(side / fraction, fraction);
 }
 
-/// A sample's noise, and its density.
-struct SmokeNoise {
-  vec3 p;      // displaced
-  vec2 noise;  // of the tile
+/// What erosion leaves of a sample of smoke, by the noise of the tile and by detail.
+struct Erosion {
+  vec3 p;       // displaced
+  vec2 noise;   // of the tile
   float weight, level;  // of detail
-  float density, left;  // of which erosion leaves a fraction
+  float density;        // before
+  float threshold;      // without detail
+  float left;           // fraction that remains
 };
 
-float relief_at(SmokeNoise here, vec4 side, inout uint texture_samples) {
+/// What detail does to the light of a sample: by what remains half-way along the path to where most light comes from.
+float relief_at(SmokeRay ray, Erosion here, vec3 uvw, inout uint texture_samples) {
   const SmokeLook look = frame.look;
+  const vec4 side = side_at(uvw);
+  ++texture_samples;
   const vec2 detail = detail_at(here.p + 0.5 * relief_path(look) * side.xyz, here.level, texture_samples);
-  return relief(look, here.left, eroded_fraction(look, here.density, here.noise + here.weight * detail),
-                effective_fraction(look, here.density, here.noise), side.w);
+  const float there = eroded_fraction(look, here.density, here.noise + here.weight * detail);
+  return relief(look, vec3(here.left, there, mean_fraction(look, here.density, here.threshold)), side.w,
+                dot(ray.direction, side.xyz));
 }
 
 /// `transmittance`: from the eye to the sample.
-SmokeSample sample_smoke(SmokeRay ray, inout SmokeSpan span, vec3 p_world, float t, float transmittance,
+SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, float transmittance,
                          inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
   const VolumeLayout volume = frame.volume;
@@ -122,40 +125,40 @@ SmokeSample sample_smoke(SmokeRay ray, inout SmokeSpan span, vec3 p_world, float
       smoke.density =
           textureLod(density_displacement_atlas, uvw + off_faces(local_voxel) * volume.bricks.atlas_texel, 0.0).r;
   }
-  float density = smoke.density;
   ++texture_samples;
-  SmokeSample here = SmokeSample(density, p_world, uvw, smoke.light_offset, 1.0);
+  SmokeSample here = SmokeSample(smoke.density, p_world, uvw, smoke.light_offset, 1.0);
+  if (smoke.density <= 0.0 || (kHoles == kHolesNone && frame.look.erosion <= 0.0)) return here;
 
   // Noise, for erosion and for the rims of holes.
-  if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
-    const vec3 p_noise = p_world + texel.gba;
-    const vec4 noise = smoke_noise(noise_tile, frame.look, p_noise, frame.time);
-    ++texture_samples;
-    const vec2 erosion_noise = billows_and_wisps(noise);
-    const float pixel = t * frame.pixel_width;
-    const float weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0, level = detail_level(frame.look, pixel);
-    const float threshold = erosion_threshold(frame.look, density, erosion_noise);
-    const bool matters = kHasDetail && detail_matters(frame.look, density, threshold, weight);
-    vec2 detail = vec2(0.0);
-    // The rims of holes have it wherever they are.
-    if (matters || (weight > 0.0 && any_hole_at(ray.holes, t))) detail = detail_at(p_noise, level, texture_samples);
-    float left = 1.0;
-    if (frame.look.erosion > 0.0) {
-      left = eroded_fraction(drawn_look(), density, erosion_noise + weight * detail);
-      density = left * density_inside(frame.look, noise);
-    }
-    if (kHoles != kHolesNone)
-      density *= remaining_after_holes(ray.holes, t, p_world, rim_noise(noise, detail, weight), density > 0.0);
-    if (kFineShadows && matters && density > 0.0 && transmittance > kLeastSeen) {
-      if (span.side.w < 0.0) {
-        span.side = side_at(uvw + smoke.light_offset * volume.bricks.atlas_texel);
-        ++texture_samples;
-      }
-      here.relief = relief_at(SmokeNoise(p_noise, erosion_noise, weight, level, smoke.density, left), span.side,
-                              texture_samples);
-    }
+  Erosion erosion;
+  erosion.p = p_world + texel.gba;
+  const vec4 noise = smoke_noise(noise_tile, frame.look, erosion.p, frame.time);
+  ++texture_samples;
+  erosion.noise = billows_and_wisps(noise);
+  const float pixel = t * frame.pixel_width;
+  erosion.weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0;
+  erosion.level = detail_level(frame.look, pixel);
+  erosion.density = smoke.density;
+  erosion.threshold = erosion_threshold(frame.look, smoke.density, erosion.noise);
+  const bool matters =
+      kHasDetail && detail_matters(frame.look, smoke.density, erosion.threshold, erosion.weight);
+  vec2 detail = vec2(0.0);
+  float threshold = erosion.threshold;
+  // The rims of holes have detail wherever they are.
+  if (matters || (erosion.weight > 0.0 && any_hole_at(ray.holes, t))) {
+    detail = detail_at(erosion.p, erosion.level, texture_samples);
+    threshold = erosion_threshold(frame.look, smoke.density, erosion.noise + erosion.weight * detail);
   }
-  here.density = density;
+  if (frame.look.erosion > 0.0) {
+    erosion.left = clamp(rim_position(drawn_look(), smoke.density, threshold), 0.0, 1.0);
+    here.density = erosion.left * density_inside(frame.look, noise);
+  }
+  if (kHoles != kHolesNone)
+    here.density *= remaining_after_holes(ray.holes, t, p_world, rim_noise(noise, detail, erosion.weight),
+                                          here.density > 0.0);
+  if (kFineShadows && matters && here.density > 0.0 && transmittance > kLeastSeen)
+    here.relief =
+        relief_at(ray, erosion, uvw + smoke.light_offset * volume.bricks.atlas_texel, texture_samples);
   return here;
 }
 

@@ -139,16 +139,34 @@ SHARED_FUNCTION float effective_erode(SmokeLook look, float density, vec4 noise)
   return effective_fraction(look, density, billows_and_wisps(noise)) * density_inside(look, noise);
 }
 
-/// What detail does to the light of a sample of smoke, of which erosion leaves `here`, half-way along the path
-/// `there`, and on average over the detail what `mean` lets through. `fraction`: of the light that comes along the
-/// path. The rest comes from all around, more of it from there than from elsewhere, and has gone around what is dense:
-/// its mean stays. The less smoke absorbs, the less it differs from place to place.
-SHARED_FUNCTION float relief(SmokeLook look, float here, float there, float mean, float fraction) {
-  const float alike = 0.6f;  // correlation of detail half a path apart
+/// As effective_fraction, but rougher and cheaper, at a threshold without detail: what samples of rays from the eye are
+/// compared with. Thresholds with detail are taken as evenly distributed, the rim as straight.
+SHARED_FUNCTION float mean_fraction(SmokeLook look, float density, float threshold) {
+  // Half remains at this threshold, none or all as far from it as detail and the rim reach.
+  float half_left = (8.0f * density - 1.0f) / 7.0f;
+  float reach = 0.287f * look.detail * look.erosion + 0.08f / (1.0f + look.detail) * (1.0f - half_left);
+  float mean = clamp(0.5f + 0.5f * (half_left - threshold) / reach, 0.0f, 1.0f);
+  // Thresholds are limited.
+  float most = clamp(rim_position(look, density, 0.0f), 0.0f, 1.0f);
+  float least = clamp(rim_position(look, density, look.erosion), 0.0f, 1.0f);
+  mean = max(most * mean, least);
+  // Less density lets as much light through, to the second order.
+  return mean - look.extinction * relief_path(look) * mean * (1.0f - mean);
+}
+
+/// What detail does to the light of a sample of smoke. Of `left`, x is what erosion leaves there, y half-way along the
+/// path to where most light comes from, z the mean_fraction. `fraction`: of the light that comes along the path, at
+/// this cosine to the ray from the eye. The less the path to the light differs from that to the eye, the fewer of the
+/// points that are seen lie in shadow. The rest of the light comes from all around, more of it from there than from
+/// elsewhere, and has gone around what is dense: its mean stays. The less smoke absorbs, the less it differs from place
+/// to place.
+SHARED_FUNCTION float relief(SmokeLook look, vec3 left, float fraction, float cosine) {
+  float alike = 0.6f;  // correlation of detail half a path apart
   float absorbed = 1.0f - max(look.albedo.x, max(look.albedo.y, look.albedo.z));
-  float uneven = 0.6f * min(6.0f * sqrt(max(absorbed, 0.0f)), 1.0f);
-  float along = mean - there, around = mean + alike * (here - mean) - there;
-  return exp(look.extinction * relief_path(look) * mix(uneven * around, along, fraction));
+  float around = (1.0f - fraction) * clamp(4.0f * absorbed, 0.0f, 0.5f);
+  float along = fraction * (0.5f + 0.5f * cosine);
+  float less = (along + around) * (left.z - left.y) + alike * around * (left.x - left.z);
+  return exp(look.extinction * relief_path(look) * less);
 }
 
 /// Density of even smoke that lets as much light through as smoke of four densities on average, each for a quarter of

@@ -269,29 +269,68 @@ TEST_F(ErosionTest, DetailFadesBeforeItsBillowsAreNarrowerThanPixels) {
   }
 }
 
+// What samples of rays are compared with: the mean over detail, nearly.
+TEST_F(ErosionTest, TheMeanThatSamplesAreComparedWithIsThatOfDetail) {
+  const auto all = smoke_noises();
+  const auto details = with_detail(all);
+  shared::SmokeLook look{};
+  look.erosion = 0.8f;
+  look.detail = 1;
+  look.noise_frequency = 1.0f / 6;
+  double off = 0;
+  int count = 0;
+  for (std::size_t n = 0; n < all.size(); n += 65537 / 8 + 2) {
+    const glm::vec2 noise = shared::billows_and_wisps(all[n].tile);
+    for (int i = 0; i <= 10; ++i) {
+      const float density = static_cast<float>(i) / 10;
+      double mean = 0;
+      for (std::size_t k = 0; k < details.size(); k += 37)
+        mean += double{shared::eroded_fraction(look, density, noise + details[k].detail)};
+      mean /= static_cast<double>((details.size() + 36) / 37);
+      look.extinction = 0;
+      const float found =
+          shared::mean_fraction(look, density, shared::erosion_threshold(look, density, noise));
+      EXPECT_GE(found, 0);
+      EXPECT_LE(found, 1);
+      off += double{found} - mean;
+      ++count;
+      look.extinction = 7;
+      EXPECT_LE(shared::mean_fraction(look, density, shared::erosion_threshold(look, density, noise)), found);
+    }
+  }
+  // Light would be off by as much: a fiftieth of relief's range is not seen.
+  EXPECT_LT(std::abs(off / count), 0.02);
+}
+
 // Smoke between a point and the light darkens it, a gap lights it, and the light of one side most. Dense
 // smoke has more such smoke around it, which counts for the light of one side alone.
 TEST_F(ErosionTest, ReliefDarkensBehindMoreSmokeThanTheMean) {
   shared::SmokeLook look{};
   look.extinction = 7;
   look.noise_frequency = 1.0f / 6;
+  const auto relief = [&](float here, float there, float fraction, float cosine) {
+    return shared::relief(look, {here, there, 0.5f}, fraction, cosine);
+  };
   for (const float fraction : {0.0f, 0.5f, 1.0f}) {
-    EXPECT_EQ(shared::relief(look, 0.4f, 0.4f, 0.4f, fraction), 1);
+    EXPECT_EQ(relief(0.5f, 0.5f, fraction, 0), 1);
     float before = 10;
     for (int i = 0; i <= 10; ++i) {
-      const float shade = shared::relief(look, 0.5f, 0.1f * static_cast<float>(i), 0.5f, fraction);
+      const float shade = relief(0.5f, 0.1f * static_cast<float>(i), fraction, 0);
       EXPECT_LT(shade, before);
       before = shade;
     }
-    EXPECT_GE(shared::relief(look, 0.5f, 1, 0.5f, fraction), shared::relief(look, 0.5f, 1, 0.5f, 1));
+    EXPECT_GE(relief(0.5f, 1, fraction, 1), relief(0.5f, 1, 1, 1));
     if (fraction < 1) {
-      EXPECT_GT(shared::relief(look, 1, 0.5f, 0.5f, fraction), shared::relief(look, 0, 0.5f, 0.5f, fraction));
+      EXPECT_GT(relief(1, 0.5f, fraction, 0), relief(0, 0.5f, fraction, 0));
     }
-    EXPECT_EQ(shared::relief(look, 1, 0.5f, 0.5f, 1), shared::relief(look, 0, 0.5f, 0.5f, 1));
-    shared::SmokeLook white = look;
-    white.albedo = glm::vec3(1);
-    EXPECT_EQ(shared::relief(white, 1, 0.2f, 0.5f, 0), 1) << "no shadows in even light";
+    EXPECT_EQ(relief(1, 0.5f, 1, 0), relief(0, 0.5f, 1, 0));
   }
+  // Light from behind shows shadows, light from the eye none.
+  EXPECT_LT(relief(0.5f, 1, 1, 1), relief(0.5f, 1, 1, 0));
+  EXPECT_LT(relief(0.5f, 1, 1, 0), relief(0.5f, 1, 1, -1));
+  EXPECT_EQ(relief(0.5f, 1, 1, -1), 1);
+  look.albedo = glm::vec3(1);
+  EXPECT_EQ(relief(1, 0.2f, 0, 0), 1) << "no shadows in even light";
 }
 
 }  // namespace
