@@ -625,7 +625,7 @@ typedef struct brume_drawn_params {
   const void* next;
   float erosion;     ///< How much noise erodes, [0, 1].
   float noise_size;  ///< Of its largest billows [m], [0.05, 100].
-  float detail;      ///< Weight of what is finer than a tenth of that, [0, 1]; a renderer's is 1.
+  float detail;      ///< Weight of what is finer than a tenth of that, [0, 1].
   float hole_rim;    ///< How far noise frays the rims of holes [m], [0, 1].
   float swirl;       ///< How far noise swirls [m], [0, 10].
   float rise;        ///< How fast noise rises [m/s], [-10, 10].

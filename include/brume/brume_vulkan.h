@@ -280,6 +280,10 @@ typedef struct brume_frame_params {
   brume_normals normals;            ///< Of the surfaces that they darken.
   const brume_shown_tank* tanks;    ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
   size_t tank_count;                ///< Of `tanks`.
+  /// How much is left out of what noise has below a tenth of look.noise_size, [0, 1]. 0: all is drawn, as
+  /// brume_drawn_params::detail = 1 has it; 1: none, which takes a third off the march.
+  float less_detail;
+  uint32_t reserved;  ///< 0.
 } brume_frame_params;
 
 static inline brume_frame_params brume_frame_defaults(void) {
@@ -310,6 +314,8 @@ static inline brume_frame_params brume_frame_defaults(void) {
       0,
       {VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, BRUME_NORMALS_SIGNED, 0, 0},
       BRUME_NULL,
+      0,
+      0.0f,
       0};
   return params;
 }

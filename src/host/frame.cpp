@@ -126,12 +126,15 @@ planning::Quality quality_of(const brume_quality& given) {
   return quality;
 }
 
-void show_smoke(const brume_smoke_look& look, const api::SmokeField& field, planning::FrameInput& input) {
+void show_smoke(const brume_frame_params& params, const api::SmokeField& field, planning::FrameInput& input) {
+  require(is_within(params.less_detail, 0, 1), "`less_detail` must be from 0 to 1");
+  scene::SmokeOptions options = options_of(params.look, field.extinction());
+  options.detail = 1 - params.less_detail;
   input.level.voxels = {&field.grid(), field.state().edits};
   input.smoke.volume = &field.volume();
   input.smoke.state = &field.state();
   input.smoke.holes = field.holes();
-  input.smoke.look = planning::smoke_look(options_of(look, field.extinction()), field.layout().voxel_size);
+  input.smoke.look = planning::smoke_look(options, field.layout().voxel_size);
 }
 
 }  // namespace
@@ -229,7 +232,7 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.quality = quality_of(params.quality);
   // What is too dark to be seen depends on it.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
-  if (field) show_smoke(params.look, *field, input);
+  if (field) show_smoke(params, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
 }
 

@@ -66,6 +66,9 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
     params.look.noise_size = 0;
     refused(BRUME_ERROR_ARGUMENT, "noise_size");
     params.look.noise_size = 1;
+    params.less_detail = 1.5f;
+    refused(BRUME_ERROR_ARGUMENT, "less_detail");
+    params.less_detail = 0;
     params.light_count = 1;
     refused(BRUME_ERROR_ARGUMENT, "lights");
     params.light_count = 0;
@@ -112,6 +115,21 @@ TEST_F(RendererTest, DrawsTheSameWhereAllIsPrepared) {
   host_->wait();
   expect_same(0);
   expect_same(1);
+}
+
+TEST_F(RendererTest, TakesAsMuchDetailAsTheHostWants) {
+  make_sides(2, 1);
+  draw_both(3.5, 1);
+  change_input_ = [](planning::FrameInput& input) { input.smoke.look.detail = 0.25f; };
+  change_params_ = [](brume_frame_params& params) { params.less_detail = 0.75f; };
+  draw_both(3.5, 1);
+  change_input_ = [](planning::FrameInput& input) { input.smoke.look.detail = 0; };
+  change_params_ = [](brume_frame_params& params) { params.less_detail = 1; };
+  draw_both(3.5, 1);
+  host_->wait();
+  const Texels all = expect_same(0), some = expect_same(1), none = expect_same(2);
+  EXPECT_GT(most_apart(all, some), 1 / 255.0);
+  EXPECT_GT(most_apart(some, none), 1 / 255.0);
 }
 
 TEST_F(RendererTest, TakesSettingsOfQuality) {
