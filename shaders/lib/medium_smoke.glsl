@@ -89,21 +89,18 @@ vec4 side_at(vec3 uvw) {
   return fraction < kLeastSide ? vec4(0.0, 1.0, 0.0, 0.0) : vec4(side / fraction, fraction);
 }
 
-/// What erosion leaves of a sample of smoke, by the noise of the tile and by detail.
+/// A sample's noise before detail, and what erosion leaves with it.
 struct Erosion {
-  vec3 p;       // displaced
-  vec2 noise;   // of the tile
+  vec3 p;               // displaced
+  vec2 noise;           // of the tile
   float weight, level;  // of detail
-  float density;        // before
-  float threshold;      // without detail
-  float left;           // fraction that remains
+  float density, threshold;
+  float left;  // fraction of the density
 };
 
 /// What detail does to the light of a sample: by what remains half-way along the path to where most light comes from.
-float relief_at(SmokeRay ray, Erosion here, vec3 uvw, inout uint texture_samples) {
+float relief_at(SmokeRay ray, Erosion here, vec4 side, inout uint texture_samples) {
   const SmokeLook look = frame.look;
-  const vec4 side = side_at(uvw);
-  ++texture_samples;
   const vec2 detail = detail_at(here.p + 0.5 * relief_path(look) * side.xyz, here.level, texture_samples);
   const float there = eroded_fraction(look, here.density, here.noise + here.weight * detail);
   return relief(look, vec3(here.left, there, mean_fraction(look, here.density, here.threshold)), side.w,
@@ -125,40 +122,40 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, fl
       smoke.density =
           textureLod(density_displacement_atlas, uvw + off_faces(local_voxel) * volume.bricks.atlas_texel, 0.0).r;
   }
+  float density = smoke.density;
   ++texture_samples;
-  SmokeSample here = SmokeSample(smoke.density, p_world, uvw, smoke.light_offset, 1.0);
-  if (smoke.density <= 0.0 || (kHoles == kHolesNone && frame.look.erosion <= 0.0)) return here;
+  SmokeSample here = SmokeSample(density, p_world, uvw, smoke.light_offset, 1.0);
 
   // Noise, for erosion and for the rims of holes.
-  Erosion erosion;
-  erosion.p = p_world + texel.gba;
-  const vec4 noise = smoke_noise(noise_tile, frame.look, erosion.p, frame.time);
-  ++texture_samples;
-  erosion.noise = billows_and_wisps(noise);
-  const float pixel = t * frame.pixel_width;
-  erosion.weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0;
-  erosion.level = detail_level(frame.look, pixel);
-  erosion.density = smoke.density;
-  erosion.threshold = erosion_threshold(frame.look, smoke.density, erosion.noise);
-  const bool matters =
-      kHasDetail && detail_matters(frame.look, smoke.density, erosion.threshold, erosion.weight);
-  vec2 detail = vec2(0.0);
-  float threshold = erosion.threshold;
-  // The rims of holes have detail wherever they are.
-  if (matters || (erosion.weight > 0.0 && any_hole_at(ray.holes, t))) {
-    detail = detail_at(erosion.p, erosion.level, texture_samples);
-    threshold = erosion_threshold(frame.look, smoke.density, erosion.noise + erosion.weight * detail);
+  if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
+    const vec3 p_noise = p_world + texel.gba;
+    const vec4 noise = smoke_noise(noise_tile, frame.look, p_noise, frame.time);
+    ++texture_samples;
+    const vec2 erosion_noise = billows_and_wisps(noise);
+    const float pixel = t * frame.pixel_width;
+    const float weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0, level = detail_level(frame.look, pixel);
+    const float threshold = erosion_threshold(frame.look, density, erosion_noise);
+    const bool matters = kHasDetail && detail_matters(frame.look, density, threshold, weight);
+    vec2 detail = vec2(0.0);
+    // The rims of holes have it wherever they are.
+    if (matters || (weight > 0.0 && any_hole_at(ray.holes, t))) detail = detail_at(p_noise, level, texture_samples);
+    float left = 1.0;
+    if (frame.look.erosion > 0.0) {
+      float with_detail = threshold;
+      if (matters) with_detail = erosion_threshold(frame.look, density, erosion_noise + weight * detail);
+      left = clamp(rim_position(drawn_look(), density, with_detail), 0.0, 1.0);
+      density = left * density_inside(frame.look, noise);
+    }
+    if (kHoles != kHolesNone)
+      density *= remaining_after_holes(ray.holes, t, p_world, rim_noise(noise, detail, weight), density > 0.0);
+    if (kFineShadows && matters && density > 0.0 && transmittance > kLeastSeen) {
+      const vec4 side = side_at(uvw + smoke.light_offset * volume.bricks.atlas_texel);
+      ++texture_samples;
+      here.relief = relief_at(ray, Erosion(p_noise, erosion_noise, weight, level, smoke.density, threshold, left),
+                              side, texture_samples);
+    }
   }
-  if (frame.look.erosion > 0.0) {
-    erosion.left = clamp(rim_position(drawn_look(), smoke.density, threshold), 0.0, 1.0);
-    here.density = erosion.left * density_inside(frame.look, noise);
-  }
-  if (kHoles != kHolesNone)
-    here.density *= remaining_after_holes(ray.holes, t, p_world, rim_noise(noise, detail, erosion.weight),
-                                          here.density > 0.0);
-  if (kFineShadows && matters && here.density > 0.0 && transmittance > kLeastSeen)
-    here.relief =
-        relief_at(ray, erosion, uvw + smoke.light_offset * volume.bricks.atlas_texel, texture_samples);
+  here.density = density;
   return here;
 }
 
