@@ -14,7 +14,7 @@ namespace {
 constexpr int kAmountBits = 20;
 constexpr std::uint32_t kWhole = 65536;
 /// Fraction of the dissolve that one voxel takes to fade.
-constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
+constexpr std::uint32_t kDissolveSoft = kWhole * 6 / 10;
 
 /// 3x^2 - 2x^3 for x in [0, 65536].
 constexpr std::uint64_t smoothstep(std::uint64_t x) {

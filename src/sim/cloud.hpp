@@ -2,7 +2,7 @@
 //
 //             bloom_ticks      hold_ticks             dissolve_ticks
 //   off |------------------|------------------|------------------------| nothing remains
-//       the front expands    steady             eroded from the edges, by distance and noise
+//       the front expands    steady             thins in patches, by noise and distance
 //
 // When the level is edited the cloud flows again (Cloud::flowed): the flood from its source is repeated;
 // smoke cut off from the source stays in place and counts against the amount; each voxel gained receives,

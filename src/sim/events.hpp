@@ -17,7 +17,7 @@ namespace brume::sim {
 /// Largest tick of an event: 97 days at 64 ticks per second; sums of ticks fit 32 bits.
 constexpr std::uint32_t kMaxTick = 1u << 29;
 
-/// Life of a smoke: it blooms to its full amount, holds, and dissolves from its edges. The defaults at 64
+/// Life of a smoke: it blooms to its full amount, holds, and dissolves in patches. The defaults at 64
 /// ticks per second: 1 s, 18 s, 3 s.
 struct SmokeSettings {
   std::uint32_t voxels = 1800;         ///< Amount of smoke: number of voxels it fills, [1, kMaxFillVoxels].

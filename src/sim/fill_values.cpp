@@ -11,7 +11,7 @@ namespace brume::sim {
 namespace {
 
 /// Parts of a voxel's survival due to distance and to noise; the sum is 255.
-constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
+constexpr std::uint32_t kSurvivalByDistance = 75, kSurvivalByNoise = 180;
 /// Radius of the sphere on which the lobe noise is sampled, in 1/256 cell: a lobe spans about 36 degrees.
 constexpr int kLobesWide = 3 * 256;
 

@@ -17,7 +17,9 @@
 
 namespace brume::wire {
 
-constexpr std::uint8_t kVersion = 2;
+/// Of packets, event logs and replays, and of the rules that states follow: programs of other versions would
+/// not agree.
+constexpr std::uint8_t kVersion = 3;
 
 /// Largest tick that can be sent: about a year at 64 ticks per second.
 constexpr std::uint32_t kMaxPacketTick = (1u << 31) - 1;

@@ -158,6 +158,28 @@ TEST(CloudLife, DissolvesMonotonicallyFromTheEdges) {
   }
 }
 
+// Half of a ball that shrinks to its source would be 0.79 times as far from it on average; smoke that thins
+// in place stays where it was. Edges may go first.
+TEST(CloudLife, ThinsWhereItStands) {
+  for (const BitGrid& grid : rooms()) {
+    const Cloud cloud(grid, {first_free(grid), {1800, 64, 100, 192}, 0});
+    const auto amount_and_distance = [&](std::uint32_t tick) {
+      const std::vector<int> now = densities(cloud, tick);
+      double amount = 0, distance = 0;
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        amount += now[i];
+        distance += static_cast<double>(cloud.distances()[i]) * now[i];
+      }
+      return std::pair(amount, distance / amount);
+    };
+    const auto [all, far] = amount_and_distance(164);
+    std::uint32_t half = 164;
+    while (amount_and_distance(half).first > 0.5 * all) ++half;
+    EXPECT_GT(amount_and_distance(half).second, 0.9 * far);
+    EXPECT_LT(amount_and_distance(half).second, far);
+  }
+}
+
 TEST(CloudLife, LeavesTheWorldEmpty) {
   const BitGrid grid = rooms()[1];
   World world(grid);
