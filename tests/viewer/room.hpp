@@ -14,8 +14,8 @@
 
 namespace brume::viewer {
 
-/// Writes a room with a door and a light into a folder, and room.toml with a camera in it.
-inline void write_room(const cli::WorkFolder& folder) {
+/// Writes a room with a door and a light into a folder, and room.toml with a camera in it and these events.
+inline void write_room(const cli::WorkFolder& folder, const std::string& events = "") {
   std::filesystem::create_directory(folder.path() / "Meshes");
   const auto box = [](glm::vec3 low, glm::vec3 high, bool inward) {
     std::string text;
@@ -50,8 +50,10 @@ inline void write_room(const cli::WorkFolder& folder) {
                "Block 0 0 0  0 0 0  1 1 1  stone\nLIGHT_SOURCE 1 2.6 1  1 0.9 0.8  60\n");
   folder.write(
       "room.toml",
-      "version = 1\nscene = \"room.txt\"\nduration = 3.0\n[grid]\nvoxel = 0.25\n[smoke]\nvoxels = 900\n"
-      "[[camera]]\ntime = 0.0\nposition = [0.5, 1.6, 3.2]\ntarget = [0.2, 1.3, -3.0]\nfov = 70.0\n");
+      std::string("version = 1\nscene = \"room.txt\"\nduration = 3.0\n[grid]\nvoxel = 0.25\n[smoke]\nvoxels "
+                  "= 900\n") +
+          "[[camera]]\ntime = 0.0\nposition = [0.5, 1.6, 3.2]\ntarget = [0.2, 1.3, -3.0]\nfov = 70.0\n" +
+          events);
 }
 
 inline nlohmann::json read_json(const std::filesystem::path& path) {
