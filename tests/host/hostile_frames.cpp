@@ -369,7 +369,6 @@ void HostileFrames::spoil(brume_frame_params& params) {
                        &params.look.rise,
                        &params.ambient[2],
                        &params.bounce,
-                       &params.less_detail,
                        &params.quality.step_scale,
                        &params.quality.resolve_error_scale,
                        &params.quality.light_update_fraction,
