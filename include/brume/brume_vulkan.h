@@ -281,7 +281,7 @@ typedef struct brume_frame_params {
   const brume_shown_tank* tanks;    ///< At most 4. Paths are chosen by `jitter_index`, as the march's jitter.
   size_t tank_count;                ///< Of `tanks`.
   /// How much is left out of what noise has below a tenth of look.noise_size, [0, 1]. 0: all is drawn, as
-  /// brume_drawn_params::detail = 1 has it; 1: none, which takes a third off the march.
+  /// brume_drawn_params::detail = 1 has it; 1: none, which takes a quarter off the march.
   float less_detail;
   uint32_t reserved;  ///< 0.
 } brume_frame_params;

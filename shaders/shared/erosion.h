@@ -150,8 +150,8 @@ SHARED_FUNCTION float mean_fraction(SmokeLook look, float density, float thresho
   float most = clamp(rim_position(look, density, 0.0f), 0.0f, 1.0f);
   float least = clamp(rim_position(look, density, look.erosion), 0.0f, 1.0f);
   mean = max(most * mean, least);
-  // Less density lets as much light through, to the second order.
-  return mean - look.extinction * relief_path(look) * mean * (1.0f - mean);
+  // Less density lets as much light through: right to the second order, and never below 0.
+  return mean / (1.0f + look.extinction * relief_path(look) * (1.0f - mean));
 }
 
 /// What detail does to the light of a sample of smoke. Of `left`, x is what erosion leaves there, y half-way along the

@@ -1,4 +1,4 @@
-// Elementary functions that return the same bits on every machine; those of C libraries differ in the last
+// Elementary functions that return the same bits on every machine; C libraries differ in the last
 // bits. They use only operations that IEEE 754 defines exactly (sums, products, quotients, rounding), and
 // need -ffp-contract=off. The relative error is below 10^-14; sine and cosine have an absolute error below
 // 10^-15.

@@ -232,6 +232,7 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.quality = quality_of(params.quality);
   // What is too dark to be seen depends on it.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
+  require(params.reserved == 0, "`reserved` must be 0");
   if (field) show_smoke(params, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
 }

@@ -69,6 +69,9 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
     params.less_detail = 1.5f;
     refused(BRUME_ERROR_ARGUMENT, "less_detail");
     params.less_detail = 0;
+    params.reserved = 1;
+    refused(BRUME_ERROR_ARGUMENT, "reserved");
+    params.reserved = 0;
     params.light_count = 1;
     refused(BRUME_ERROR_ARGUMENT, "lights");
     params.light_count = 0;
