@@ -92,7 +92,6 @@ vec4 side_at(vec3 uvw) {
 /// A sample's noise before detail, and what erosion leaves with it.
 struct Erosion {
   vec3 p;               // displaced
-  vec2 noise;           // of the tile
   float weight, level;  // of detail
   float density, threshold;
   float left;  // fraction of the density
@@ -101,10 +100,11 @@ struct Erosion {
 /// What detail does to the light of a sample: by what remains half-way along the path to where most light comes from.
 float relief_at(SmokeRay ray, Erosion here, vec4 side, inout uint texture_samples) {
   const SmokeLook look = frame.look;
+  const vec2 terms = relief_terms(look, here.left, mean_fraction(look, here.density, here.threshold), side.w,
+                                  dot(ray.direction, side.xyz));
   const vec2 detail = detail_at(here.p + 0.5 * relief_path(look) * side.xyz, here.level, texture_samples);
-  const float there = eroded_fraction(look, here.density, here.noise + here.weight * detail);
-  return relief(look, vec3(here.left, there, mean_fraction(look, here.density, here.threshold)), side.w,
-                dot(ray.direction, side.xyz));
+  const float there = threshold_with(look, here.density, here.threshold, detail, here.weight);
+  return relief(look, terms, clamp(rim_position(look, here.density, there), 0.0, 1.0));
 }
 
 /// `transmittance`: from the eye to the sample.
@@ -151,7 +151,7 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, fl
     if (kFineShadows && matters && density > 0.0 && transmittance > kLeastSeen) {
       const vec4 side = side_at(uvw + smoke.light_offset * volume.bricks.atlas_texel);
       ++texture_samples;
-      here.relief = relief_at(ray, Erosion(p_noise, erosion_noise, weight, level, smoke.density, threshold, left),
+      here.relief = relief_at(ray, Erosion(p_noise, weight, level, smoke.density, threshold, left),
                               side, texture_samples);
     }
   }

@@ -12,12 +12,24 @@ SHARED_FUNCTION vec2 billows_and_wisps(vec4 noise) {
               1.3f * dot(noise, vec4(0.25f, 0.0f, 0.75f, 0.0f)) - 0.1f);
 }
 
+/// How much wisps count beside billows: in very thin smoke as much, so dissolving smoke turns into threads.
+SHARED_FUNCTION float wisps_share(float density) {
+  float thin = (1.0f - density) * (1.0f - density);
+  return 0.5f * thin * thin;
+}
+
 /// What noise removes: density below it, [0, look.erosion]. The thinner the smoke, the brighter the noise must be for
-/// any to remain; in very thin smoke threads count as much as billows, so dissolving smoke turns into wisps.
+/// any to remain.
 SHARED_FUNCTION float erosion_threshold(SmokeLook look, float density, vec2 noise) {
   vec2 limited = clamp(noise, 0.0f, 1.0f);
-  float thin = (1.0f - density) * (1.0f - density);
-  return look.erosion * (1.0f - mix(limited.x, limited.y, 0.5f * thin * thin));
+  return look.erosion * (1.0f - mix(limited.x, limited.y, wisps_share(density)));
+}
+
+/// A threshold with detail of that weight, from the one without. That of the sum of both noises where neither is beyond
+/// [0, 1]; else it may differ, and needs two registers less.
+SHARED_FUNCTION float threshold_with(SmokeLook look, float density, float threshold, vec2 detail, float weight) {
+  float higher = look.erosion * weight * mix(detail.x, detail.y, wisps_share(density));
+  return clamp(threshold - higher, 0.0f, look.erosion);
 }
 
 /// Where a density is in the rim: what erosion leaves of it, before it is limited to [0, 1].
@@ -116,8 +128,7 @@ SHARED_FUNCTION vec2 integrals_of_clamped(float y, float low, float high) {
 /// along two paths of detail.
 SHARED_FUNCTION float effective_fraction(SmokeLook look, float density, vec2 noise) {
   // Where in the rim the density is before the threshold is limited, and where the limits are.
-  float thin = (1.0f - density) * (1.0f - density);
-  float threshold = look.erosion * (1.0f - mix(noise.x, noise.y, 0.5f * thin * thin));
+  float threshold = look.erosion * (1.0f - mix(noise.x, noise.y, wisps_share(density)));
   float limited = erosion_threshold(look, density, noise);
   float steep = 4.0f * (1.0f + look.detail) / max(1.0f - limited, 0.05f);
   float middle = rim_position(look, density, limited);
@@ -154,19 +165,21 @@ SHARED_FUNCTION float mean_fraction(SmokeLook look, float density, float thresho
   return mean / (1.0f + look.extinction * relief_path(look) * (1.0f - mean));
 }
 
-/// What detail does to the light of a sample of smoke. Of `left`, x is what erosion leaves there, y half-way along the
-/// path to where most light comes from, z the mean_fraction. `fraction`: of the light that comes along the path, at
-/// this cosine to the ray from the eye. The less the path to the light differs from that to the eye, the fewer of the
-/// points that are seen lie in shadow. The rest of the light comes from all around, more of it from there than from
-/// elsewhere, and has gone around what is dense: its mean stays. The less smoke absorbs, the less it differs from place
-/// to place.
-SHARED_FUNCTION float relief(SmokeLook look, vec3 left, float fraction, float cosine) {
+/// What detail does to the light of a sample of smoke, of which erosion leaves `left`, in terms of what it leaves
+/// half-way along the path to where most light comes from: the factor is relief(look, terms, that). `mean`: the
+/// mean_fraction; `fraction`: of the light that comes along the path, at this cosine to the ray from the eye. The less
+/// the path to the light differs from that to the eye, the fewer of the points that are seen lie in shadow. The rest of
+/// the light comes from all around, more of it from there than from elsewhere, and has gone around what is dense: its
+/// mean stays. The less smoke absorbs, the less it differs from place to place.
+SHARED_FUNCTION vec2 relief_terms(SmokeLook look, float left, float mean, float fraction, float cosine) {
   float alike = 0.6f;  // correlation of detail half a path apart
   float absorbed = 1.0f - max(look.albedo.x, max(look.albedo.y, look.albedo.z));
   float around = (1.0f - fraction) * clamp(4.0f * absorbed, 0.0f, 0.5f);
-  float along = fraction * (0.5f + 0.5f * cosine);
-  float less = (along + around) * (left.z - left.y) + alike * around * (left.x - left.z);
-  return exp(look.extinction * relief_path(look) * less);
+  float both = fraction * (0.5f + 0.5f * cosine) + around;
+  return vec2(both * mean + alike * around * (left - mean), both);
+}
+SHARED_FUNCTION float relief(SmokeLook look, vec2 terms, float there) {
+  return exp(look.extinction * relief_path(look) * (terms.x - terms.y * there));
 }
 
 /// Density of even smoke that lets as much light through as smoke of four densities on average, each for a quarter of

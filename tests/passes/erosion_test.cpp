@@ -307,6 +307,25 @@ TEST_F(ErosionTest, TheMeanThatSamplesAreComparedWithIsThatOfDetail) {
   EXPECT_LT(std::abs(off / count), 0.02);
 }
 
+// What a sample keeps for a second threshold is enough: it is the same where the tile's noise is within its limits.
+TEST_F(ErosionTest, AThresholdWithDetailNeedsTheOneWithoutAlone) {
+  shared::SmokeLook look{};
+  look.erosion = 0.9f;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> fraction(0, 1), detail(-shared::kMostDetail, shared::kMostDetail);
+  for (int i = 0; i < 10000; ++i) {
+    const glm::vec2 noise(fraction(random), fraction(random));
+    glm::vec2 fine(detail(random), detail(random));
+    const float density = fraction(random), weight = fraction(random);
+    const float without = shared::erosion_threshold(look, density, noise);
+    EXPECT_EQ(shared::threshold_with(look, density, without, fine, 0), without);
+    // The sum within its limits, too: thresholds limit each channel, threshold_with their mix.
+    fine = (glm::clamp(noise + weight * fine, 0.0f, 1.0f) - noise) / std::max(weight, 1e-3f);
+    EXPECT_NEAR(shared::threshold_with(look, density, without, fine, weight),
+                shared::erosion_threshold(look, density, noise + weight * fine), 1e-5f);
+  }
+}
+
 // Smoke between a point and the light darkens it, a gap lights it, and the light of one side most. Dense
 // smoke has more such smoke around it, which counts for the light of one side alone.
 TEST_F(ErosionTest, ReliefDarkensBehindMoreSmokeThanTheMean) {
@@ -314,7 +333,7 @@ TEST_F(ErosionTest, ReliefDarkensBehindMoreSmokeThanTheMean) {
   look.extinction = 7;
   look.noise_frequency = 1.0f / 6;
   const auto relief = [&](float here, float there, float fraction, float cosine) {
-    return shared::relief(look, {here, there, 0.5f}, fraction, cosine);
+    return shared::relief(look, shared::relief_terms(look, here, 0.5f, fraction, cosine), there);
   };
   for (const float fraction : {0.0f, 0.5f, 1.0f}) {
     EXPECT_EQ(relief(0.5f, 0.5f, fraction, 0), 1);
