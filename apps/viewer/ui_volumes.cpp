@@ -138,18 +138,18 @@ bool mask_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file) 
   return option_rows(options, file, visit) || changed;
 }
 
-/// The noise that moves the volume, up to its own size.
-bool disturbance_rows(scene::Disturbance& disturbance, const scene::Disturbance& file,
-                      const scenario::VolumeFrame& frame) {
+/// The rows of a noise, `visit` of its options, in lengths up to the volume's own.
+template <typename Noise, typename Visit>
+bool noise_rows(const char* name, Noise& noise, const Noise& file, const scenario::VolumeFrame& frame,
+                const Visit& visit) {
   const glm::vec3 size = frame.bounds.high - frame.bounds.low;
   const double edge = std::max({double{size.x}, double{size.y}, double{size.z}, 1e-3});
-  if (!begin_tree("disturbance")) return false;
+  if (!begin_tree(name)) return false;
   bool changed = false;
   std::vector<const void*> initial;
-  scene::visit_disturbance_options(
-      file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
+  visit(file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
   std::size_t i = 0;
-  scene::visit_disturbance_options(disturbance, [&](scene::OptionInfo info, auto& member) {
+  visit(noise, [&](scene::OptionInfo info, auto& member) {
     using Member = std::remove_reference_t<decltype(member)>;
     const auto& standard = *static_cast<const Member*>(initial[i++]);
     if constexpr (std::is_same_v<Member, glm::vec3>) {
@@ -223,7 +223,12 @@ void lay_out_volumes(Game& game) {
       changed = grid_rows(volumes[i], frame) || changed;
       changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
       changed = mask_rows(volumes[i], file[i]) || changed;
-      changed = disturbance_rows(volumes[i].disturbance, file[i].disturbance, frame) || changed;
+      changed = noise_rows("disturbance", volumes[i].disturbance, file[i].disturbance, frame,
+                           [](auto& o, auto&& v) { scene::visit_disturbance_options(o, v); }) ||
+                changed;
+      changed = noise_rows("detail", volumes[i].detail, file[i].detail, frame,
+                           [](auto& o, auto&& v) { scene::visit_detail_options(o, v); }) ||
+                changed;
       changed = transfer_rows(volumes[i], frame) || changed;
       ImGui::TreePop();
     }

@@ -4,6 +4,7 @@
 #define MEDIUM_SMOKE_GLSL
 #include "lib/boundary_cells.glsl"
 #include "lib/bricks.glsl"
+#include "lib/detail_tile.glsl"
 #include "lib/erosion.glsl"
 #include "lib/frame.glsl"
 #include "lib/noise_tile.glsl"
@@ -18,8 +19,6 @@ layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacemen
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
 layout(binding = kBindLightSide) uniform sampler3D light_side_atlas;
 layout(binding = kBindFineLight) uniform sampler3D fine_light;
-
-layout(binding = kBindDetailTile) uniform sampler3D detail_tile;
 layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 layout(scalar, binding = kBindFinePages) readonly buffer FinePages { uint fine_pages[]; };
 

@@ -2,6 +2,7 @@
 // grids of shared/volume_light.h, and glowing where they are hot.
 #ifndef MEDIUM_VOLUMES_GLSL
 #define MEDIUM_VOLUMES_GLSL
+#include "lib/volume_detail.glsl"
 #include "lib/volume_disturbance.glsl"
 #include "lib/volume_inscatter.glsl"
 
@@ -110,7 +111,7 @@ VolumesSpan volumes_span(VolumesRay rays, float t, float ds) {
 
 /// Whether all samples of a span are alike: in a brick of one value, where nothing but the extinction matters.
 bool is_constant(VolumesSpan span) {
-  return !kIsLit && !kHasGlow && span.present && span.brick.uniform_value >= 0.0;
+  return !kIsLit && !kHasGlow && !kHasVolumeDetail && span.present && span.brick.uniform_value >= 0.0;
 }
 
 /// Sums over the volumes.
@@ -147,7 +148,7 @@ vec4 masks_at(uint i, vec3 uvw) {
 }
 
 /// Adds volume i at a point of its voxel space that noise has moved: its brick is another one at each sample.
-void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_voxels, vec3 p_world,
+void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_voxels, vec3 p_world, float t,
                    inout VolumesSample sum, inout uint texture_samples) {
   const vec3 p = disturbed(i, p_voxel);
   if (any(lessThan(p, volumes[i].bounds_min)) || any(greaterThan(p, volumes[i].bounds_max))) return;
@@ -158,7 +159,9 @@ void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_
     const vec3 corner = atlas_corner(volumes[i].colors.bricks, brick.slot);
     masks = masks_at(i, (corner + p - brick.low) * volumes[i].colors.bricks.atlas_texel);
   }
-  add_volume(i, matter_around(volumes[i], i, p, half_voxels), masks, at, phase, p_world, sum, texture_samples);
+  VolumeMatter matter = matter_around(volumes[i], i, p, half_voxels);
+  matter.density *= detail_left(i, p, matter.density, t, texture_samples);
+  add_volume(i, matter, masks, at, phase, p_world, sum, texture_samples);
 }
 
 /// Adds volume i at the sample at t of a ray through one of its bricks.
@@ -169,7 +172,8 @@ void add_volume_at(uint i, VolumeBrick brick, LightRay lit, VoxelRay ray, float 
   if (kHasSun) at.sun = lit.sun.at + t * lit.sun.along;
   if (is_disturbed(i)) {
     const vec3 half_voxels = half_segment(ray.per_metre, ds) * ray.per_metre;
-    add_disturbed(i, ray.origin + ray.per_metre * t, at, lit.phase, half_voxels, p_world, sum, texture_samples);
+    add_disturbed(i, ray.origin + ray.per_metre * t, at, lit.phase, half_voxels, p_world, t, sum,
+                  texture_samples);
     return;
   }
   vec4 masks = vec4(0.0);
@@ -179,6 +183,7 @@ void add_volume_at(uint i, VolumeBrick brick, LightRay lit, VoxelRay ray, float 
   // What only glows is no more than its masks.
   if (!kHasMasks || volumes[i].look.extinction > 0.0)
     matter = matter_along(volumes[i], i, brick.values, brick.colors, brick.uniform_value, ray.per_metre, ds, t);
+  matter.density *= detail_left(i, ray.origin + ray.per_metre * t, matter.density, t, texture_samples);
   add_volume(i, matter, masks, at, lit.phase, p_world, sum, texture_samples);
 }
 

@@ -5,15 +5,22 @@
 #include "lib/brick_rays.glsl"
 #include "lib/frame.glsl"
 #include "lib/volume_transfer.glsl"
+#include "shared/volume_detail.h"
+
+/// What is left of a density of a volume on average over its detail, which is finer than light.
+float density_left(VolumeInstance volume, float density) {
+  if (!kHasVolumeDetail || volume.detail.strength <= 0.0) return density;
+  return density * mean_volume_fraction(volume.detail, density);
+}
 
 /// Extinction of volume i at a point [1/m]; with a transfer function that of the segment p_world - half_world to
 /// p_world + half_world.
 float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_world) {
   const vec3 p_voxel = volume.voxel_from_world * vec4(p_world, 1.0);
   if (any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max))) return 0.0;
-  if (!kHasTransfer) return volume.look.extinction * volume_value(volume.bricks, p_voxel);
+  if (!kHasTransfer) return volume.look.extinction * density_left(volume, volume_value(volume.bricks, p_voxel));
   const vec2 values = end_values(volume, p_voxel, volume.voxel_from_world * vec4(half_world, 0.0));
-  return volume.look.extinction * matter_of(volume, i, values).density;
+  return volume.look.extinction * density_left(volume, matter_of(volume, i, values).density);
 }
 
 /// Bit i: the segment, or that of another thread of the subgroup, may be inside volume i: all its threads then read the

@@ -11,6 +11,7 @@
 #include "shared/media.h"
 
 const bool kHasTransfer = (kMedia & kMediumTransfer) != 0u, kHasColorGrids = (kMedia & kMediumColors) != 0u;
+const bool kHasVolumeDetail = (kMedia & kMediumVolumeDetail) != 0u;
 const bool kHasSeveral = (kMedia & kMediumSeveral) != 0u;
 /// Whether the gathered light is stored per albedo.
 const bool kHasAlbedos = (kMedia & kMediaOfAlbedos) != 0u;

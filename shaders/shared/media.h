@@ -20,6 +20,7 @@ SHARED_CONST uint kMediumDense = 1024u;     // one is dense (VolumeInstance::is_
 // Noise within a voxel shadows the smoke (shared/light_side.h). Never without kMediumSmoke.
 SHARED_CONST uint kMediumFineShadows = 2048u;
 SHARED_CONST uint kMediumDetail = 4096u;  // its noise has detail (shared/erosion.h). Never without kMediumSmoke.
+SHARED_CONST uint kMediumVolumeDetail = 8192u;  // a volume has (shared/volume_detail.h)
 /// How the smoke is drawn, whatever else there is.
 SHARED_CONST uint kMediaOfSmoke = 6144u;
 /// Those with which the albedo differs from point to point.

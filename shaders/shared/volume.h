@@ -118,6 +118,14 @@ struct VolumeColors {
 };
 SHARED_SIZE(VolumeColors, 68);
 
+/// Noise below the voxels of a volume, which wears away what is thin (shared/volume_detail.h).
+struct VolumeDetail {
+  float strength;         // as SmokeLook::erosion; 0: none
+  float per_value;        // of a value, to a density that is 1 where the volume is densest
+  float tiles_per_metre;  // of the noise, along the axis of most
+};
+SHARED_SIZE(VolumeDetail, 12);
+
 /// A volume of one channel, its density >= 0, under any affine transform.
 struct VolumeInstance {
   mat4x3 voxel_from_world;  // [voxels/m]
@@ -131,18 +139,22 @@ struct VolumeInstance {
   VolumeTransfer transfer;
   VolumeColors colors;
   uint is_dense;  // 1: opaque within a voxel or two, like a surface; else 0
+  VolumeDetail detail;
 };
-SHARED_SIZE(VolumeInstance, 476);
+SHARED_SIZE(VolumeInstance, 488);
 
-/// What few volumes have: tints of their masks, and noise that moves the places at which they are sampled.
+/// What few volumes have: tints of their masks, noise that moves the places at which they are sampled, and the place of
+/// their detail's.
 struct VolumeEffect {
   mat4x3 tints;          // radiance per metre where a mask is 1
   vec3 tiles_per_voxel;  // of the noise
   vec3 tile_offset;
   vec3 amplitude;        // largest displacement [voxels]; 0: none
   vec4 growth;           // factor of the displacement at p: dot(xyz, p_voxel) + w, limited to [0, 1]
+  vec3 detail_per_voxel;  // tiles of the detail's noise
+  vec3 detail_offset;
 };
-SHARED_SIZE(VolumeEffect, 100);
+SHARED_SIZE(VolumeEffect, 124);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;

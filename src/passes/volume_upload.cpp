@@ -172,8 +172,9 @@ void VolumeUpload::record_effects(gpu::Recorder& recorder,
   bool any = false;
   for (const planning::PlacedVolume& volume : visible) {
     effects.push_back(volume.effect);
-    any =
-        any || volume.instance.colors.kind >= shared::kColorsMasks || volume.effect.amplitude != glm::vec3(0);
+    const shared::VolumeInstance& instance = volume.instance;
+    any = any || instance.colors.kind >= shared::kColorsMasks || instance.detail.strength > 0 ||
+          volume.effect.amplitude != glm::vec3(0);
   }
   if (any) recorder.upload(effects_, 0, std::as_bytes(std::span(effects)));
 }

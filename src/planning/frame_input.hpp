@@ -128,6 +128,15 @@ struct DisturbanceInput {
   bool empty() const { return noise.strength <= 0; }
 };
 
+/// Noise below a volume's voxels, at a time.
+struct VolumeDetailInput {
+  glm::mat4 voxel_from_file{1};  ///< Of the volume, in whose units the detail is.
+  scene::VolumeDetail noise = {};
+  float densest = 1;  ///< The largest density: value, or opacity by a transfer function.
+  float time = 0;     ///< [s]
+  bool empty() const { return noise.strength <= 0; }
+};
+
 /// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
 struct VolumeInput {
   /// One channel of half floats: its density, >= 0. It lies within the volume's bounds and bricks.
@@ -145,6 +154,7 @@ struct VolumeInput {
   const volume::SparseVolume* colors = nullptr;
   std::vector<glm::vec3> tints = {};  ///< Radiance per metre where a mask is 1; at most four.
   DisturbanceInput disturbance = {};
+  VolumeDetailInput detail = {};
   std::size_t index = 0;  ///< Among the volumes of the timeline.
   /// The largest optical depth along a voxel's shortest edge, of all its frames: above
   /// shared::kDenseVoxelDepth it is lit as what is opaque.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planning/transfer_table.hpp"
+#include "smoke/noise_tile.hpp"
 
 namespace brume::planning {
 namespace {
@@ -84,6 +85,19 @@ std::uint32_t colors_of(const VolumeInput& volume) {
   return volume.tints.size() <= 2 ? shared::kColorsPair : shared::kColorsMasks;
 }
 
+glm::vec3 lengths_of(const glm::mat3& axes) {
+  return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
+}
+
+/// The tiles of a detail's noise per voxel.
+glm::vec3 detail_per_voxel(const VolumeDetailInput& detail) {
+  const glm::vec3 voxels_per_unit = lengths_of(glm::mat3(detail.voxel_from_file));
+  constexpr float kVoxels = 4;  // of the largest billows, if the file does not say
+  const auto cells = static_cast<float>(smoke::kSmokeNoise.coarse_cells);
+  const glm::vec3 size = detail.noise.size > 0 ? detail.noise.size * voxels_per_unit : glm::vec3(kVoxels);
+  return 1.0f / (cells * size);
+}
+
 shared::VolumeInstance instance_of(const VolumeInput& volume) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   shared::VolumeHeat heat{};
@@ -98,15 +112,15 @@ shared::VolumeInstance instance_of(const VolumeInput& volume) {
           {},
           device_transfer(volume.transfer),
           {{}, colors_of(volume)},
-          is_dense(volume) ? 1u : 0u};
+          is_dense(volume) ? 1u : 0u,
+          volume_detail(volume)};
 }
 
 /// Displacements of at most `amplitude` voxels along each axis.
 void set_disturbance(const DisturbanceInput& input, shared::VolumeEffect& effect) {
   const scene::Disturbance& noise = input.noise;
   const glm::mat3 voxel_from_file(input.voxel_from_file);
-  const glm::vec3 voxels_per_unit(glm::length(voxel_from_file[0]), glm::length(voxel_from_file[1]),
-                                  glm::length(voxel_from_file[2]));
+  const glm::vec3 voxels_per_unit = lengths_of(voxel_from_file);
   // The features of a tile of noise are half as large as it.
   const float tile = 2 * noise.size;
   effect.tiles_per_voxel = 1.0f / (tile * voxels_per_unit);
@@ -129,6 +143,12 @@ void set_growth(const VolumeInput& volume, shared::VolumeEffect& effect) {
   effect.growth = glm::vec4(along, -least);
 }
 
+void set_detail(const VolumeDetailInput& detail, shared::VolumeEffect& effect) {
+  effect.detail_per_voxel = detail_per_voxel(detail);
+  const glm::vec3 drift_voxels = lengths_of(glm::mat3(detail.voxel_from_file)) * detail.noise.drift;
+  effect.detail_offset = -glm::fract(drift_voxels * effect.detail_per_voxel * detail.time);
+}
+
 /// The bits of a volume.
 std::uint32_t media_of(const VolumeInput& volume) {
   std::uint32_t media = shared::kMediumVolumes;
@@ -136,6 +156,7 @@ std::uint32_t media_of(const VolumeInput& volume) {
   if (colors_of(volume) == shared::kColorsAlbedo) media |= shared::kMediumColors;
   if (!volume.tints.empty() && volume.colors) media |= shared::kMediumMasks;
   if (!volume.disturbance.empty()) media |= shared::kMediumDisturbed;
+  if (!volume.detail.empty()) media |= shared::kMediumVolumeDetail;
   const shared::VolumeLook look = look_of(volume);
   const glm::vec3 light = look.albedo + look.emission;
   if (look.extinction > 0 && std::max({light.r, light.g, light.b}) > 0) media |= shared::kMediumLit;
@@ -221,10 +242,20 @@ shared::VolumeEffect volume_effect(const VolumeInput& volume) {
   effect.tints = glm::mat4x3(0);
   for (std::size_t i = 0; i < std::min<std::size_t>(volume.tints.size(), 4); ++i)
     effect.tints[static_cast<int>(i)] = volume.tints[i];
-  if (volume.disturbance.empty()) return effect;
-  set_disturbance(volume.disturbance, effect);
-  set_growth(volume, effect);
+  if (!volume.disturbance.empty()) {
+    set_disturbance(volume.disturbance, effect);
+    set_growth(volume, effect);
+  }
+  if (!volume.detail.empty()) set_detail(volume.detail, effect);
   return effect;
+}
+
+shared::VolumeDetail volume_detail(const VolumeInput& volume) {
+  if (volume.detail.empty()) return {};
+  const glm::vec3 per_metre =
+      detail_per_voxel(volume.detail) / lengths_of(glm::mat3(volume.world_from_voxel));
+  return {volume.detail.noise.strength, 1 / volume.detail.densest,
+          std::max({per_metre.x, per_metre.y, per_metre.z})};
 }
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
@@ -248,6 +279,7 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
     shown.colors = nullptr;
     shown.tints.clear();
     shown.disturbance = {};
+    shown.detail = {};
   }
   if (preview && volume.heat.preview) {
     shown.heat.volume = volume.heat.preview;

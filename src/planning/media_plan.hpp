@@ -35,8 +35,11 @@ struct MediaPlan {
 /// Of the smoke alone.
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
 
-/// The tints and the disturbance of a volume.
+/// The tints, the disturbance and the place of the detail of a volume.
 shared::VolumeEffect volume_effect(const VolumeInput& volume);
+
+/// Of the noise below its voxels; strength 0: none.
+shared::VolumeDetail volume_detail(const VolumeInput& volume);
 
 /// A volume as it is, or its previews in their places.
 VolumeInput shown_volume(const VolumeInput& volume, bool preview);

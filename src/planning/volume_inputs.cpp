@@ -26,16 +26,19 @@ DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const sce
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
 }
 
-/// The largest optical depth along the shortest edge of a voxel. That of the first frame, so that a sequence
-/// is lit in one way.
+/// The largest factor of the extinction: a value, or an opacity. That of the first frame, so that a sequence
+/// is lit, and its detail drawn, in one way.
+float densest_of(const scene::VolumeOptions& options, const scenario::VolumeFrame& first) {
+  if (options.opacity.empty()) return first.density.high;
+  return std::ranges::max_element(options.opacity, {}, &scene::OpacityPoint::opacity)->opacity;
+}
+
+/// The largest optical depth along the shortest edge of a voxel.
 float voxel_depth_of(const scene::VolumeOptions& options, const glm::mat4& world_from_voxel,
                      const scenario::VolumeFrame& first) {
-  float factor = first.density.high;
-  if (!options.opacity.empty())
-    factor = std::ranges::max_element(options.opacity, {}, &scene::OpacityPoint::opacity)->opacity;
   float edge = glm::length(glm::vec3(world_from_voxel[0]));
   for (int axis = 1; axis < 3; ++axis) edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
-  return options.extinction * factor * edge;
+  return options.extinction * densest_of(options, first) * edge;
 }
 
 VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
@@ -66,6 +69,9 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   }
   for (const scene::VolumeMask& mask : options.masks) input.tints.push_back(scene::glow_at(mask, seconds));
   input.disturbance = disturbance_of(options.disturbance, *volume.frame, seconds);
+  if (const float densest = densest_of(options, first); options.detail.strength > 0 && densest > 0)
+    input.detail = {glm::mat4(glm::inverse(volume.frame->density.world_from_voxel)), options.detail,
+                    densest / unit, static_cast<float>(seconds)};
   return input;
 }
 

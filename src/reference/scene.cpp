@@ -117,7 +117,7 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
     media.push_back(std::make_unique<SmokeMedium>(frame.smoke, smoke::smoke_noise, masks));
   for (std::size_t i = 0; i < frame.volumes.size(); ++i) {
-    media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], smoke::smoke_noise_tile));
+    media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], smoke::smoke_noise));
     media.back()->set_motion(motion_of(i, frame, later));
   }
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);

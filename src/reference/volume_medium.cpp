@@ -7,6 +7,7 @@
 #include "planning/blackbody.hpp"
 #include "planning/media_plan.hpp"
 #include "planning/transfer_table.hpp"
+#include "shared/volume_detail.h"
 
 namespace brume::reference {
 namespace {
@@ -78,13 +79,14 @@ float TransferCurve::largest_opacity(float low, float high) const {
 }
 
 VolumeMedium::VolumeMedium(const planning::VolumeInput& volume,
-                           const std::function<const smoke::NoiseTile&()>& noise)
+                           const std::function<const smoke::SmokeNoise&()>& noise)
     : Medium(shared::phase_of_hg(volume.look.anisotropy)),
       input_(volume),
       effect_(planning::volume_effect(volume)),
+      detail_(planning::volume_detail(volume)),
       values_(*volume.volume),
       transfer_(volume.transfer, volume.look.albedo) {
-  if (effect_.amplitude.x > 0) noise_ = &noise();
+  if (effect_.amplitude.x > 0 || detail_.strength > 0) noise_ = &noise();
   if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
     heat_ = BrickField<1>(*volume.heat.volume);
     heat_from_world_ = glm::inverse(volume.heat.world_from_voxel);
@@ -138,7 +140,8 @@ void VolumeMedium::lower_least(const Box<int>& part, const Box<int>& all, float 
   // Every cell is a part of one brick, all of whose parts are visited.
   if (cell > kBrickVoxels) return;
   const shared::VolumeLayout& layout = input_.volume->layout();
-  const bool is_known = low > 0 && effect_.amplitude.x <= 0 && !transfer_.has_opacity() &&
+  const bool is_known = low > 0 && effect_.amplitude.x <= 0 && detail_.strength <= 0 &&
+                        !transfer_.has_opacity() &&
                         glm::all(glm::greaterThanEqual(glm::vec3(part.low), layout.bounds_min)) &&
                         glm::all(glm::lessThanEqual(glm::vec3(part.high), layout.bounds_max));
   const float least = is_known ? input_.look.extinction * low / kBoundSlack : 0;
@@ -180,8 +183,8 @@ bool VolumeMedium::sample_point(const glm::vec3& p_world, glm::vec3& p_voxel) co
   p_voxel = majorants_.voxel_from_world(p_world);
   if (effect_.amplitude.x > 0) {
     const glm::vec3 tile = p_voxel * effect_.tiles_per_voxel + effect_.tile_offset;
-    const glm::vec4 a = smoke::noise_at(*noise_, tile);
-    const float b = smoke::noise_at(*noise_, tile + glm::vec3(0.37f, 0.71f, 0.13f)).a;
+    const glm::vec4 a = smoke::noise_at(noise_->tile, tile);
+    const float b = smoke::noise_at(noise_->tile, tile + glm::vec3(0.37f, 0.71f, 0.13f)).a;
     const float grown =
         std::clamp(glm::dot(glm::vec3(effect_.growth), p_voxel) + effect_.growth.w, 0.0f, 1.0f);
     p_voxel += (2.0f * glm::vec3(a.a, b, a.r) - 1.0f) * effect_.amplitude * grown;
@@ -194,7 +197,16 @@ bool VolumeMedium::sample_point(const glm::vec3& p_world, glm::vec3& p_voxel) co
 float VolumeMedium::density_at(const glm::vec3& p_voxel) const {
   const float value = values_.at(p_voxel).x;
   if (!(value > 0)) return 0;
-  return transfer_.has_opacity() ? transfer_.at(value).a : value;
+  return left_of(transfer_.has_opacity() ? transfer_.at(value).a : value, p_voxel);
+}
+
+float VolumeMedium::left_of(float density, const glm::vec3& p_voxel) const {
+  if (detail_.strength <= 0) return density;
+  const glm::vec3 tile = p_voxel * effect_.detail_per_voxel + effect_.detail_offset;
+  const glm::vec2 fine(smoke::noise_at(noise_->detail, shared::volume_detail_point(tile)));
+  return density * shared::volume_fraction(detail_, density,
+                                           shared::billows_and_wisps(smoke::noise_at(noise_->tile, tile)),
+                                           shared::detail_of(fine), 1);
 }
 
 float VolumeMedium::extinction(const glm::vec3& p_world) const {
@@ -232,7 +244,7 @@ glm::vec3 VolumeMedium::emission(const glm::vec3& p_world) const {
   if (!transfer_.empty() && transfer_.emitted() > 0) {
     const float value = values_.at(p_voxel).x;
     const glm::vec4 mean = value > 0 ? transfer_.at(value) : glm::vec4(0);
-    const float density = transfer_.has_opacity() ? mean.a : value;
+    const float density = left_of(transfer_.has_opacity() ? mean.a : value, p_voxel);
     if (mean.a > 0)
       sum += input_.look.extinction * density * transfer_.emitted() *
              glm::min(glm::vec3(mean) / mean.a, glm::vec3(1));

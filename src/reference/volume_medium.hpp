@@ -34,8 +34,8 @@ class TransferCurve {
 
 class VolumeMedium final : public Medium {
  public:
-  /// `volume` and the noise must outlive it. Asks for the noise if the volume is disturbed.
-  VolumeMedium(const planning::VolumeInput& volume, const std::function<const smoke::NoiseTile&()>& noise);
+  /// `volume` and the noise must outlive it. Asks for the noise if the volume is disturbed or has detail.
+  VolumeMedium(const planning::VolumeInput& volume, const std::function<const smoke::SmokeNoise&()>& noise);
 
   float extinction(const glm::vec3& p_world) const override;
   glm::vec3 albedo(const glm::vec3& p_world) const override;
@@ -46,6 +46,8 @@ class VolumeMedium final : public Medium {
   /// Where the volume is sampled for a point, or nothing.
   bool sample_point(const glm::vec3& p_world, glm::vec3& p_voxel) const;
   float density_at(const glm::vec3& p_voxel) const;
+  /// What detail leaves of a density.
+  float left_of(float density, const glm::vec3& p_voxel) const;
   float density_bound(float low, float high) const;
   glm::vec4 masks_at(const glm::vec3& p_voxel) const;
   int cell_voxels() const;
@@ -54,8 +56,9 @@ class VolumeMedium final : public Medium {
   bool glows_in(const Box<int>& voxels) const;
 
   const planning::VolumeInput& input_;
-  const smoke::NoiseTile* noise_ = nullptr;
+  const smoke::SmokeNoise* noise_ = nullptr;
   shared::VolumeEffect effect_;
+  shared::VolumeDetail detail_;
   BrickField<1> values_, heat_;
   BrickField<2> mask_pair_;
   BrickField<4> colors_;  // or masks

@@ -95,7 +95,8 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   }
   if (plan.volume_light.is_lit && volume_light_pass_.reserve(plan.volume_light, plan.media.casters))
     plan.volume_light.update = true;
-  if ((plan.media.media & shared::kMediumDisturbed) != 0) make_noise();
+  constexpr std::uint32_t kWithNoise = shared::kMediumDisturbed | shared::kMediumVolumeDetail;
+  if ((plan.media.media & kWithNoise) != 0) make_noise();
   fine_light_pass_.reserve(plan.fine_light);
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(plan.media.casters);

@@ -22,8 +22,9 @@ void check_frame(const FramePlan& plan) {
   if (input.volumes.size() != 1) refuse("expected a frame of one volume");
   const planning::VolumeInput& volume = input.volumes.front();
   if (input.smoke.volume && input.smoke.volume->slot_count() > 0) refuse("smoke cannot be divided");
-  if (volume.heat.volume || !volume.tints.empty() || volume.colors || !volume.disturbance.empty())
-    refuse("a volume with heat, masks, colours or a disturbance cannot be divided");
+  if (volume.heat.volume || !volume.tints.empty() || volume.colors || !volume.disturbance.empty() ||
+      !volume.detail.empty())
+    refuse("a volume with heat, masks, colours, a disturbance or detail cannot be divided");
   if (volume.preview) refuse("a volume with a preview cannot be divided");
   if ((plan.media.media & shared::kMediumDense) != 0)
     refuse("a volume that is opaque within a voxel or two cannot be divided; give a smaller extinction");

@@ -155,6 +155,14 @@ void visit_disturbance_options(Options& o, Visitor&& visit) {
 }
 
 template <typename Options, typename Visitor>
+void visit_detail_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"strength", "", "how much noise finer than the voxels wears away thin parts", 0, 1},
+        o.strength);
+  visit(OptionInfo{"size", "units", "size of its largest billows; 0: four voxels", 0, 1e6}, o.size);
+  visit(OptionInfo{"drift", "units/s", "how fast it moves", -1e6, 1e6}, o.drift);
+}
+
+template <typename Options, typename Visitor>
 void visit_particle_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"particles", "", "quads that show the masks, instead of a march; 0: none", 0, 65536},
         o.particles);

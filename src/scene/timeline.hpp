@@ -118,6 +118,14 @@ struct Disturbance {
   bool operator==(const Disturbance&) const = default;
 };
 
+/// Noise below the voxels of a volume, which wears away its thin parts.
+struct VolumeDetail {
+  float strength = 0;  ///< 0: none; 1: only what is as dense as the densest stays.
+  float size = 0;      ///< Of its largest billows, in units of the file; 0: four voxels.
+  glm::vec3 drift{0};  ///< How fast it moves, likewise [1/s].
+  bool operator==(const VolumeDetail&) const = default;
+};
+
 /// A decal of baked occlusion (brume bake occlusion): darkens the surfaces in its box.
 struct DecalOptions {
   std::filesystem::path file;  ///< A volume, resolved.
@@ -171,6 +179,7 @@ struct VolumeOptions {
   std::string carrier = {};            ///< What it moves with; empty: the world.
   std::vector<VolumeMask> masks = {};  ///< At most kMostMasks.
   Disturbance disturbance = {};
+  VolumeDetail detail = {};
   std::uint32_t particles = 0;  ///< Quads that show its masks instead of a march; 0: none.
   float particle_size = 0.6f;
   std::string place = {};  ///< "file:line:column" for error messages.
@@ -333,14 +342,14 @@ void sort_events(Timeline& timeline);
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
 /// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
-/// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], particles and its members), [[carrier]]
-/// (name, object, [[carrier.key]]), [[decal]], and [[camera]] (time, position, target, fov in degrees, [1,
-/// 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward,
-/// radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text, from, toward,
-/// size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius, speed,
-/// remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or
-/// "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384, 16384].
-/// check_objects checks whether the objects of doors and carriers exist. Fails with bad_input and
+/// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
+/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], and [[camera]] (time, position, target,
+/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
+/// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
+/// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
+/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high,
+/// solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384,
+/// 16384]. check_objects checks whether the objects of doors and carriers exist. Fails with bad_input and
 /// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
 /// the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);

@@ -234,6 +234,9 @@ Result<void> check_volume(const Timeline& timeline, const VolumeOptions& volume)
   Checker disturbance(subject + ": [volume.disturb]");
   visit_disturbance_options(volume.disturbance, disturbance);
   if (auto done = disturbance.done(); !done) return done;
+  Checker detail(subject + ": [volume.detail]");
+  visit_detail_options(volume.detail, detail);
+  if (auto done = detail.done(); !done) return done;
   return check_masks(volume, subject);
 }
 

@@ -77,6 +77,15 @@ Result<void> read_disturbance(TomlTable& volume_table, const std::filesystem::pa
   return table.finish();
 }
 
+Result<void> read_detail(TomlTable& volume_table, const std::filesystem::path& path, VolumeOptions& volume) {
+  const toml::table* const source = volume_table.table("detail");
+  if (!source) return {};
+  TomlTable table(*source, "[volume.detail]", path.string());
+  table.require("strength");
+  visit_detail_options(volume.detail, OptionReader{table});
+  return table.finish();
+}
+
 void read_display(TomlTable& table, VolumeOptions& volume) {
   visit_particle_options(volume, OptionReader{table});
   if (volume.particles > 0 && volume.masks.empty())
@@ -192,6 +201,7 @@ Result<void> read_volume(const toml::table& source, const std::filesystem::path&
   volume.place = table.place("file");
   if (auto done = read_masks(table, path, volume); !done) return done;
   if (auto done = read_disturbance(table, path, volume); !done) return done;
+  if (auto done = read_detail(table, path, volume); !done) return done;
   read_display(table, volume);
   read_carrier_name(table, timeline, volume.carrier);
   timeline.volumes.push_back(std::move(volume));

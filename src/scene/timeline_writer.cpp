@@ -72,17 +72,19 @@ class Writer : private TomlText {
     if (!rows.empty()) line("color_map", rows);
     if (!volume.carrier.empty()) line("carrier", volume.carrier);
     options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_particle_options(o, v); });
-    write_disturbance(volume.disturbance);
+    write_noise(volume.disturbance, "\n[volume.disturb]\n",
+                [](auto& o, auto& v) { visit_disturbance_options(o, v); });
+    write_noise(volume.detail, "\n[volume.detail]\n", [](auto& o, auto& v) { visit_detail_options(o, v); });
     for (const VolumeMask& mask : volume.masks) write_mask(mask);
   }
 
-  void write_disturbance(const Disturbance& disturbance) {
+  /// A table of noise, whose reader requires the strength, also where it is the default.
+  template <typename Noise, typename Visit>
+  void write_noise(const Noise& noise, const char* title, const Visit& visit) {
     const std::size_t before = text_.size();
-    options(disturbance, Disturbance(), "\n[volume.disturb]\n",
-            [](auto& o, auto& v) { visit_disturbance_options(o, v); });
-    // The reader requires the strength, also where it is the default.
-    const bool has_strength = text_of(disturbance.strength) != text_of(Disturbance().strength);
-    if (text_.size() > before && !has_strength) line("strength", disturbance.strength);
+    options(noise, Noise(), title, visit);
+    const bool has_strength = text_of(noise.strength) != text_of(Noise().strength);
+    if (text_.size() > before && !has_strength) line("strength", noise.strength);
   }
 
   void write_mask(const VolumeMask& mask) {

@@ -300,7 +300,7 @@ std::uint32_t default_count(const PackOptions& options) {
   const glm::dvec3 size(options.size);
   const double volume = 4.0 / 3 * std::numbers::pi * mean_cube(options);
   const double fitting = kFill * size.x * size.y * size.z / volume;
-  return static_cast<std::uint32_t>(std::clamp(fitting, 1.0, double{PackOptions().count}));
+  return static_cast<std::uint32_t>(std::clamp(fitting, 1.0, static_cast<double>(PackOptions().count)));
 }
 
 Result<void> check_options(const PackOptions& options) {

@@ -7,6 +7,7 @@
 #include "brume_test_shaders.hpp"
 #include "passes/noise.hpp"
 #include "shared/erosion.h"
+#include "shared/volume_detail.h"
 #include "smoke/noise_tile.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/probes.h"
@@ -307,7 +308,8 @@ TEST_F(ErosionTest, TheMeanThatSamplesAreComparedWithIsThatOfDetail) {
   EXPECT_LT(std::abs(off / count), 0.02);
 }
 
-// What a sample keeps for a second threshold is enough: it is the same where the tile's noise is within its limits.
+// What a sample keeps for a second threshold is enough: it is the same where the tile's noise is within its
+// limits.
 TEST_F(ErosionTest, AThresholdWithDetailNeedsTheOneWithoutAlone) {
   shared::SmokeLook look{};
   look.erosion = 0.9f;
@@ -324,6 +326,28 @@ TEST_F(ErosionTest, AThresholdWithDetailNeedsTheOneWithoutAlone) {
     EXPECT_NEAR(shared::threshold_with(look, density, without, fine, weight),
                 shared::erosion_threshold(look, density, noise + weight * fine), 1e-5f);
   }
+}
+
+// What light in a volume with detail counts with: the mean over the noise.
+TEST_F(ErosionTest, LightInVolumesCountsWithTheMeanOfTheirDetail) {
+  const auto all = smoke_noises();
+  const auto details = with_detail(all);
+  for (const float strength : {0.3f, 0.6f, 1.0f})
+    for (int i = 0; i <= 10; ++i) {
+      const float value = static_cast<float>(i) / 10;
+      const shared::VolumeDetail detail{strength, 1, 1};
+      double mean = 0;
+      int count = 0;
+      for (std::size_t n = 0; n < all.size(); n += 61, ++count) {
+        const glm::vec2 noise = shared::billows_and_wisps(all[n].tile);
+        mean +=
+            double{shared::volume_fraction(detail, value, noise, details[37 * n % details.size()].detail, 1)};
+      }
+      // Where even the densest is worn away, the rim is steeper than the mean's.
+      const double off = strength == 1 && value >= 0.8f ? 0.1 : 0.04;
+      EXPECT_NEAR(double{shared::mean_volume_fraction(detail, value)}, mean / count, off)
+          << strength << " " << value;
+    }
 }
 
 // Smoke between a point and the light darkens it, a gap lights it, and the light of one side most. Dense

@@ -133,7 +133,8 @@
   X(87, SurfaceImportParams) \
   X(88, MediaLayerParams) \
   X(89, SurfaceShadowParams) \
-  X(90, SurfaceNormalParams)
+  X(90, SurfaceNormalParams) \
+  X(91, VolumeDetail)
 // clang-format on
 
 #endif

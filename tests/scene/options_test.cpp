@@ -95,7 +95,8 @@ TEST(Options, MatchTheTableInTheDocs) {
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
       volume("`[[volume]]` "), mask("`[[volume.mask]]` "), disturbance("`[volume.disturb]` "),
-      carrier("`[[carrier.key]]` "), decal("`[[decal]]` "), camera("`[[camera]]` ");
+      detail("`[volume.detail]` "), carrier("`[[carrier.key]]` "), decal("`[[decal]]` "),
+      camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
   visit_bounce_options(static_cast<const Timeline&>(Timeline()), top);
   visit_level_options(static_cast<const Timeline&>(Timeline()), top);
@@ -107,12 +108,13 @@ TEST(Options, MatchTheTableInTheDocs) {
   visit_particle_options(static_cast<const VolumeOptions&>(VolumeOptions()), volume);
   visit_mask_options(static_cast<const VolumeMask&>(VolumeMask()), mask);
   visit_disturbance_options(static_cast<const Disturbance&>(Disturbance()), disturbance);
+  visit_detail_options(static_cast<const VolumeDetail&>(VolumeDetail()), detail);
   visit_carrier_options(static_cast<const CarrierKey&>(CarrierKey()), carrier);
   visit_decal_options(static_cast<const DecalOptions&>(DecalOptions()), decal);
   visit_camera_options(static_cast<const Camera&>(Camera()), camera);
   const std::string head = part_of(text, "| key |");
   for (const RowMaker* maker :
-       {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &carrier, &decal, &camera})
+       {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &detail, &carrier, &decal, &camera})
     expect_rows(head, maker->rows);
 
   RowMaker shot("... "), letters("... "), blast("... ");
@@ -191,6 +193,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(VolumeMask(), visit_mask_options), 2u);
   EXPECT_EQ(MET(MaskKey(), visit_mask_options), 2u);
   EXPECT_EQ(MET(Disturbance(), visit_disturbance_options), 4u);
+  EXPECT_EQ(MET(VolumeDetail(), visit_detail_options), 3u);
   EXPECT_EQ(MET(VolumeOptions(), visit_particle_options), 2u);
   EXPECT_EQ(MET(CarrierKey(), visit_carrier_options), 1u);
   EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);

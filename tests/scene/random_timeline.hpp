@@ -197,6 +197,7 @@ inline void draw_effects(Drawing& draw, const std::vector<Carrier>& carriers, Vo
     for (std::uint32_t masks = draw.below(kMostMasks + 1); masks > 0; --masks)
       volume.masks.push_back(random_mask(draw));
   if (draw.below(2) == 0) visit_disturbance_options(volume.disturbance, draw);
+  if (draw.below(2) == 0) visit_detail_options(volume.detail, draw);
   if (draw.below(2) == 0) visit_particle_options(volume, draw);
   if (volume.masks.empty()) volume.particles = 0;
 }

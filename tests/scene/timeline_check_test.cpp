@@ -75,6 +75,7 @@ void spoil_effects(VolumeOptions& volume, Spoiler& s) {
     for (MaskKey& key : mask.keys) s.time(key.time), visit_mask_options(key, s);
   }
   visit_disturbance_options(volume.disturbance, s);
+  visit_detail_options(volume.detail, s);
   visit_particle_options(volume, s);
 }
 

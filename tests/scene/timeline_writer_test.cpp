@@ -104,6 +104,7 @@ void add_effects(Bits& b, const VolumeOptions& volume) {
     add_keys(b, mask.keys, [&](const MaskKey& key) { visit_mask_options(key, b); });
   }
   visit_disturbance_options(volume.disturbance, b);
+  visit_detail_options(volume.detail, b);
   visit_particle_options(volume, b);
 }
 

@@ -292,6 +292,7 @@ TEST(OptionLabelsOfEffectsTest, EverySettingHasALabelOfItsOwn) {
   };
   expect_labels(scene::VolumeMask(), [](auto& o, auto&& v) { scene::visit_mask_options(o, v); });
   expect_labels(scene::Disturbance(), [](auto& o, auto&& v) { scene::visit_disturbance_options(o, v); });
+  expect_labels(scene::VolumeDetail(), [](auto& o, auto&& v) { scene::visit_detail_options(o, v); });
   expect_labels(scene::VolumeOptions(), [](auto& o, auto&& v) { scene::visit_particle_options(o, v); });
   expect_labels(scene::DecalOptions(), [](auto& o, auto&& v) { scene::visit_decal_options(o, v); });
 }

@@ -129,6 +129,10 @@ class WidgetsTest : public testing::Test {
 
 TEST_F(WidgetsTest, EveryWidgetOfEveryPanelTakesAClick) {
   write_busy_room(folder_);
+  // Unlit by the first volume's heat, whose lights take a software rasterizer half of each frame.
+  std::string room = read_text_file(folder_.path() / "busy.toml").value_or_throw();
+  room.insert(room.find("kelvin = "), "emission = 0.0\n");
+  folder_.write("busy.toml", room);
   run("busy.toml", {"--quality", "smallest"});
   program_->place_mouse(kBesideThePanels.x, kBesideThePanels.y);
   program_->click(1);  // smoke, so that there is something to change
