@@ -38,6 +38,9 @@ def png_bytes(pixels):
             chunk(b"IEND", b""))
 
 
+LUMENS_PER_WATT = 683.0
+
+
 class GlbWriter:
     """Collects one scene and writes it as a .glb. The order of the calls is the order in the file."""
 
@@ -129,8 +132,10 @@ class GlbWriter:
         self.doc["scenes"][0]["nodes"].append(len(self.doc["nodes"]) - 1)
 
     def light(self, name, kind, color, intensity, position=(0, 0, 0), rotation=None, cone=None):
-        """Candela for points and spots, lux for directional light; `cone`: inner and outer half-angle, radians."""
-        light = {"name": name, "type": kind, "color": [*map(float, color)], "intensity": float(intensity)}
+        """W/sr for points and spots, W/m^2 for directional light, which the file has in candela and lux; `cone`: inner
+        and outer half-angle, radians."""
+        light = {"name": name, "type": kind, "color": [*map(float, color)],
+                 "intensity": LUMENS_PER_WATT * float(intensity)}
         if cone:
             light["spot"] = {"innerConeAngle": cone[0], "outerConeAngle": cone[1]}
         self.lights.append(light)

@@ -56,7 +56,7 @@ MATERIALS = {
     "glow_sodium": dict(color=(0.8, 0.5, 0.2), emission=(26.0, 11.5, 2.2)),
 }
 
-# name: kind, linear colour, intensity [cd, or lux for the moon], position, target, half-angles of the cone
+# name: kind, linear colour, intensity [W/sr, or W/m^2 for the moon], position, target, half-angles of the cone
 LIGHTS = {
     "lamp_tungsten": ("point", (1.0, 0.60, 0.26), 34.0, (-4.45, 2.42, -4.55), None, None),
     "lamp_work": ("spot", (1.0, 0.70, 0.38), 260.0, (-1.42, 1.62, -5.48), (-2.75, 1.35, 0.0), (0.24, 0.46)),

@@ -12,6 +12,7 @@
 #include "apps/cli/volumes.hpp"
 #include "grids/files.hpp"
 #include "grids/metadata.hpp"
+#include "scenario/volume_frame.hpp"
 
 namespace brume::cli {
 namespace {
@@ -24,12 +25,18 @@ constexpr std::size_t kBins = 16;
 
 /// The distribution of the values of a grid's active voxels; of vectors, of their lengths.
 struct Values {
-  bool any = false;  ///< Whether one is a number.
+  bool any = false;       ///< Whether one is a number.
+  std::uint64_t odd = 0;  ///< Voxels that are NaN, infinite or beyond 1e30.
   double low = 0, high = 0;
   std::array<std::uint64_t, kBins> histogram{};  ///< Voxels in equal parts of [low, high].
 };
 
-// Calls `use` with each finite value of active voxels, and how many voxels have it.
+// As grids::BrickVolume::odd.
+bool is_odd(double value) {
+  return !(std::abs(value) <= 1e30);
+}
+
+// Calls `use` with each value of active voxels, and how many voxels have it.
 void for_each_value(const Grid& grid, const std::function<void(double, std::uint64_t)>& use) {
   const std::size_t bytes = bytes_of(grid.type);
   for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
@@ -38,18 +45,23 @@ void for_each_value(const Grid& grid, const std::function<void(double, std::uint
       for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1) {
         const std::size_t voxel = z * 64 + static_cast<std::size_t>(std::countr_zero(word));
         const double value = grids::number_of(grid.type, values + voxel * bytes);
-        if (std::isfinite(value)) use(value, 1);
+        use(value, 1);
       }
   }
   for (const grids::Tile& tile : grid.tiles) {
     const double value = grids::number_of(grid.type, tile.value.data());
-    if (tile.active && std::isfinite(value)) use(value, std::uint64_t{tile.edge} * tile.edge * tile.edge);
+    if (tile.active) use(value, std::uint64_t{tile.edge} * tile.edge * tile.edge);
   }
 }
 
 Values values_of(const Grid& grid) {
-  Values values{false, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), {}};
-  for_each_value(grid, [&](double value, std::uint64_t) {
+  Values values{
+      false, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), {}};
+  for_each_value(grid, [&](double value, std::uint64_t count) {
+    if (is_odd(value)) {
+      values.odd += count;
+      return;
+    }
     values.any = true;
     values.low = std::min(values.low, value);
     values.high = std::max(values.high, value);
@@ -57,6 +69,7 @@ Values values_of(const Grid& grid) {
   if (!values.any) return values;
   const double range = values.high - values.low;
   for_each_value(grid, [&](double value, std::uint64_t count) {
+    if (is_odd(value)) return;
     const double part = range > 0 ? (value - values.low) / range * kBins : 0;
     values.histogram[std::min(static_cast<std::size_t>(part), kBins - 1)] += count;
   });
@@ -157,6 +170,10 @@ Json add_grid(Summary& summary, const Grid& grid) {
   if (values.any)
     summary.add_line("  values", format("%.6g", values.low) + " " + histogram_text(values) + " " +
                                      format("%.6g", values.high));
+  if (values.odd > 0)
+    summary.add_line("  not finite", std::to_string(values.odd) +
+                                         (values.odd == 1 ? " voxel: NaN, infinite or beyond 1e30"
+                                                          : " voxels: NaN, infinite or beyond 1e30"));
   // Without the statistics of the file, which the lines above give.
   for (const grids::Metadata& entry : grid.metadata)
     if (entry.name.rfind("file_", 0) != 0)
@@ -179,6 +196,7 @@ Json add_grid(Summary& summary, const Grid& grid) {
             {"world_from_index", transform_json(grid)},
             {"min", values.any ? Json(values.low) : Json(nullptr)},
             {"max", values.any ? Json(values.high) : Json(nullptr)},
+            {"not_finite", values.odd},
             {"histogram", histogram},
             {"memory_bytes", memory_of(grid)}};
   json.set("metadata", metadata_json(grid.metadata));
@@ -200,6 +218,10 @@ Summary volume_summary(const std::filesystem::path& path, Outputs& outputs) {
   Json list = Json::list({});
   for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));
   summary.set("grids", list);
+  if (const auto shown = scenario::shown_grids(file)) {
+    summary.add_line("", "");
+    summary.add("shown", *shown);
+  }
   summary.set("metadata", metadata_json(file.metadata));
   return summary;
 }

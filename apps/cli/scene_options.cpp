@@ -76,9 +76,11 @@ glm::vec2 parse_range(const std::string& text) {
 
 /// The options that are for a volume without a timeline.
 void refuse_transfer(const scenario::FirstViewOptions& options, const std::string& reason) {
-  for (const auto& [option, is_given] : {std::pair("--opacity", !options.opacity.empty()),
-                                         std::pair("--color-map", !options.color_map.empty()),
-                                         std::pair("--range", options.range.has_value())})
+  for (const auto& [option, is_given] :
+       {std::pair("--opacity", !options.opacity.empty()),
+        std::pair("--color-map", !options.color_map.empty()), std::pair("--range", options.range.has_value()),
+        std::pair("--density", !options.density.empty()), std::pair("--heat", !options.heat.empty()),
+        std::pair("--kelvin", options.kelvin.has_value())})
     if (is_given) throw Error(ErrorCode::usage, std::string(option) + ": " + reason);
 }
 
@@ -93,6 +95,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
   if (options.exposure) timeline.exposure = *options.exposure;
   if (options.tone) timeline.tone = *options.tone;
   if (options.bounces) timeline.bounces = *options.bounces;
+  if (!options.has_smoke) timeline.smokes.clear();
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
 }
 
@@ -110,6 +113,21 @@ void declare_transfer(const Arguments& arguments, SceneOptions& options) {
       .add_option("--range", options.range,
                   "Values that --color-map and --opacity span; default: all of the volume")
       .type_name("LOW,HIGH");
+  arguments
+      .add_option(
+          "--density", options.density,
+          "Grid of a volume that is dense; of vectors their lengths; default: the first of the usual names")
+      .type_name("GRID");
+  arguments
+      .add_option(
+          "--heat", options.heat,
+          "Grid of a volume that glows, or none; default: the first of the usual names, where it burns")
+      .type_name("GRID");
+  arguments
+      .add_option("--kelvin", options.kelvin,
+                  "Temperature where that grid is 1; default: 1000, or 1 if its values are kelvin")
+      .type_name("K")
+      .range(1.0, 100000.0);
 }
 
 // One line for everything that never happens because the timeline ends before.
@@ -146,7 +164,9 @@ void declare_size_options(const Arguments& arguments, SceneOptions& options) {
 }
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
-  arguments.add_option("--smoke", options.smokes, "Smoke that goes off at this point [m]; repeatable")
+  arguments
+      .add_option("--smoke", options.smokes,
+                  "Smoke that goes off at this point [m]; repeatable; none: no smoke")
       .take_all()
       .type_name("X,Y,Z");
   arguments
@@ -199,10 +219,11 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   texts.push_back("throws");
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());
   texts.push_back(options.sun);
-  for (const std::string& text : {options.tone, options.opacity, options.color_map, options.range})
+  for (const std::string& text :
+       {options.tone, options.opacity, options.color_map, options.range, options.density, options.heat})
     texts.push_back(text);
   for (const std::optional<double>& number :
-       {options.smoke_size, options.voxel, options.scale, options.exposure}) {
+       {options.smoke_size, options.voxel, options.scale, options.exposure, options.kelvin}) {
     char text[32] = "";
     if (number) std::snprintf(text, sizeof text, "%.17g", *number);  // to_string() has but 6 decimals
     texts.emplace_back(text);
@@ -223,10 +244,18 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
   if (!options.opacity.empty()) parsed.opacity = parse_opacity(options.opacity);
   if (!options.range.empty()) parsed.range = parse_range(options.range);
+  parsed.density = options.density;
+  parsed.heat = options.heat;
+  parsed.kelvin = as_float(options.kelvin);
   parsed.color_map.name = options.color_map;
   if (const auto fault = scene::fault_of(parsed.color_map))
     throw Error(ErrorCode::usage, "--color-map: " + fault->what);
+  if (options.smokes.size() > 1 && std::ranges::count(options.smokes, "none") > 0)
+    throw Error(ErrorCode::usage,
+                "--smoke none: cannot be combined with another --smoke; remove one of them");
+  parsed.has_smoke = options.smokes != std::vector<std::string>{"none"};
   for (const std::string& text : options.smokes) {
+    if (!parsed.has_smoke) break;
     const glm::vec3 place = parse_event_point("--smoke", text);
     parsed.smokes.push_back({0, place, place});
   }

@@ -17,7 +17,8 @@ namespace brume::cli {
 struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
-  std::string sun, tone, opacity, color_map, range;
+  std::string sun, tone, opacity, color_map, range, density, heat;
+  std::optional<double> kelvin;
   std::optional<std::uint32_t> bounces;
 };
 

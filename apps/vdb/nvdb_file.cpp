@@ -20,8 +20,6 @@ using grids::ByteReader;
 using nanovdb::io::Codec;
 using View = std::span<const std::byte>;
 
-/// As NanoVDB names the first bytes of later versions of the format.
-constexpr std::uint64_t kMagicBase = 0x0044566f6e614eull;  // "NanoVD" and its last letter
 constexpr std::uint64_t kBloscBlock = std::uint64_t{1} << 30;
 
 Error damaged(const std::string& what) {
@@ -29,13 +27,18 @@ Error damaged(const std::string& what) {
 }
 
 void check_header(const nanovdb::io::Header& header) {
-  if ((header.magic & 0xffffffffffffull) != (kMagicBase & 0xffffffffffffull))
-    throw Error(ErrorCode::bad_input, "not a .nvdb file");
-  if (header.magic != NANOVDB_MAGIC_NUMBER || header.version.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER)
-    throw Error(ErrorCode::bad_input, "a .nvdb file of NanoVDB " + std::to_string(header.version.getMajor()) +
+  constexpr std::uint64_t kName = (std::uint64_t{1} << 56) - 1;  // "NanoVDB"
+  if ((header.magic & kName) != (kFirstMagic & kName)) throw Error(ErrorCode::bad_input, "not a .nvdb file");
+  const std::uint32_t major = header.version.getMajor();
+  if (major != NANOVDB_MAJOR_VERSION_NUMBER)
+    throw Error(ErrorCode::bad_input, "a .nvdb file of NanoVDB " + std::to_string(major) +
                                           ", whose grids differ from those of " +
                                           std::to_string(NANOVDB_MAJOR_VERSION_NUMBER) +
                                           "; convert it with that version's nanovdb_convert, to .vdb");
+  if (header.magic != kFirstMagic && header.magic != kFileMagic)
+    throw Error(ErrorCode::bad_input,
+                std::string("a .nvdb file that begins with NanoVDB") + static_cast<char>(header.magic >> 56) +
+                    "; expected NanoVDB0, 1 or 2; convert it with its version's nanovdb_convert, to .vdb");
   if (header.codec >= Codec::END) throw damaged("a compression that is not one");
 }
 
@@ -75,6 +78,20 @@ AlignedBytes read_grid(ByteReader& in, std::uint64_t size, Codec codec, const gr
   return grid;
 }
 
+/// Grids one after the other, without a head of the file.
+void for_each_raw_grid(ByteReader& in, const grids::GridLimits& limits,
+                       const std::function<void(const AlignedBytes&)>& use) {
+  while (in.remaining() > 0) {
+    ByteReader ahead = in;
+    nanovdb::GridData head;
+    const View bytes = ahead.raw(sizeof head);
+    if (!ahead.ok()) throw damaged("it is truncated");
+    std::memcpy(static_cast<void*>(&head), bytes.data(), sizeof head);
+    if (head.mGridSize < sizeof head) throw damaged("the size of a grid is wrong");
+    use(read_grid(in, head.mGridSize, Codec::NONE, limits));
+  }
+}
+
 }  // namespace
 
 AlignedBytes::AlignedBytes(std::size_t size) : size_(size) {
@@ -95,6 +112,8 @@ void for_each_nvdb_grid(const std::string& path, const grids::GridLimits& limits
   const auto file = read_file(path, limits.bytes).value_or_throw();
   if (file.empty()) throw Error(ErrorCode::bad_input, "not a .nvdb file: it is empty");
   ByteReader in(file);
+  if (ByteReader ahead = in; ahead.number<std::uint64_t>() == kGridMagic && ahead.ok())
+    return for_each_raw_grid(in, limits, use);
   while (in.remaining() > 0) {
     // A segment: what its grids are.
     nanovdb::io::Header header;

@@ -1,7 +1,10 @@
 // The container of .nvdb files: segments of grids, each compressed or not.
 #pragma once
 
+#include <nanovdb/NanoVDB.h>
+
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -25,6 +28,12 @@ class AlignedBytes {
   std::unique_ptr<std::byte, Free> data_;
   std::size_t size_;
 };
+
+/// How files and grids may begin: "NanoVDB0" in all versions before 32.6, since then a digit of their own.
+/// The layouts of all versions of 32 are alike (NanoVDB.h of each).
+constexpr std::uint64_t kFirstMagic = NANOVDB_MAGIC_NUMBER;
+constexpr std::uint64_t kGridMagic = kFirstMagic + (std::uint64_t{1} << 56);
+constexpr std::uint64_t kFileMagic = kFirstMagic + (std::uint64_t{2} << 56);
 
 /// Calls `use` with the bytes of each grid of a file. Throws Error (bad_input, resource_limit).
 void for_each_nvdb_grid(const std::string& path, const grids::GridLimits& limits,

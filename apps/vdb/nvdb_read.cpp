@@ -344,7 +344,8 @@ void read_grid(View bytes, const grids::GridLimits& limits, const Reader& reader
   // Its head.
   if (bytes.size() < sizeof(nanovdb::GridData)) throw damaged("a grid is truncated");
   const auto& head = *reinterpret_cast<const nanovdb::GridData*>(bytes.data());
-  if (head.mMagic != NANOVDB_MAGIC_NUMBER || head.mVersion.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER)
+  if ((head.mMagic != kFirstMagic && head.mMagic != kGridMagic) ||
+      head.mVersion.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER)
     throw damaged("a grid begins with other bytes");
   if (head.mGridSize != bytes.size()) throw damaged("the size of a grid is wrong");
   if ((head.mFlags & static_cast<std::uint32_t>(nanovdb::GridFlags::IsBreadthFirst)) == 0)

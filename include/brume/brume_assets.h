@@ -32,10 +32,10 @@ typedef struct brume_volume_params {
   /// Path, UTF-8: .brv, or .vdb and .nvdb, which the program brume-vdb reads, installed beside the host's
   /// program or on the PATH. Of a sequence the name has the number of its frames as %d or %04d.
   const char* file;
-  /// Names of grids of numbers: what is dense, and what glows. Null: the first of the usual names; an empty
-  /// name of `heat` is that, too.
+  /// Names of grids of numbers: what is dense, and what glows. Null: the first of the usual names, and where
+  /// it burns; an empty name of `heat` is that, too.
   const char* density;
-  const char* heat;   ///< Of the grid that glows.
+  const char* heat;   ///< Of the grid that glows; "none": nothing does.
   const char* color;  ///< Of the grid of colours that multiply the albedo; null: the same.
   float frame_rate;   ///< Of a sequence [1/s], [0.001, 1000].
   uint32_t repeat;    ///< brume_repeat, of a sequence.
@@ -86,7 +86,7 @@ typedef struct brume_shown_volume {
   float anisotropy;                    ///< Mean cosine of the phase function, (-1, 1).
   float multiple_scattering;           ///< Weight of light that is scattered more than once, [0, 1].
   float emission;                      ///< Multiplies what glows, [0, 10^6].
-  float kelvin;                        ///< Temperature where the heat is 1, [1, 40000].
+  float kelvin;  ///< Temperature where the heat is 1, [1, 40000]; 1000: that of a heat in kelvin is 1.
 } brume_shown_volume;
 
 static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume* volume) {

@@ -348,7 +348,9 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   BRUME_ASSERT(options.max_bricks >= kFewestVolumeBricks && options.max_pages >= kFewestVolumePages,
                std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
   const Grid nothing;
-  Levels levels{Level(GridNumbers(grid)),
+  GridNumbers numbers(grid);
+  const std::uint64_t odd = numbers.odd();
+  Levels levels{Level(std::move(numbers)),
                 Level(GridNumbers(options.also ? *options.also : nothing)),
                 options.may_be_uniform,
                 options.glows,
@@ -358,6 +360,7 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   BrickVolume out = volume_of(levels, 0, kEmptyBox);
   const auto active = static_cast<double>(count_active(grid));
   out.level = levels.halvings;
+  out.odd = odd;
   out.rms_error = active > 0 ? std::sqrt(levels.square_error / active) : 0;
   out.world_from_voxel =
       grid.world_from_index * glm::translate(glm::dmat4(1), glm::dvec3(-0.5)) * scale_of(levels);

@@ -51,6 +51,23 @@ std::uint64_t count_active(const Grid& grid) {
   return count;
 }
 
+bool any_above(const Grid& grid, double value) {
+  const auto is_above = [&](const std::byte* at) {
+    const double number = number_of(grid.type, at);
+    return number > value && std::isfinite(number);
+  };
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
+    const std::byte* const values = grid.values_of(i).data();
+    for (std::size_t z = 0; z < grid.bricks[i].active.size(); ++z)
+      for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1)
+        if (is_above(values +
+                     (z * 64 + static_cast<std::size_t>(std::countr_zero(word))) * bytes_of(grid.type)))
+          return true;
+  }
+  return std::ranges::any_of(grid.tiles,
+                             [&](const Tile& tile) { return tile.active && is_above(tile.value.data()); });
+}
+
 Box<double> active_bounds(const Grid& grid) {
   glm::i64vec3 low(INT64_MAX), high(INT64_MIN);
   const auto add = [&](glm::i64vec3 first, glm::i64vec3 end) {

@@ -108,6 +108,9 @@ double number_of(ValueType type, const std::byte* value);
 /// Voxels that are active, those of tiles included.
 std::uint64_t count_active(const Grid& grid);
 
+/// Whether the number of an active voxel or tile is finite and above `value`.
+bool any_above(const Grid& grid, double value);
+
 /// Around all active voxels, in index space: whole voxels, so that one voxel at 0 gives [-0.5, 0.5]. Empty
 /// (low > high) without any.
 Box<double> active_bounds(const Grid& grid);

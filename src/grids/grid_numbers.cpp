@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <mutex>
 #include <numeric>
 
 #include "core/tasks.hpp"
@@ -33,12 +34,37 @@ NumberReader::NumberReader(const Grid& grid)
       level_set_(grid.grid_class == GridClass::level_set),
       is_plain_(type_ == ValueType::float32 && !level_set_) {
   ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
+  find_most(grid);
+}
+
+void NumberReader::find_most(const Grid& grid) {
+  std::mutex mutex;
+  double most = 0;
+  const auto add = [&](const std::byte* values, std::size_t count) {
+    double largest = 0;
+    std::uint64_t odd = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = number(values + i * bytes_);
+      if (std::abs(value) <= double{kLargest})
+        largest = std::max(largest, value);
+      else
+        ++odd;  // NaN, too
+    }
+    const std::lock_guard lock(mutex);
+    most = std::max(most, largest);
+    odd_ += odd;
+  };
+  parallel_for(grid.bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) add(grid.values_of(i).data(), kBrickVoxels);
+  });
+  for (const Tile& tile : grid.tiles) add(tile.value.data(), 1);
+  if (odd_ > 0) most_ = level_set_ ? 1 : static_cast<float>(most);
 }
 
 float NumberReader::converted(const std::byte* at) const {
   double value = number(at);
   if (level_set_) value = std::min(-value / ramp_, 1.0);
-  return value > 0 ? static_cast<float>(std::min<double>(value, kLargest)) : 0.0f;
+  return value > 0 ? static_cast<float>(std::min<double>(value, most_)) : 0.0f;
 }
 
 double NumberReader::number(const std::byte* at) const {

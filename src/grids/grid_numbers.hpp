@@ -18,6 +18,7 @@ namespace brume::grids {
 using BrickNumbers = std::array<float, kBrickVoxels>;
 
 /// Reads values of a grid as numbers >= 0: the length of vectors; of a level set a fog (brick_volume.hpp).
+/// What is infinite, or beyond kLargest, is the largest other number.
 class NumberReader {
  public:
   explicit NumberReader(const Grid& grid);
@@ -25,11 +26,14 @@ class NumberReader {
     if (!is_plain_) return converted(values + index * bytes_);
     float value = 0;
     std::memcpy(&value, values + index * sizeof value, sizeof value);
-    return value > 0 ? std::min(value, kLargest) : 0.0f;
+    return value > 0 ? std::min(value, most_) : 0.0f;
   }
+  /// Voxels and tiles whose value is NaN, infinite or beyond kLargest.
+  std::uint64_t odd() const { return odd_; }
 
  private:
   static constexpr float kLargest = 1e30f;
+  void find_most(const Grid& grid);
   float converted(const std::byte* at) const;
   double number(const std::byte* at) const;
 
@@ -38,6 +42,8 @@ class NumberReader {
   bool level_set_;
   bool is_plain_;  // float32, as they are: most grids
   double ramp_ = 1;
+  float most_ = kLargest;
+  std::uint64_t odd_ = 0;
 };
 
 /// Bricks and cubes of numbers, without those of zeros.
@@ -49,6 +55,9 @@ class GridNumbers {
   /// The stored halves of a volume of one channel, which must outlive it; with `only_presence` 1 throughout
   /// each of its bricks.
   GridNumbers(const volume::SparseVolume& volume, bool only_presence);
+
+  /// NumberReader::odd of the grid.
+  std::uint64_t odd() const { return reader_.odd(); }
 
   /// Means over 2^3 voxels; with `by_power` of fourth powers, whose fourth root is taken. Adds the squares of
   /// what they lose to `square_error`.

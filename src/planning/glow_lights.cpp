@@ -35,7 +35,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   const scenario::VolumeFrame& frame = *volume.frame;
   const double voxel_volume = std::abs(glm::determinant(glm::dmat3(glm::dmat4(volume.world_from_heat))));
   const double radius = ball.radius * std::cbrt(voxel_volume);
-  const double kelvin = double{options.kelvin} * double{frame.heat->unit};
+  const double kelvin = double{scenario::kelvin_of(options, frame)} * double{frame.heat->unit};
   const double ratio = kelvin / double{kUnitGlow};
 
   // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.

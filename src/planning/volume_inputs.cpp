@@ -57,8 +57,9 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   input.voxel_depth = voxel_depth_of(options, volume.world_from_density, first);
   if (const auto& heat = volume.frame->heat; heat && options.emission > 0)
     // What glows is a multiple of the look's extinction.
-    input.heat = {heat->volume.get(), volume.world_from_heat, options.kelvin * heat->unit,
-                  heat->high / heat->unit, options.emission / unit};
+    input.heat = {heat->volume.get(), volume.world_from_heat,
+                  scenario::kelvin_of(options, *volume.frame) * heat->unit, heat->high / heat->unit,
+                  options.emission / unit};
   if (const auto& preview = volume.preview; preview && preview->density) {
     input.preview = preview->density->volume.get();
     input.world_from_preview = volume.world_from_density_preview;

@@ -117,17 +117,51 @@ scene::Light sunlight(const scene::SunOptions& sun) {
   return light;
 }
 
-/// A sun where one is given or nothing else lights the scene; a sky that matches.
+float luminance(const glm::vec3& color) {
+  return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+/// Irradiance of a scene's brightest sun; 0: it has none.
+float sun_level(const scene::Scene& scene) {
+  float most = 0;
+  for (const scene::Light& light : scene.lights)
+    if (is_sun(light)) most = std::max(most, luminance(light.intensity));
+  return most;
+}
+
+/// Irradiance by the brightest of its other lights half-way from the middle of the scene to its sides.
+float light_level(const scene::Scene& scene) {
+  const Box<float> bounds = scene::world_bounds(scene);
+  const float distance = bounds.empty() ? 1 : std::max(0.25f * largest_extent(bounds), kSmallestExtent);
+  float most = 0;
+  for (const scene::Light& light : scene.lights)
+    if (!is_sun(light)) most = std::max(most, luminance(light.intensity));
+  return most / (distance * distance);
+}
+
+void scale_sky(scene::SkyOptions& sky, float factor) {
+  constexpr float kMost = 1000;  // of the options
+  for (glm::vec3* color : {&sky.zenith, &sky.horizon, &sky.ambient})
+    *color = glm::min(*color * factor, glm::vec3(kMost));
+}
+
+/// A sun where one is given or nothing else lights the scene; a sky that matches, as bright as it is beside
+/// the usual sun or light: with exposure measured, a scene looks alike whatever the unit of its lights is.
 void choose_light(scene::Timeline& timeline, const scene::Scene& scene,
                   const std::optional<scene::SunOptions>& sun) {
   timeline.sun = sun;
   if (!sun && scene.lights.empty()) timeline.sun = kUsualSun;
   if (timeline.sun) scene::dim_sky(timeline.sky, timeline.sun->elevation);
-  if (timeline.sun || std::ranges::any_of(scene.lights, is_sun)) return;
+  if (timeline.sun) return;
   scene::SkyOptions& sky = timeline.sky;
+  // A clear sky gives about a fifth of what the sun does.
+  if (const float level = sun_level(scene); level > 0)
+    return scale_sky(sky, 0.5f * level / luminance(kUsualSun.irradiance));
   sky.zenith = {0.03f, 0.05f, 0.12f};
   sky.horizon = {0.16f, 0.14f, 0.15f};
   sky.ambient = {0.04f, 0.05f, 0.075f};
+  constexpr float kUsualLight = 4;  // [W/m^2]
+  if (const float level = light_level(scene); level > 0) scale_sky(sky, level / kUsualLight);
 }
 
 /// Diameter of smoke that covers its fraction of the image's width where it is [m].
@@ -251,7 +285,7 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   const float diameter = smoke_size(eye, surface, options);
   size_smoke(timeline, diameter, bounds, options);
   timeline.smokes = options.smokes;
-  if (timeline.smokes.empty()) {
+  if (timeline.smokes.empty() && options.has_smoke) {
     const glm::vec3 place = floor_before(scene, eye, surface, diameter);
     timeline.smokes.push_back({0, place, place});
   }

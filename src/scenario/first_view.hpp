@@ -17,6 +17,7 @@ struct FirstViewOptions {
   std::optional<float> voxel;                  ///< [m]
   std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
+  bool has_smoke = true;                       ///< Whether there is smoke without `smokes`.
   /// What is looked from instead of the camera of the result [m]: the smoke is placed for it.
   std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};
@@ -24,6 +25,8 @@ struct FirstViewOptions {
   std::optional<std::uint32_t> bounces = {};  ///< Timeline::bounces; empty: none.
   std::optional<scene::ToneCurve> tone = {};
   // Of a volume alone, as in scene::VolumeOptions.
+  std::string density = {}, heat = {};
+  std::optional<float> kelvin = {};
   std::vector<scene::OpacityPoint> opacity = {};
   scene::ColorMap color_map = {};
   std::optional<glm::vec2> range = {};

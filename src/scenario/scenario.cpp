@@ -70,9 +70,22 @@ void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scen
   }
 }
 
+/// Where something else glows than one might expect.
+void warn_of_heat(const std::filesystem::path& file, const VolumeFrame& first) {
+  if (!first.heat_note.empty() && (!first.heat || first.heat_is_kelvin))
+    log_warning(file.string() + ": " + first.heat_note);
+}
+
 Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewOptions& options) {
-  auto volumes = Volumes::load(std::array{scene::VolumeOptions{file}});
+  scene::VolumeOptions chosen{file};
+  chosen.density = options.density;
+  chosen.heat = options.heat;
+  chosen.kelvin = options.kelvin.value_or(chosen.kelvin);
+  auto volumes = Volumes::load(std::array{chosen});
   if (!volumes) return volumes.failure();
+  warn_of_heat(file, (*volumes)->first_frame(0));
+  if (options.kelvin && !(*volumes)->first_frame(0).heat)
+    log_warning("--kelvin: nothing of " + file.string() + " glows");
   scene::Scene scene;
   scene::Timeline timeline = prepare_volume_view(file, (*volumes)->first_frame(0), options);
   place_volumes(timeline, **volumes, scene);
@@ -99,6 +112,18 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
     bounds = scene::level_bounds(scene);
     if (bounds.empty()) bounds = {middle - kVoxels * grid.voxel, middle + kVoxels * grid.voxel};
     layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
+  }
+  // It reaches to where smoke goes off beside the scene, but not far away.
+  if (layout) {
+    const Box<float> covered{layout->origin_world,
+                             layout->origin_world + glm::vec3(layout->size) * layout->voxel_size};
+    for (const scene::SmokeEvent& smoke : timeline.smokes)
+      if (glm::any(glm::lessThan(smoke.at_world, covered.low)) ||
+          glm::any(glm::greaterThan(smoke.at_world, covered.high)))
+        bounds = united(bounds, {smoke.at_world, smoke.at_world});
+    const glm::ivec3 most = 2 * layout->size + 128;
+    const auto larger = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
+    if (larger && glm::all(glm::lessThanEqual(larger->size, most))) layout = larger;
   }
   if (!layout && !(grid.size && grid.origin_world)) return layout;
   voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
@@ -147,6 +172,8 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   if (!scene) return scene.failure();
   auto volumes = Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();
+  for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
+    warn_of_heat(timeline.volumes[i].file, (*volumes)->first_frame(i));
   place_volumes(timeline, **volumes, *scene);
   apply_level_options(timeline, *scene);
   return assemble(std::move(timeline), std::move(*scene), std::move(*volumes), 16.0f / 9.0f, cache_folder);

@@ -20,10 +20,16 @@ namespace fs = std::filesystem;
 /// The names that Blender, Houdini and EmberGen give, in order.
 constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
 constexpr std::array kColorNames{"Cd", "color", "colour", "Color", "Colour"};
-constexpr std::array kHeatNames{"temperature", "heat", "flame", "flames", "fire", "burn"};
+constexpr std::array kTemperatureNames{"temperature", "heat"};
+constexpr std::array kFireNames{"flame", "flames", "fire", "burn"};
 
 bool is_number_grid(const grids::Grid* grid) {
   return grid->type == grids::ValueType::float32 || grid->type == grids::ValueType::float64;
+}
+
+bool is_whole_numbers(const grids::Grid* grid) {
+  return grid->type == grids::ValueType::int32 || grid->type == grids::ValueType::int64 ||
+         grid->type == grids::ValueType::boolean;
 }
 
 bool is_colors(const grids::Grid* grid) {
@@ -54,20 +60,34 @@ Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
 Result<const grids::Grid*> choose_density(GridList grids, const std::string& name) {
   auto grid = choose_grid(grids, name, kDensityNames);
   if (!grid || *grid) return grid;
-  const auto first = std::ranges::find_if(grids, is_number_grid);
-  if (first == grids.end()) return Failure{ErrorCode::bad_input, "has no grid of numbers to render"};
-  return *first;
+  for (const auto fits : {is_number_grid, is_whole_numbers})
+    if (const auto first = std::ranges::find_if(grids, fits); first != grids.end()) return *first;
+  std::string names;
+  for (const grids::Grid* one : grids)
+    names += (names.empty() ? "\"" : ", \"") + one->name + "\" (" + std::string(name_of(one->type)) + ")";
+  return Failure{ErrorCode::bad_input,
+                 "has no grid of numbers to render" +
+                     (names.empty() ? "" : ", only " + names + "; name one of vectors to see its lengths")};
+}
+
+/// Whether the name of a heat is kNoHeat, and no grid's.
+bool says_none(GridList grids, const std::string& name) {
+  return name == kNoHeat &&
+         std::ranges::none_of(grids, [](const grids::Grid* grid) { return grid->name == kNoHeat; });
 }
 
 /// What is rendered of a file.
 struct Chosen {
   const grids::Grid* density = nullptr;
   const grids::Grid* heat = nullptr;   ///< Null: nothing glows.
+  const grids::Grid* fire = nullptr;   ///< A grid that says where it burns; null: none.
+  bool names_heat = false;             ///< Whether the options do.
   const grids::Grid* color = nullptr;  ///< Null: no colours.
   std::vector<const grids::Grid*> masks = {};
 
   bool has(const grids::Grid* grid) const {
-    return grid == density || grid == heat || grid == color || std::ranges::find(masks, grid) != masks.end();
+    return grid == density || grid == heat || grid == fire || grid == color ||
+           std::ranges::find(masks, grid) != masks.end();
   }
 };
 /// The grids of masks, and the density only if the options name one.
@@ -80,7 +100,7 @@ Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options)
   }
   for (const auto& [name, member] :
        {std::pair(options.density, &Chosen::density), {options.heat, &Chosen::heat}}) {
-    if (name.empty()) continue;
+    if (name.empty() || (member == &Chosen::heat && says_none(grids, name))) continue;
     const auto grid = choose_grid(grids, name, {});
     if (!grid) return grid.failure();
     chosen.*member = *grid;
@@ -92,12 +112,17 @@ Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
   if (!options.masks.empty()) return choose_masks(grids, options);
   const auto density = choose_density(grids, options.density);
   if (!density) return density.failure();
-  const auto heat = choose_grid(grids, options.heat, kHeatNames);
+  const bool none = says_none(grids, options.heat);
+  const auto heat = choose_grid(grids, none ? "" : options.heat, kTemperatureNames);
   if (!heat) return heat.failure();
+  const grids::Grid* const fire = *choose_grid(grids, "", kFireNames);
   const auto color = choose_grid(grids, options.color, kColorNames, is_colors);
   if (!color) return color.failure();
+  if (none) return Chosen{*density, nullptr, nullptr, true, *color};
+  if (!options.heat.empty()) return Chosen{*density, *heat, nullptr, true, *color};
   // One grid is both only if the options say so.
-  return Chosen{*density, *heat == *density && options.heat.empty() ? nullptr : *heat, *color};
+  const auto hot = *heat ? *heat : fire;
+  return Chosen{*density, hot == *density ? nullptr : hot, fire, false, *color};
 }
 
 /// Whether the file says so: Blender's solver names the resolution of its domain.
@@ -149,6 +174,44 @@ Result<void> find_mask_glow(std::span<const grids::Grid* const> masks, VolumeFra
   return {};
 }
 
+/// Whether the heat of a file glows, and what to say about it. Solvers of smoke keep a temperature that lifts
+/// it: without a fire beside it that is no glow, unless the options give it a name or kelvin of its own, or
+/// it is in kelvin.
+bool glows(const Chosen& chosen, const scene::VolumeOptions& options, VolumeFrame& frame) {
+  if (!chosen.heat) return false;
+  const std::string name = '"' + chosen.heat->name + '"';
+  frame.heat_is_kelvin = any_above(*chosen.heat, double{kMostFactor});
+  if (chosen.names_heat && !any_above(*chosen.heat, 0)) {
+    frame.heat_note = name + " does not glow: none of its values is above 0";
+    return false;
+  }
+  if (!chosen.names_heat && chosen.fire && !any_above(*chosen.fire, 0)) {
+    frame.heat_note = name + " does not glow, as nothing of \"" + chosen.fire->name + "\" burns";
+    return false;
+  }
+  const bool has_kelvin = options.kelvin != scene::VolumeOptions().kelvin;
+  if (!chosen.names_heat && !chosen.fire && !has_kelvin && !frame.heat_is_kelvin) {
+    frame.heat_note =
+        name +
+        " counts as what lifts smoke, and does not glow: no grid of fire is beside it; name it, with "
+        "`heat` or --heat, to see it glow";
+    return false;
+  }
+  const float kelvin = kelvin_of(options, frame);
+  char text[64];
+  std::snprintf(text, sizeof text, "1 is %g K", static_cast<double>(kelvin));
+  frame.heat_note =
+      name + " glows: " + (frame.heat_is_kelvin && kelvin == 1 ? "its values are kelvin" : text);
+  return true;
+}
+
+void warn_of_odd(const fs::path& file, const grids::Grid& grid, const grids::BrickVolume& volume) {
+  if (volume.odd == 0) return;
+  log_warning(file.string() + ": grid " + grid.name + ": " + std::to_string(volume.odd) +
+              (volume.odd == 1 ? " value is" : " values are") +
+              " NaN, infinite or beyond 1e30: NaN counts as 0, the others as the largest of the rest");
+}
+
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
                                                 const scene::VolumeOptions& options, const VolumeRoom& room) {
   std::vector<const grids::Grid*> list;
@@ -156,7 +219,9 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   const auto chosen = choose(list, options);
   if (!chosen) return chosen.failure();
   const std::vector<const grids::Grid*>& masks = chosen->masks;
-  const grids::Grid *density = chosen->density, *const heat = chosen->heat, *const color = chosen->color;
+  auto frame = std::make_shared<VolumeFrame>();
+  const grids::Grid *density = chosen->density, *const color = chosen->color;
+  const grids::Grid* const heat = glows(*chosen, options, *frame) ? chosen->heat : nullptr;
   grids::Grid joined;
   if (!masks.empty()) {
     auto all = grids::joined_masks(masks);
@@ -164,7 +229,6 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     joined = std::move(*all);
     if (!density) density = &joined;
   }
-  auto frame = std::make_shared<VolumeFrame>();
   const bool alike = heat && heat->world_from_index == density->world_from_index;
   // Heat has the same room as the density.
   const auto part = [&, has_heat = heat != nullptr](std::uint64_t of, std::uint32_t fewest,
@@ -180,11 +244,13 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   if (!bricks) return bricks.failure();
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
+  warn_of_odd(file, *density, frame->density);
   if (heat) {
     auto hot =
         grids::make_brick_volume(*heat, {.max_bricks = max_bricks, .max_pages = max_pages, .glows = true});
     if (!hot) return hot.failure();
     warn_of_level(file, *heat, *hot);
+    warn_of_odd(file, *heat, *hot);
     if (hot->high > 0) frame->heat = std::move(*hot);
     if (frame->heat) frame->glow = grids::find_glow(*frame->heat, frame->density);
   }
@@ -202,6 +268,21 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
 }
 
 }  // namespace
+
+float kelvin_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+  return frame.heat_is_kelvin && options.kelvin == scene::VolumeOptions().kelvin ? 1 : options.kelvin;
+}
+
+Result<std::string> shown_grids(const grids::GridFile& file) {
+  std::vector<const grids::Grid*> list;
+  for (const grids::Grid& grid : file.grids) list.push_back(&grid);
+  const auto chosen = choose(list, {});
+  if (!chosen) return chosen.failure();
+  VolumeFrame frame;
+  glows(*chosen, {}, frame);
+  const std::string color = chosen->color ? ", coloured by \"" + chosen->color->name + '"' : "";
+  return '"' + chosen->density->name + '"' + color + (frame.heat_note.empty() ? "" : "; " + frame.heat_note);
+}
 
 Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
   Box<float> result = kEmptyBox;

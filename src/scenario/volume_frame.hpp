@@ -40,10 +40,27 @@ struct VolumeFrame {
   Box<float> core;                  ///< Around most of it: a ball, but none of the wisps around it.
   /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
   bool is_extinction = false;
-  bool z_is_up = false;  ///< As Blender writes files; other programs have y up.
+  /// Whether values of the heat are above kMostFactor: kelvin, and no factors of a temperature.
+  bool heat_is_kelvin = false;
+  std::string heat_note;  ///< What was decided about the heat, a sentence; empty: there is none.
+  bool z_is_up = false;   ///< As Blender writes files; other programs have y up.
   /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
   std::vector<std::string> number_grids, color_grids;
 };
+
+/// In the place of a heat's name: nothing glows.
+inline constexpr const char* kNoHeat = "none";
+
+/// The largest heat that counts as a factor of a temperature.
+inline constexpr float kMostFactor = 100;
+
+/// Kelvin where the heat is 1: VolumeOptions::kelvin, or 1 where the heat is in kelvin and the options do not
+/// differ from their default.
+float kelvin_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+
+/// What is shown of a file without options: the grid that is dense, and what was decided about its heat.
+/// Fails with bad_input where nothing can be shown.
+Result<std::string> shown_grids(const grids::GridFile& file);
 
 /// The same at a lower resolution, for as long as not all of it is on the device; empty where it is small.
 struct VolumePreview {

@@ -58,6 +58,9 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   // Its place: the middle of its bottom at the origin.
   scene::VolumeOptions volume;
   volume.file = path;
+  volume.density = options.density;
+  volume.heat = options.heat;
+  volume.kelvin = options.kelvin.value_or(volume.kelvin);
   const glm::vec3 size = frame.bounds.high - frame.bounds.low;
   const float extent = std::max({size.x, size.y, size.z});
   volume.scale = chosen_scale(path, extent, options);

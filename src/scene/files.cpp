@@ -49,6 +49,14 @@ bool is_safe_relative(const std::string& name) {
   return true;
 }
 
+std::string why_not_found(const std::string& name) {
+  const bool has_drive = name.size() > 1 && name[1] == ':';
+  if (has_drive || name.starts_with('/') || name.starts_with('\\'))
+    return "is an absolute path, and no file of its name is beside the scene or what names it";
+  const bool may_be = is_safe_relative(std::filesystem::path(name).lexically_normal().generic_string());
+  return may_be ? "does not exist" : "lies outside of the scene's folder, from which alone files are read";
+}
+
 FolderFiles::FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (folder_.empty()) folder_ = ".";
 }

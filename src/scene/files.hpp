@@ -18,6 +18,9 @@ namespace brume::scene {
 /// no control byte. Both slashes count as separators.
 bool is_safe_relative(const std::string& name);
 
+/// Why a file of this name is not there, such as "does not exist".
+std::string why_not_found(const std::string& name);
+
 class SceneFiles {
  public:
   virtual ~SceneFiles() = default;

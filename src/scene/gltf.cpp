@@ -13,6 +13,10 @@
 namespace brume::scene {
 namespace {
 
+/// Of the light of glTF, whose units are candela and lux: that of 555 nm, as other programs count
+/// (KHR_lights_punctual names no spectrum; Blender and the engines that follow it take this number).
+constexpr double kLumensPerWatt = 683;
+
 glm::dmat4 local_matrix(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
   glm::dmat4 result(1);
@@ -33,16 +37,56 @@ glm::vec3 forward(const glm::dmat4& world_from_node) {
   return length > 1e-30 && length < 1e30 ? glm::vec3(direction / length) : glm::vec3(0, 0, -1);
 }
 
+/// What of a file would be drawn in another way if it were supported, in words; empty: nothing.
+std::string ignored_features(const tinygltf::Model& model) {
+  const auto is_set = [](const std::vector<double>& weights) {
+    return std::ranges::any_of(weights, [](double weight) { return weight != 0; });
+  };
+  bool unlit = false, instances = false, skins = false, morphs = false, wraps = false, glass = false,
+       invisible = false;
+  for (const tinygltf::Node& node : model.nodes) {
+    instances = instances || node.extensions.contains("EXT_mesh_gpu_instancing");
+    skins = skins || node.skin >= 0;
+    morphs = morphs || is_set(node.weights);
+  }
+  for (const tinygltf::Mesh& mesh : model.meshes) morphs = morphs || is_set(mesh.weights);
+  for (const tinygltf::Sampler& sampler : model.samplers)
+    wraps = wraps || sampler.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT ||
+            sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT;
+  for (const tinygltf::Material& material : model.materials) {
+    unlit = unlit || material.extensions.contains("KHR_materials_unlit");
+    glass = glass || material.extensions.contains("KHR_materials_transmission");
+    const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
+    invisible = invisible || (material.alphaMode == "BLEND" && color.size() == 4 && color[3] < 1);
+  }
+  std::string text;
+  const auto add = [&](bool any, const char* words) {
+    if (any) text += (text.empty() ? "" : "; ") + std::string(words);
+  };
+  add(instances, "EXT_mesh_gpu_instancing (one of the instances is drawn)");
+  add(skins, "skins (meshes are drawn as they are stored)");
+  add(morphs, "weights of morph targets");
+  add(wraps, "samplers that clamp or mirror (textures repeat)");
+  add(glass, "KHR_materials_transmission (glass is opaque)");
+  add(invisible,
+      "blending (what has an alpha below 0.5 is not drawn, yet stops smoke and sight; the rest is opaque)");
+  add(unlit, "KHR_materials_unlit (it is lit)");
+  return text;
+}
+
 class GltfLoader {
  public:
   GltfLoader(const GltfDocument& document, const SceneFiles& files, const std::string& name)
       : document_(document),
         model_(document.model()),
+        name_(name),
         builder_(files, name),
         materials_(document, builder_),
         meshes_(document, materials_, builder_) {}
 
   Result<Scene> load() {
+    if (const std::string ignored = ignored_features(model_); !ignored.empty())
+      log_warning(name_ + ": not supported, and ignored: " + ignored);
     walk(root_nodes());
     auto scene = std::move(builder_).finish();
     if (scene && scene->camera) aim_at_middle(*scene);
@@ -186,7 +230,7 @@ class GltfLoader {
           "is none of point, spot, directional");
     }
     const glm::dvec3 color = source.color.empty() ? glm::dvec3(1) : glm::make_vec3(source.color.data());
-    light.intensity = glm::vec3(color) * static_cast<float>(source.intensity);
+    light.intensity = glm::vec3(color * (source.intensity / kLumensPerWatt));
     light.position_world = position(world_from_node, place);
     light.direction_world = forward(world_from_node);
     builder_.scene.lights.push_back(light);
@@ -203,6 +247,7 @@ class GltfLoader {
 
   const GltfDocument& document_;
   const tinygltf::Model& model_;
+  const std::string& name_;
   SceneBuilder builder_;
   GltfMaterials materials_;
   GltfMeshes meshes_;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "core/log.hpp"
 #include "scene/obj.hpp"
@@ -96,21 +98,68 @@ struct Libraries {
   bool has_all_files = true;
 };
 
+std::string folder_of(const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string::npos ? "" : file.substr(0, slash + 1);
+}
+
+/// Where a file may be that another one in `folder` names: as it is written; from that folder; and, as paths
+/// of other machines lead nowhere, its last part there and beside the scene.
+std::vector<std::string> places_of(const std::string& name, const std::string& folder) {
+  const auto normal = [](const std::string& path) {
+    return std::filesystem::path(path).lexically_normal().generic_string();
+  };
+  const std::string last = name.substr(folder_of(name).size());
+  return {name, normal(folder + name), normal(name), folder + last, last};
+}
+
+std::optional<std::string> find_one(const SceneFiles& files, const std::vector<std::string>& places) {
+  for (const std::string& place : places)
+    if (auto found = files.find(place)) return found;
+  return std::nullopt;
+}
+
+/// The files of a line, which may name several; a name may have spaces as well.
+std::vector<std::string> library_files(const ObjLibrary& library, const SceneFiles& files) {
+  std::string line = library.file;
+  std::replace(line.begin(), line.end(), '\\', '/');
+  if (const auto whole = find_one(files, places_of(line, ""))) return {*whole};
+  std::vector<std::string> found, missing;
+  std::istringstream words(line);
+  for (std::string word; words >> word;)
+    if (const auto one = find_one(files, places_of(word, "")))
+      found.push_back(*one);
+    else
+      missing.push_back(word);
+  if (!found.empty())
+    for (const std::string& word : missing)
+      log_warning(library.place + ": the material file " + in_quotes(word) + " " + why_not_found(word));
+  return found;
+}
+
 Result<Libraries> read_libraries(const ObjModel& model, const SceneFiles& files) {
   Libraries materials;
   for (const ObjLibrary& library : model.libraries) {
-    const auto found = files.find(library.file);
-    if (!found) {
-      log_warning(library.place + ": the material file " + in_quotes(library.file) +
-                  " does not exist; its materials are grey");
-      materials.has_all_files = false;
+    if (library.file.empty()) {
+      log_warning(library.place + ": expected the name of a material file after mtllib");
       continue;
     }
-    const auto bytes = files.read(*found);
-    if (!bytes) return bytes.failure();
-    auto parsed = parse_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *found);
-    if (!parsed) return parsed.failure();
-    for (MtlMaterial& material : *parsed) materials.by_name.try_emplace(material.name, std::move(material));
+    const std::vector<std::string> found = library_files(library, files);
+    if (found.empty()) {
+      log_warning(library.place + ": the material file " + in_quotes(library.file) + " " +
+                  why_not_found(library.file) + "; its materials are grey");
+      materials.has_all_files = false;
+    }
+    for (const std::string& file : found) {
+      const auto bytes = files.read(file);
+      if (!bytes) return bytes.failure();
+      auto parsed = parse_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+      if (!parsed) return parsed.failure();
+      for (MtlMaterial& material : *parsed) {
+        material.folder = folder_of(file);
+        materials.by_name.try_emplace(material.name, std::move(material));
+      }
+    }
   }
   return materials;
 }
@@ -122,11 +171,12 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   material.emission = source.emission;
   material.roughness = source.roughness;
   material.metallic = source.metallic;
-  const auto image = [&](const std::string& file, const std::string& place) {
-    return file.empty() ? kNone : builder.image_of_file({&file, 1}, place);
+  const auto image = [&](const std::string& file, const std::string& place, const char* stand_in) {
+    return file.empty() ? kNone : builder.image_of_file(places_of(file, source.folder), place, stand_in);
   };
-  material.base_color_image = image(source.diffuse_map, source.diffuse_place);
-  material.normal_image = image(source.normal_map, source.normal_place);
+  material.base_color_image = image(source.diffuse_map, source.diffuse_place, "a magenta checker stands in");
+  material.normal_image = image(source.normal_map, source.normal_place, "it is left out");
+  if (builder.is_checker(material.normal_image)) material.normal_image = kNone;
   // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
     material.base_color = glm::vec3(1);

@@ -42,19 +42,20 @@ Result<std::uint32_t> SceneBuilder::add_mesh(Mesh mesh) {
   return last_index(scene.meshes.size());
 }
 
-std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, const std::string& place) {
+std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, const std::string& place,
+                                          const char* instead) {
   for (const std::string& name : names) {
     const auto found = files_.find(name);
     if (!found) continue;
     if (const auto known = images_.find(*found); known != images_.end()) return known->second;
     const auto bytes = files_.read(*found);
     if (bytes) return images_[*found] = add_image(image::decode_image(*bytes, *found), *found, place);
-    log_warning(place + ": " + bytes.failure().message + "; a magenta checker stands in");
+    log_warning(place + ": " + bytes.failure().message + "; " + instead);
     return images_[*found] = checker_image();
   }
   if (!images_.contains(names.front())) {
-    log_warning(place + ": the image " + in_quotes(names.front()) +
-                " does not exist; a magenta checker stands in");
+    log_warning(place + ": the image " + in_quotes(names.front()) + " " + why_not_found(names.front()) +
+                "; " + instead);
   }
   return images_[names.front()] = checker_image();
 }

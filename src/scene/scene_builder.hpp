@@ -27,8 +27,9 @@ class SceneBuilder {
   /// resource_limit when the scene would pass kMostVertices or kMostIndices.
   Result<std::uint32_t> add_mesh(Mesh mesh);
   /// The first existing file of `names`, decoded; each file is read once. If it is missing or damaged, logs a
-  /// warning that starts with `place` and returns the magenta checker.
-  std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place);
+  /// warning that starts with `place`, ends with `instead`, and returns the magenta checker.
+  std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place,
+                              const char* instead = "a magenta checker stands in");
   /// The same from named bytes in memory.
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
                                const std::string& place);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 #include <random>
 
 namespace brume::grids {
@@ -126,6 +128,31 @@ TEST(BrickVolume, ValuesThatHalfFloatsLackHaveAUnit) {
       EXPECT_NEAR(filtered(*bricks.volume, glm::vec3(x, 3, 5) + 0.5f) * bricks.unit, expected, factor / 500)
           << factor;
     }
+  }
+}
+
+// One infinite value leaves the others as they are.
+TEST(BrickVolume, WhatIsNoNumberIsTheLargestOrNothing) {
+  const Grid good = random_grid(5);
+  const BrickVolume expected = make_brick_volume(good).value_or_throw();
+  EXPECT_EQ(expected.odd, 0u);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float odd : {kInfinity, 3e38f, std::nanf(""), -kInfinity}) {
+    Grid grid = good;
+    std::memcpy(&grid.values[4 * 100], &odd, sizeof odd);
+    const BrickVolume volume = make_brick_volume(grid).value_or_throw();
+    EXPECT_EQ(volume.odd, 1u) << odd;
+    EXPECT_EQ(volume.high, expected.high) << odd;
+    EXPECT_EQ(volume.unit, expected.unit) << odd;
+    Grid mended = good;
+    const float value = odd > 0 ? expected.high : 0;
+    std::memcpy(&mended.values[4 * 100], &value, sizeof value);
+    const BrickVolume same = make_brick_volume(mended).value_or_throw();
+    ASSERT_EQ(volume.volume->slot_count(), same.volume->slot_count()) << odd;
+    for (std::uint32_t slot = 0; slot < same.volume->slot_count(); ++slot)
+      EXPECT_TRUE(std::ranges::equal(volume.volume->texels<std::uint16_t>(volume::ChannelId{0}, slot),
+                                     same.volume->texels<std::uint16_t>(volume::ChannelId{0}, slot)))
+          << odd;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 #include "core/file.hpp"
@@ -73,6 +74,43 @@ TEST_F(Vdb, NanoKeepsGridsOfEveryTypeThatItHas) {
 TEST_F(Vdb, NanoKeepsLongNames) {
   GridFile file{{smoke_grid(std::string(300, 'n'), 3), smoke_grid(std::string(255, 'm'), 3)}, {}};
   expect_same(through("a.nvdb", file), file);
+}
+
+// Versions since 32.6 begin files and grids with digits of their own, and write grids without a head of the
+// file.
+TEST_F(Vdb, ReadsNanoFilesOfLaterVersions) {
+  const GridFile file{{smoke_grid("density", 11), random_grid(ValueType::vec3f, 7)}, sample_metadata()};
+  save_grid_file(path("a.nvdb"), file).value_or_throw();
+  std::vector<std::byte> bytes = *read_file(path("a.nvdb"));
+  const std::string_view name("NanoVDB0", 8);
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i + 8 <= bytes.size(); ++i)
+    if (std::memcmp(&bytes[i], name.data(), 8) == 0) at.push_back(i);
+  ASSERT_EQ(at.size(), 4u) << "of a segment and its grid, twice";
+  for (const std::size_t segment : {at[0], at[2]}) bytes[segment + 7] = std::byte{'2'};
+  for (const std::size_t grid : {at[1], at[3]}) bytes[grid + 7] = std::byte{'1'};
+  write_file_atomic(path("new.nvdb"), bytes).value_or_throw();
+  expect_same(load_grid_file(path("new.nvdb")).value_or_throw(), file);
+  // The grids alone, one after the other.
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    return std::span(bytes).subspan(begin, end - begin);
+  };
+  std::vector<std::byte> raw(part(at[1], at[2]).begin(), part(at[1], at[2]).end());
+  raw.insert(raw.end(), part(at[3], bytes.size()).begin(), part(at[3], bytes.size()).end());
+  write_file_atomic(path("raw.nvdb"), raw).value_or_throw();
+  expect_same(load_grid_file(path("raw.nvdb")).value_or_throw(), file);
+  for (const std::size_t length : {std::size_t{20}, std::size_t{1000}, raw.size() - 1}) {
+    write_file_atomic(path("raw.nvdb"), std::span(raw).first(length)).value_or_throw();
+    EXPECT_FALSE(load_grid_file(path("raw.nvdb"))) << length;
+  }
+
+  bytes[7] = std::byte{'7'};
+  write_file_atomic(path("new.nvdb"), bytes).value_or_throw();
+  const auto later = load_grid_file(path("new.nvdb"));
+  ASSERT_FALSE(later);
+  EXPECT_NE(later.failure().message.find("begins with NanoVDB7; expected NanoVDB0, 1 or 2"),
+            std::string::npos)
+      << later.failure().message;
 }
 
 TEST_F(Vdb, KeepsGridsOnEveryPathAmongTheFormats) {

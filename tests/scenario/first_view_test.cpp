@@ -178,6 +178,29 @@ TEST_F(FirstViewTest, PointLightsAreScaledSoThatTheyLightAlike) {
   EXPECT_EQ(scene.lights[0].intensity, glm::vec3(45));
 }
 
+// Suns and other lights of any brightness: the sky is as bright beside each, so that a measured exposure
+// shows them alike.
+TEST_F(FirstViewTest, TheSkyIsAsBrightAsTheLightsAskFor) {
+  const auto room = box(8);
+  for (const scene::LightKind kind : {scene::LightKind::directional, scene::LightKind::point}) {
+    std::optional<glm::vec3> first;
+    for (const float intensity : {1e-3f, 1.0f, 150.0f}) {
+      scene::Scene scene = scene::load_scene(room).value_or_throw();
+      scene::Light light;
+      light.kind = kind;
+      light.intensity = glm::vec3(intensity);
+      light.position_world = {4, 2, 3};
+      scene.lights = {light};
+      const glm::vec3 sky = prepare_first_view(room, scene, {}).sky.horizon / intensity;
+      if (!first) first = sky;
+      for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_GT(sky[channel], 0);
+        EXPECT_NEAR(sky[channel], (*first)[channel], 1e-5f * (*first)[channel]) << intensity;
+      }
+    }
+  }
+}
+
 /// A closed room of 6 m with walls, in voxels of 0.25 m, and open air around it.
 class SmokeReportTest : public FirstViewTest {
  protected:
@@ -192,6 +215,13 @@ class SmokeReportTest : public FirstViewTest {
     return Simulation::create(scenario).value_or_throw()->report_smokes(scenario).at(0);
   }
 };
+
+TEST_F(SmokeReportTest, TheGridReachesToSmokeBesideTheScene) {
+  const glm::vec3 inside{3, 2, 2}, beside{-9, 1, -4};
+  EXPECT_EQ(report(scenario(beside, beside)).fault, SmokeFault::none);
+  EXPECT_GT(scenario(beside, beside).voxels.grid.layout().size.x,
+            scenario(inside, inside).voxels.grid.layout().size.x);
+}
 
 TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
   const glm::vec3 inside{3, 2, 2}, wall{0, 2.5f, 2}, far{900, 1, 0};

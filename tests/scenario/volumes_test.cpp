@@ -225,7 +225,8 @@ TEST_F(VolumesTest, VolumesThatDoNotFitTogetherAreReducedAlike) {
 }
 
 TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
-  const auto path = save("a.brv", {cube("temperature", 2), cube("fuel", 3), cube("density", 4)});
+  const auto path =
+      save("a.brv", {cube("temperature", 2), cube("fuel", 3), cube("density", 4), cube("flame", 1)});
   scene::VolumeOptions options;
   options.file = path;
   const auto usual = load_volume_frame(path, options).value_or_throw();
@@ -242,6 +243,47 @@ TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
   // No usual name: the first grid of numbers.
   const auto odd = save("b.brv", {cube("cloud_17", 5)});
   EXPECT_EQ(load_volume_frame(odd, {}).value_or_throw()->density.high, 5);
+  // Whole numbers, too; of vectors only by name.
+  grids::Grid whole = cube("labels", 0);
+  whole.type = grids::ValueType::int32;
+  const std::int32_t seven = 7;
+  std::memcpy(whole.values.data(), &seven, sizeof seven);
+  EXPECT_EQ(load_volume_frame(save("c.brv", {whole}), {}).value_or_throw()->density.high, 7);
+  grids::Grid vectors = cube("v", 1);
+  vectors.type = grids::ValueType::vec3f;
+  vectors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
+  const auto no_numbers = load_volume_frame(save("d.brv", {vectors}), {});
+  ASSERT_FALSE(no_numbers);
+  EXPECT_NE(no_numbers.failure().message.find("only \"v\" (vec3f"), std::string::npos)
+      << no_numbers.failure().message;
+}
+
+// Solvers of smoke keep a temperature that lifts it; those of fire a flame beside it, or kelvin.
+TEST_F(VolumesTest, HeatGlowsWhereSomethingBurns) {
+  const auto heat_of = [&](std::vector<grids::Grid> grids, const scene::VolumeOptions& options = {}) {
+    grids.push_back(cube("density", 1));
+    return load_volume_frame(save("a.brv", std::move(grids)), options).value_or_throw();
+  };
+  EXPECT_FALSE(heat_of({cube("temperature", 1)})->heat) << "it lifts smoke";
+  EXPECT_FALSE(heat_of({cube("temperature", 1), cube("flame", 0)})->heat) << "nothing burns";
+  EXPECT_FALSE(heat_of({cube("temperature", 1500), cube("flames", 0)})->heat) << "nothing burns";
+  EXPECT_TRUE(heat_of({cube("temperature", 1), cube("flame", 0.5f)})->heat);
+  EXPECT_TRUE(heat_of({cube("burn", 0.5f)})->heat);
+  scene::VolumeOptions options;
+  const auto kelvin = heat_of({cube("temperature", 1500)});
+  ASSERT_TRUE(kelvin->heat);
+  EXPECT_EQ(kelvin_of(options, *kelvin), 1);
+  EXPECT_EQ(kelvin_of(options, *heat_of({cube("temperature", 1), cube("flame", 0.5f)})), 1000);
+  // What the options say counts.
+  options.kelvin = 1900;
+  EXPECT_TRUE(heat_of({cube("temperature", 1)}, options)->heat);
+  EXPECT_EQ(kelvin_of(options, *kelvin), 1900);
+  options = {};
+  options.heat = "temperature";
+  EXPECT_TRUE(heat_of({cube("temperature", 1), cube("flame", 0)}, options)->heat);
+  options.heat = "none";
+  EXPECT_FALSE(heat_of({cube("temperature", 1), cube("flame", 1)}, options)->heat);
+  EXPECT_TRUE(heat_of({cube("none", 1)}, options)->heat) << "a grid of that name";
 }
 
 TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {

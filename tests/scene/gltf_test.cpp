@@ -176,8 +176,8 @@ TEST(Gltf, LightsKeepTheirUnitsAndFollowTheirNodes) {
     "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"extensions": {"KHR_lights_punctual": {"light": 1}}},
     {"extensions": {"KHR_lights_punctual": {"light": 2}}}])";
   document.more = R"(, "extensions": {"KHR_lights_punctual": {"lights": [
-    {"type": "spot", "color": [1, 0.5, 0], "intensity": 20, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
-    {"type": "directional", "intensity": 3}, {"type": "point"}]}})";
+    {"type": "spot", "color": [1, 0.5, 0], "intensity": 13660, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
+    {"type": "directional", "intensity": 2049}, {"type": "point"}]}})";
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
   ASSERT_EQ(scene->lights.size(), 3u);
@@ -231,6 +231,32 @@ TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
   EXPECT_TRUE(warnings.has("a.gltf: images[0]: the image \"gone.png\" does not exist"));
   EXPECT_TRUE(warnings.has("a.gltf: images[1]"));
   EXPECT_NE(scene->materials[0].base_color_image, kNone);
+}
+
+// One line for each file, with all that it asks for in vain.
+TEST(Gltf, SaysWhatIsNotSupported) {
+  const std::string begin = "a.gltf: not supported, and ignored: ";
+  const auto warned = [](const std::string& more, const std::string& nodes) {
+    Document document;
+    document.more = more;
+    if (!nodes.empty()) document.nodes = nodes;
+    const Warnings warnings;
+    document.load().value_or_throw();
+    return warnings.lines.empty() ? std::string() : warnings.lines.at(0);
+  };
+  EXPECT_EQ(warned("", ""), "");
+  EXPECT_EQ(warned(R"(, "samplers": [{"wrapS": 10497, "wrapT": 10497}, {}])", ""), "");
+  EXPECT_EQ(warned(R"(, "samplers": [{"wrapS": 33071}])", ""),
+            begin + "samplers that clamp or mirror (textures repeat)");
+  EXPECT_EQ(warned(R"(, "materials": [{"extensions": {"KHR_materials_transmission": {}}},
+                        {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}}])",
+                   ""),
+            begin +
+                "KHR_materials_transmission (glass is opaque); blending (what has an alpha below 0.5 is not "
+                "drawn, yet stops smoke and sight; the rest is opaque)");
+  EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND"}])", ""), "") << "opaque all the same";
+  EXPECT_EQ(warned("", R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}, "weights": [0, 1]}])"),
+            begin + "EXT_mesh_gpu_instancing (one of the instances is drawn); weights of morph targets");
 }
 
 TEST(Gltf, MarksThatExcludeObjectsFromTheVoxels) {

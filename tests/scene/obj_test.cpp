@@ -1,7 +1,10 @@
 #include "scene/obj.hpp"
 
+#include <filesystem>
 #include <random>
 
+#include "core/file.hpp"
+#include "image/png.hpp"
 #include "scene/mesh_tools.hpp"
 #include "scene/polygon.hpp"
 #include "tests/scene/scene_test_tools.hpp"
@@ -175,6 +178,67 @@ TEST(ObjScene, AMissingMaterialFileIsOneWarningAndGrey) {
     EXPECT_EQ(material.base_color, glm::vec3(0.6f));
     EXPECT_EQ(material.base_color_image, kNone);
   }
+}
+
+// Exporters write several names on a line, paths from the file that names them, and those of their own
+// machine.
+TEST(ObjScene, FilesAreFoundWhereExportersMeanThem) {
+  const auto colors_of = [](const std::string& library, const MemoryFiles& files) {
+    const std::string text =
+        "mtllib " + library + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
+    const Scene scene = parse_obj_scene(text, "s.obj", files).value_or_throw();
+    return std::pair(scene.materials.at(0).base_color, scene.materials.at(1).base_color);
+  };
+  MemoryFiles files;
+  files.add_text("a.mtl", "newmtl a\nKd 1 0 0\n");
+  files.add_text("b.mtl", "newmtl b\nKd 0 1 0\n");
+  files.add_text("both of them.mtl", "newmtl a\nKd 0 0 1\nnewmtl b\nKd 0 0 1\n");
+  const std::pair two(glm::vec3(1, 0, 0), glm::vec3(0, 1, 0));
+  const Warnings warnings;
+  EXPECT_EQ(colors_of("a.mtl b.mtl", files), two);
+  EXPECT_EQ(colors_of("both of them.mtl", files), std::pair(glm::vec3(0, 0, 1), glm::vec3(0, 0, 1)));
+  EXPECT_EQ(colors_of("C:\\Users\\me\\both of them.mtl", files).first, glm::vec3(0, 0, 1));
+  EXPECT_TRUE(warnings.lines.empty());
+  EXPECT_EQ(colors_of("a.mtl c.mtl", files).first, glm::vec3(1, 0, 0));
+  EXPECT_TRUE(warnings.has("s.obj:1: the material file \"c.mtl\" does not exist"));
+  colors_of("../up.mtl", files);
+  EXPECT_TRUE(warnings.has("\"../up.mtl\" lies outside of the scene's folder"));
+}
+
+TEST(ObjScene, ImagesAreFoundFromTheirMaterialFile) {
+  MemoryFiles files;
+  const image::Image8 red{1, 1, {255, 0, 0, 255}};
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("brume_obj_" + std::to_string(::getpid()) + ".png");
+  image::save_png(folder, red).value_or_throw();
+  const auto png = read_file(folder).value_or_throw();
+  std::filesystem::remove(folder);
+  for (const char* name : {"quad.png", "sub/own.png"}) files.files[name] = {png.begin(), png.end()};
+  const auto is_found = [&](const std::string& map) {
+    files.add_text("sub/m.mtl", "newmtl a\nmap_Kd " + map + "\n");
+    const Warnings warnings;
+    const Scene scene =
+        parse_obj_scene("mtllib sub/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "s.obj", files)
+            .value_or_throw();
+    return warnings.lines.empty() && scene.images.size() == 1 && scene.images[0].pixels.rgba == red.rgba;
+  };
+  for (const char* map :
+       {"quad.png", "../quad.png", "own.png", "sub/own.png", "C:\\art\\quad.png", "/home/me/own.png"})
+    EXPECT_TRUE(is_found(map)) << map;
+  EXPECT_FALSE(is_found("gone.png"));
+  EXPECT_FALSE(is_found("../../gone.png"));
+}
+
+// Normals that are missing are left out: those of a checker would dent the surface.
+TEST(ObjScene, AMissingNormalMapIsLeftOut) {
+  MemoryFiles files;
+  files.add_text("m.mtl", "newmtl a\nmap_Bump gone.png\n");
+  const Warnings warnings;
+  const Scene scene =
+      parse_obj_scene("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "s.obj", files)
+          .value_or_throw();
+  EXPECT_EQ(scene.materials[0].normal_image, kNone);
+  EXPECT_TRUE(warnings.has("m.mtl:2: the image \"gone.png\" does not exist; it is left out"));
 }
 
 TEST(ObjScene, VertexColours) {

@@ -32,9 +32,9 @@ _SETTINGS = {
     "export_tangents": False,
     "export_cameras": True,
     "export_lights": True,
-    # Brume reads candela as W/sr, which is W / (4 pi) for a point light; the other modes multiply by 683 lm/W.
-    "convert_lighting_mode": "COMPAT",
-    "export_import_convert_lighting_mode": "COMPAT",
+    # Candela and lux, at 683 lm/W, by which Brume divides.
+    "convert_lighting_mode": "SPEC",
+    "export_import_convert_lighting_mode": "SPEC",
     "export_extras": False,
     "export_animations": False,
     "export_skins": False,
