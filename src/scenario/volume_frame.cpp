@@ -105,6 +105,7 @@ Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options)
     if (!grid) return grid.failure();
     chosen.*member = *grid;
   }
+  chosen.names_heat = !options.heat.empty();
   return chosen;
 }
 

@@ -281,7 +281,13 @@ TEST_F(VolumesTest, HeatGlowsWhereSomethingBurns) {
   options = {};
   options.heat = "temperature";
   EXPECT_TRUE(heat_of({cube("temperature", 1), cube("flame", 0)}, options)->heat);
+  // Beside masks, too.
+  options.masks.resize(1);
+  options.masks[0].grid = "density";
+  EXPECT_TRUE(heat_of({cube("temperature", 1)}, options)->heat);
   options.heat = "none";
+  EXPECT_FALSE(heat_of({cube("temperature", 1)}, options)->heat);
+  options.masks.clear();
   EXPECT_FALSE(heat_of({cube("temperature", 1), cube("flame", 1)}, options)->heat);
   EXPECT_TRUE(heat_of({cube("none", 1)}, options)->heat) << "a grid of that name";
 }
