@@ -86,7 +86,7 @@ typedef struct brume_shown_volume {
   float anisotropy;                    ///< Mean cosine of the phase function, (-1, 1).
   float multiple_scattering;           ///< Weight of light that is scattered more than once, [0, 1].
   float emission;                      ///< Multiplies what glows, [0, 10^6].
-  float kelvin;  ///< Temperature where the heat is 1, [1, 40000]; 1000: that of a heat in kelvin is 1.
+  float kelvin;  ///< [K] where the heat is 1, [1, 40000]; at 1000, values above 100 are kelvin.
 } brume_shown_volume;
 
 static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume* volume) {

@@ -38,7 +38,7 @@ shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::
 /// The tints, the disturbance and the place of the detail of a volume.
 shared::VolumeEffect volume_effect(const VolumeInput& volume);
 
-/// Of the noise below its voxels; strength 0: none.
+/// The detail of a volume; its strength is 0 without any.
 shared::VolumeDetail volume_detail(const VolumeInput& volume);
 
 /// A volume as it is, or its previews in their places.

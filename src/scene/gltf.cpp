@@ -13,8 +13,8 @@
 namespace brume::scene {
 namespace {
 
-/// Of the light of glTF, whose units are candela and lux: that of 555 nm, as other programs count
-/// (KHR_lights_punctual names no spectrum; Blender and the engines that follow it take this number).
+/// Converts candela and lux, in which glTF stores lights, to watts. KHR_lights_punctual names no spectrum;
+/// this is the luminous efficacy at 555 nm, which Blender and most engines use.
 constexpr double kLumensPerWatt = 683;
 
 glm::dmat4 local_matrix(const tinygltf::Node& node) {

@@ -50,7 +50,7 @@ std::vector<Mesh> part_meshes(const ObjModel& model);
 /// A material of an MTL file; file names are empty if absent.
 struct MtlMaterial {
   std::string name;
-  std::string folder;  ///< Of its file, below that of the scene, with a slash; empty: the same.
+  std::string folder;  ///< Folder of its MTL file relative to the scene, ending in a slash; may be empty.
   glm::vec3 diffuse{0.8f}, emission{0};
   float roughness = 0.8f, metallic = 0;
   std::string diffuse_map, normal_map;

@@ -67,22 +67,15 @@ Result<void> read_masks(TomlTable& volume_table, const std::filesystem::path& pa
   return {};
 }
 
-Result<void> read_disturbance(TomlTable& volume_table, const std::filesystem::path& path,
-                              VolumeOptions& volume) {
-  const toml::table* const source = volume_table.table("disturb");
+/// A table of noise, [volume.KEY], if there is one. It requires a strength.
+template <typename Visit>
+Result<void> read_noise(TomlTable& volume_table, const std::string& key, const std::filesystem::path& path,
+                        const Visit& visit) {
+  const toml::table* const source = volume_table.table(key.c_str());
   if (!source) return {};
-  TomlTable table(*source, "[volume.disturb]", path.string());
+  TomlTable table(*source, "[volume." + key + "]", path.string());
   table.require("strength");
-  visit_disturbance_options(volume.disturbance, OptionReader{table});
-  return table.finish();
-}
-
-Result<void> read_detail(TomlTable& volume_table, const std::filesystem::path& path, VolumeOptions& volume) {
-  const toml::table* const source = volume_table.table("detail");
-  if (!source) return {};
-  TomlTable table(*source, "[volume.detail]", path.string());
-  table.require("strength");
-  visit_detail_options(volume.detail, OptionReader{table});
+  visit(OptionReader{table});
   return table.finish();
 }
 
@@ -200,8 +193,10 @@ Result<void> read_volume(const toml::table& source, const std::filesystem::path&
   read_transfer(table, volume);
   volume.place = table.place("file");
   if (auto done = read_masks(table, path, volume); !done) return done;
-  if (auto done = read_disturbance(table, path, volume); !done) return done;
-  if (auto done = read_detail(table, path, volume); !done) return done;
+  const auto disturb = [&](auto&& reader) { visit_disturbance_options(volume.disturbance, reader); };
+  if (auto done = read_noise(table, "disturb", path, disturb); !done) return done;
+  const auto detail = [&](auto&& reader) { visit_detail_options(volume.detail, reader); };
+  if (auto done = read_noise(table, "detail", path, detail); !done) return done;
   read_display(table, volume);
   read_carrier_name(table, timeline, volume.carrier);
   timeline.volumes.push_back(std::move(volume));
