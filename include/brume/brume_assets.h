@@ -32,10 +32,11 @@ typedef struct brume_volume_params {
   /// Path, UTF-8: .brv, or .vdb and .nvdb, which the program brume-vdb reads, installed beside the host's
   /// program or on the PATH. Of a sequence the name has the number of its frames as %d or %04d.
   const char* file;
-  /// Names of grids of numbers: what is dense, and what glows. Null: the first of the usual names, and where
-  /// it burns; an empty name of `heat` is that, too.
+  /// Name of the grid that is dense; null: the first of the usual names.
   const char* density;
-  const char* heat;   ///< Of the grid that glows; "none": nothing does.
+  /// Name of the grid that glows; "none": nothing does. Null or empty: a grid of a usual name, if the file
+  /// also has one of fire that burns somewhere, or if its values are kelvin: smoke is lifted by heat, too.
+  const char* heat;
   const char* color;  ///< Of the grid of colours that multiply the albedo; null: the same.
   float frame_rate;   ///< Of a sequence [1/s], [0.001, 1000].
   uint32_t repeat;    ///< brume_repeat, of a sequence.

@@ -19,7 +19,7 @@ class MediaTest : public HostedPair {
     for (brume_volume* volume : volumes_) EXPECT_OK(brume_volume_destroy(volume));
   }
 
-  /// A file with a cloud of a radius, and with `hot` a grid that glows.
+  /// A file with a cloud of a radius, and with `hot` a grid "temperature".
   fs::path cloud_file(const std::string& name, double radius, bool hot) {
     grids::GridFile file;
     const auto add = [&](const char* grid, double of_radius) {
@@ -47,6 +47,7 @@ class MediaTest : public HostedPair {
       const std::string file = options.file.string();
       brume_volume_params params = brume_volume_defaults();
       params.file = file.c_str();
+      params.heat = options.heat.c_str();
       params.frame_rate = options.frame_rate;
       params.repeat = options.loop ? BRUME_REPEAT_LOOP : BRUME_REPEAT_NONE;
       params.waits = 1;
@@ -122,6 +123,7 @@ TEST_F(MediaTest, VolumesAreThoseOfTheRenderer) {
   scene::VolumeOptions& hot = add_volume(fire);
   hot.position_world = {0, 1, 3};
   hot.kelvin = 1900;
+  hot.heat = "temperature";
   load_volumes();
   make_sides(2, 1);
   change_params_ = [&](brume_frame_params& params) { show_volumes(params); };
@@ -179,6 +181,7 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   const api::Context logged(settings);
   brume_volume_params params = brume_volume_defaults();
   params.file = file.c_str();
+  params.heat = "temperature";
   params.max_bytes = 20'000;
   volumes_.push_back(nullptr);
   ASSERT_OK(brume_volume_create(logged.get(), &params, &volumes_.back()));
@@ -208,6 +211,9 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   params.repeat = 0;
   params.frame_rate = NAN;
   refused(BRUME_ERROR_ARGUMENT, "frame_rate");
+  params.frame_rate = 24;
+  params.heat = "flame";
+  refused(BRUME_ERROR_DATA, "flame");
   params = brume_volume_defaults();
   refused(BRUME_ERROR_ARGUMENT, "file");
   params.file = "/nowhere/cloud.brv";
