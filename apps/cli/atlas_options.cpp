@@ -150,7 +150,7 @@ AtlasTarget atlas_target(const AtlasOptions& options, glm::uvec3 size, const gri
   AtlasTarget target;
   target.json = std::filesystem::path(options.output).replace_extension(".json");
   target.depth = depth_of(options);
-  target.range = parse_atlas_range(options.range);
+  if (const auto range = parse_atlas_range(options.range)) target.ranges = {*range};
   target.layout = {size, axes_of(options, axes), 1, options.padding};
   target.layout.columns = columns_of(options, target.layout);
   if (const auto fault = grids::fault_of(target.layout))
@@ -173,8 +173,9 @@ AtlasTarget atlas_target(const AtlasOptions& options, glm::uvec3 size, const gri
 void save_atlas(const AtlasTarget& target, std::vector<grids::DenseGrid> channels,
                 const glm::dmat4& world_from_box) {
   grids::SliceAtlas atlas{target.layout, target.depth, world_from_box, std::move(channels), {}};
-  for (const grids::DenseGrid& channel : atlas.channels)
-    atlas.ranges.push_back(target.range.value_or(grids::range_of(channel)));
+  for (std::size_t i = 0; i < atlas.channels.size(); ++i)
+    atlas.ranges.push_back(target.ranges.empty() ? grids::range_of(atlas.channels[i])
+                                                 : target.ranges[std::min(i, target.ranges.size() - 1)]);
   grids::save_slice_atlas(target.json, atlas, target.levels).value_or_throw();
   if (target.godot_import.empty()) return;
   const std::filesystem::path image = grids::atlas_image_path(target.json, target.depth, 0);

@@ -40,7 +40,7 @@ struct AtlasTarget {
   std::filesystem::path json;
   grids::AtlasDepth depth = grids::AtlasDepth::unorm8;
   grids::SliceLayout layout;
-  std::optional<grids::AtlasRange> range;  ///< Empty: fits the values.
+  std::vector<grids::AtlasRange> ranges;  ///< Of each channel, or one of all; empty: they fit the values.
   std::uint32_t levels = 1;
   std::filesystem::path godot_import;  ///< Empty: none.
 };

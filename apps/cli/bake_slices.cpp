@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "apps/cli/atlas_options.hpp"
@@ -12,6 +13,7 @@
 #include "apps/cli/volumes.hpp"
 #include "bake/coverage.hpp"
 #include "core/log.hpp"
+#include "core/numbered_files.hpp"
 #include "core/similar.hpp"
 #include "grids/files.hpp"
 #include "scene/load.hpp"
@@ -165,9 +167,11 @@ std::vector<const grids::Grid*> volume_channels(const grids::GridFile& file, con
   return channels;
 }
 
-/// What a volume's voxels cover, or the part of the box that is given in the world.
-grids::GridBox volume_box(const SliceOptions& options, const std::vector<const grids::Grid*>& channels) {
-  auto box = grids::box_of(channels);
+/// What the voxels of a volume cover, or all frames of its sequence, or the part of it in the box that is
+/// given in the world.
+grids::GridBox volume_box(const SliceOptions& options, const std::vector<const grids::Grid*>& channels,
+                          const std::optional<grids::GridBox>& of_sequence) {
+  auto box = of_sequence ? Result<grids::GridBox>(*of_sequence) : grids::box_of(channels);
   if (!box) throw Error(box.failure().code, options.input + ": " + box.failure().message);
   const auto size = parse_voxels(options.size);
   if (const auto given = parse_box(options.box)) {
@@ -184,7 +188,94 @@ grids::GridBox volume_box(const SliceOptions& options, const std::vector<const g
   return *box;
 }
 
-Baked bake_volume(const SliceOptions& options, Outputs& outputs) {
+/// What all frames of a sequence have in common, so that nothing jumps from one to the next.
+struct SequenceBake {
+  std::optional<grids::GridBox> box;      ///< Around that of each; empty: each has its own.
+  std::vector<grids::AtlasRange> ranges;  ///< Of each channel.
+};
+
+/// Of the values of a grid, 0 beside them.
+grids::AtlasRange range_of_values(const grids::Grid& grid) {
+  double low = 0, high = 1;
+  const auto add = [&](const std::byte* value) {
+    const double number = grids::number_of(grid.type, value);
+    if (!std::isfinite(number)) return;
+    low = std::min(low, number);
+    high = std::max(high, number);
+  };
+  for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick) {
+    const auto values = grid.values_of(brick);
+    const std::size_t each = grids::bytes_of(grid.type);
+    for (std::size_t at = 0; each > 0 && at + each <= values.size(); at += each) add(values.data() + at);
+  }
+  for (const grids::Tile& tile : grid.tiles) add(tile.value.data());
+  return {static_cast<float>(low), static_cast<float>(high)};
+}
+
+bool is_near(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::all(glm::lessThanEqual(glm::abs(a - b), 1e-4 * glm::abs(a)));
+}
+
+/// Around both, in the voxels of the first; nullopt: their axes or voxels differ.
+std::optional<grids::GridBox> united_boxes(const grids::GridBox& a, const grids::GridBox& b) {
+  const auto voxel_of = [](const grids::GridBox& of) {
+    return (of.box.high - of.box.low) / glm::dvec3(of.size);
+  };
+  if (a.world_from_box != b.world_from_box || !is_near(voxel_of(a), voxel_of(b))) return std::nullopt;
+  grids::GridBox all = a;
+  all.box = united(a.box, b.box);
+  all.size = glm::uvec3(glm::max(glm::round((all.box.high - all.box.low) / voxel_of(a)), glm::dvec3(1)));
+  return all;
+}
+
+/// What is to be baked of one frame; nullopt: it cannot be read, which it will say when its turn comes.
+std::optional<grids::GridFile> readable_frame(const std::filesystem::path& file) {
+  try {
+    Outputs ignored;
+    return load_volumes(file, ignored);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+SequenceBake measure_sequence(const SliceOptions& options) {
+  const auto choices = parse_channels(options.channels);
+  SequenceBake all;
+  bool is_first = true;
+  for (const auto& [number, file] : numbered_files(options.input)) {
+    stop_if_interrupted();
+    const auto grids = readable_frame(file);
+    if (!grids) continue;
+    const std::vector<const grids::Grid*> channels = volume_channels(*grids, file.string(), choices);
+    all.ranges.resize(channels.size());
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const grids::AtlasRange own = range_of_values(*channels[i]);
+      all.ranges[i] = {std::min(all.ranges[i].low, own.low), std::max(all.ranges[i].high, own.high)};
+    }
+    // A frame of nothing has no box.
+    const auto box = grids::box_of(channels);
+    if (!options.box.empty() || !box) continue;
+    all.box = is_first ? *box : all.box ? united_boxes(*all.box, *box) : std::nullopt;
+    is_first = false;
+  }
+  if (!all.box && !is_first)
+    log_warning(options.input +
+                ": the voxels of its frames differ: each is baked in a box of its own; give --box");
+  return all;
+}
+
+std::vector<std::string> texts_of(const SequenceBake& sequence) {
+  std::vector<std::string> texts;
+  for (const grids::AtlasRange& range : sequence.ranges)
+    texts.push_back(Json(range.low).text() + " " + Json(range.high).text());
+  if (sequence.box) {
+    texts.push_back(json_of(sequence.box->box).text());
+    for (int axis = 0; axis < 3; ++axis) texts.push_back(std::to_string(sequence.box->size[axis]));
+  }
+  return texts;
+}
+
+Baked bake_volume(const SliceOptions& options, const SequenceBake* sequence, Outputs& outputs) {
   parse_voxels(options.size);
   parse_box(options.box);
   const auto choices = parse_channels(options.channels);
@@ -192,7 +283,7 @@ Baked bake_volume(const SliceOptions& options, Outputs& outputs) {
   const grids::GridFile file = load_volumes(options.input, outputs);
   stop_if_interrupted();
   const std::vector<const grids::Grid*> channels = volume_channels(file, options.input, choices);
-  const grids::GridBox box = volume_box(options, channels);
+  const grids::GridBox box = volume_box(options, channels, sequence ? sequence->box : std::nullopt);
   Baked baked{atlas_target(options.atlas, box.size, grids::kUprightAxes, outputs), box.box, {}};
   std::vector<grids::DenseGrid> grids;
   for (const grids::Grid* grid : channels) {
@@ -202,11 +293,13 @@ Baked bake_volume(const SliceOptions& options, Outputs& outputs) {
     grids.push_back(std::move(*dense));
     stop_if_interrupted();
   }
+  if (sequence && baked.target.ranges.empty()) baked.target.ranges = sequence->ranges;
   save_atlas(baked.target, std::move(grids), box.world_from_box);
   return baked;
 }
 
-void bake_slices(const SliceOptions& options, Outputs& outputs) {
+/// `sequence`: null for a file that is none.
+void bake_slices(const SliceOptions& options, const SequenceBake* sequence, Outputs& outputs) {
   const Stopwatch watch;
   const bool is_volume = grids::is_grid_file(options.input);
   if (!is_volume)
@@ -214,7 +307,7 @@ void bake_slices(const SliceOptions& options, Outputs& outputs) {
                   {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
   outputs.reads(std::filesystem::path(options.input));
   outputs.writes("--json", options.json, FileKind::json);
-  const Baked baked = is_volume ? bake_volume(options, outputs) : bake_mesh(options, outputs);
+  const Baked baked = is_volume ? bake_volume(options, sequence, outputs) : bake_mesh(options, outputs);
 
   const double seconds = watch.seconds();
   if (!options.json.empty()) {
@@ -267,18 +360,25 @@ Command add_bake_slices(CommandLine& program) {
   declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] {
     expect_suffix("-o", options->atlas.output, {".png", ".exr"});
+    std::optional<SequenceBake> sequence;
+    if (is_numbered("-o", options->atlas.output) && grids::is_grid_file(options->input)) {
+      check_atlas_options(options->atlas);
+      sequence = measure_sequence(*options);
+    }
     run_units(arguments, options->units, *common,
-              {options->input,
-               "-o",
-               options->atlas.output,
-               target_file_kind(options->atlas.output),
-               {},
-               {kAtlasDescription}},
+              {.input = options->input,
+               .output_option = "-o",
+               .output = options->atlas.output,
+               .kind = target_file_kind(options->atlas.output),
+               .device = {},
+               .beside = {kAtlasDescription},
+               .holds_missing = true,
+               .depends_on = sequence ? texts_of(*sequence) : std::vector<std::string>()},
               [&](const Unit& unit, Outputs& outputs) {
                 SliceOptions one = *options;
                 one.input = unit.input;
                 one.atlas.output = unit.output;
-                bake_slices(one, outputs);
+                bake_slices(one, sequence ? &*sequence : nullptr, outputs);
               });
   };
   return command;

@@ -42,7 +42,7 @@ void check_raycast(const RenderOptions& options, const scenario::Scenario& scena
       throw Error(ErrorCode::usage, "--raycast: draws no transfer functions; remove the option, or that of " +
                                         volume.file.filename().string());
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
-    if (scenario.volumes && scenario.volumes->first_frame(i).heat)
+    if (scenario.volumes && scenario.volumes->typical_frame(i).heat)
       log_warning("--raycast draws nothing that glows: " + timeline.volumes[i].file.filename().string());
   if (!timeline.smokes.empty())
     log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
@@ -55,6 +55,21 @@ struct Loaded {
   std::optional<Orbit> orbit;
   Json smokes;
 };
+
+// What is drawn of each file of grids, and how.
+Json report_volumes(const scenario::Scenario& scenario) {
+  Json volumes = Json::list({});
+  for (std::size_t i = 0; i < scenario.timeline.volumes.size(); ++i) {
+    const scene::VolumeOptions& volume = scenario.timeline.volumes[i];
+    const scenario::VolumeFrame& frame = scenario.volumes->typical_frame(i);
+    volumes.push_back({{"file", volume.file.string()},
+                       {"density", frame.density_name},
+                       {"extinction", double{volume.extinction}},
+                       {"scale", double{volume.scale}},
+                       {"heat", frame.heat_note}});
+  }
+  return volumes;
+}
 
 double duration_of(const Loaded& loaded) {
   return double{loaded.scenario.timeline.duration};
@@ -193,6 +208,7 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   statistics.update(frames);
   statistics.set("seconds", watch.seconds());
   statistics.set("smokes", loaded.smokes);
+  statistics.set("volumes", report_volumes(loaded.scenario));
   write_json(options.json, statistics);
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/cli/command.hpp"
 #include "core/error.hpp"
+#include "grids/files.hpp"
 #include "scenario/tank.hpp"
 
 namespace brume::cli {
@@ -164,6 +165,9 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
   plan.rate = parse_rate("--fps", options.fps);
   plan.scene = parse_scene_options(options.scene);
+  // Each frame of a film shows one of a sequence, unless the options differ.
+  if (grids::is_grid_file(options.input) && options.timeline.empty() && !plan.scene.volume_frame_rate)
+    plan.scene.volume_frame_rate = static_cast<float>(plan.rate.per_second());
   plan.scene.camera = plan.camera;
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);

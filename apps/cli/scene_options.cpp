@@ -80,7 +80,8 @@ void refuse_transfer(const scenario::FirstViewOptions& options, const std::strin
        {std::pair("--opacity", !options.opacity.empty()),
         std::pair("--color-map", !options.color_map.empty()), std::pair("--range", options.range.has_value()),
         std::pair("--density", !options.density.empty()), std::pair("--heat", !options.heat.empty()),
-        std::pair("--kelvin", options.kelvin.has_value())})
+        std::pair("--kelvin", options.kelvin.has_value()),
+        std::pair("--volume-fps", options.volume_frame_rate.has_value())})
     if (is_given) throw Error(ErrorCode::usage, std::string(option) + ": " + reason);
 }
 
@@ -128,6 +129,12 @@ void declare_transfer(const Arguments& arguments, SceneOptions& options) {
                   "Temperature where that grid is 1; default: 1000, or 1 if its values are kelvin")
       .type_name("K")
       .range(1.0, 100000.0);
+  arguments
+      .add_option(
+          "--volume-fps", options.volume_fps,
+          "Frames per second of a sequence of volume files; default: one for each frame of a film, or 24")
+      .type_name("F")
+      .range(0.01, 1000.0);
 }
 
 // One line for everything that never happens because the timeline ends before.
@@ -222,8 +229,8 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   for (const std::string& text :
        {options.tone, options.opacity, options.color_map, options.range, options.density, options.heat})
     texts.push_back(text);
-  for (const std::optional<double>& number :
-       {options.smoke_size, options.voxel, options.scale, options.exposure, options.kelvin}) {
+  for (const std::optional<double>& number : {options.smoke_size, options.voxel, options.scale,
+                                              options.exposure, options.kelvin, options.volume_fps}) {
     char text[32] = "";
     if (number) std::snprintf(text, sizeof text, "%.17g", *number);  // to_string() has but 6 decimals
     texts.emplace_back(text);
@@ -247,6 +254,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.density = options.density;
   parsed.heat = options.heat;
   parsed.kelvin = as_float(options.kelvin);
+  parsed.volume_frame_rate = as_float(options.volume_fps);
   parsed.color_map.name = options.color_map;
   if (const auto fault = scene::fault_of(parsed.color_map))
     throw Error(ErrorCode::usage, "--color-map: " + fault->what);

@@ -18,7 +18,7 @@ struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
   std::string sun, tone, opacity, color_map, range, density, heat;
-  std::optional<double> kelvin;
+  std::optional<double> kelvin, volume_fps;
   std::optional<std::uint32_t> bounces;
 };
 

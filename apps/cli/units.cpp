@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
+#include <map>
 #include <sstream>
 #include <string_view>
 
@@ -10,6 +12,7 @@
 #include "apps/cli/unit_key.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/numbered_files.hpp"
 #include "core/progress.hpp"
 
 namespace brume::cli {
@@ -69,9 +72,34 @@ std::string reason_of(const Unit& unit, const UnitKey& key) {
   return outputs > 0 ? "" : "without a key";
 }
 
-Unit unit_of(const UnitJob& job, std::uint32_t number) {
+// The files of the input by their numbers.
+using Inputs = std::map<std::int64_t, fs::path>;
+Inputs inputs_of(const UnitJob& job) {
+  if (job.input.empty()) return {};
+  if (!numbered_name(fs::path(job.input).filename().string()))
+    throw Error(ErrorCode::usage, job.output_option + " " + job.output +
+                                      ": has a number; INPUT requires one, too, such as f_%04d" +
+                                      fs::path(job.input).extension().string());
+  Inputs files = numbered_files(job.input);
+  // Frames go as far.
+  std::erase_if(files, [](const auto& one) { return one.first < 0 || one.first > 1'000'000; });
+  if (files.empty()) throw Error(ErrorCode::bad_input, job.input + ": no such files");
+  return files;
+}
+
+fs::path input_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number) {
+  const auto after = inputs.upper_bound(number);
+  if (after != inputs.begin() && (job.holds_missing || std::prev(after)->first == number))
+    return std::prev(after)->second;
+  if (job.holds_missing) return after->second;
+  const fs::path pattern(job.input);
+  const NumberedName name = *numbered_name(pattern.filename().string());
+  return pattern.parent_path() / (name.before + std::to_string(number) + name.after);
+}
+
+Unit unit_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number) {
   Unit unit{number, {}, sequence_name(job.output, number).string()};
-  if (!job.input.empty()) unit.input = sequence_name(job.input, number).string();
+  if (!job.input.empty()) unit.input = input_of(job, inputs, number).string();
   return unit;
 }
 
@@ -82,6 +110,7 @@ UnitKey key_of(const Arguments& arguments, const UnitJob& job) {
       {"--frames", "--shard", "--resume", "--threads", "--force", "--progress", "--quiet", "--output"});
   settings.push_back(fs::path(job.output).filename().string());
   settings.push_back(fs::path(job.input).extension().string());
+  settings.insert(settings.end(), job.depends_on.begin(), job.depends_on.end());
   UnitKey key{"", hash_of_texts(settings), "", program_hash()};
   if (!job.device.empty()) key.device = hash_of_texts(job.device);
   return key;
@@ -94,25 +123,24 @@ void refuse_of_one(const Arguments& arguments, const UnitJob& job) {
 }
 
 // The units of the command line. Throws Error (usage).
-std::optional<FrameRange> units_of(const Arguments& arguments, const UnitOptions& options,
-                                   const UnitJob& job) {
+std::optional<FrameRange> units_of(const Arguments& arguments, const UnitOptions& options, const UnitJob& job,
+                                   const Inputs& inputs) {
   arguments.refuse("--json", "is for a single output");
-  if (!job.input.empty() && !is_numbered("INPUT", job.input))
-    throw Error(ErrorCode::usage, job.output_option + " " + job.output +
-                                      ": has a number; INPUT requires one, too, such as f_%04d" +
-                                      fs::path(job.input).extension().string());
-  if (options.frames.empty())
+  if (options.frames.empty() && inputs.empty())
     throw Error(ErrorCode::usage,
                 job.output_option + " " + job.output + ": requires --frames, such as --frames 0-119");
-  const FrameRange range = parse_frames("--frames", options.frames);
+  const FrameRange range = options.frames.empty()
+                               ? FrameRange{static_cast<std::uint32_t>(inputs.begin()->first),
+                                            static_cast<std::uint32_t>(inputs.rbegin()->first)}
+                               : parse_frames("--frames", options.frames);
   return options.shard.empty() ? range : part_of(range, parse_shard("--shard", options.shard));
 }
 
 // Declares all units at once: the outputs of one must not be the inputs of another, and no work is done
 // before all of them can be written.
-void declare_files(const UnitJob& job, FrameRange range, Outputs& outputs) {
+void declare_files(const UnitJob& job, const Inputs& inputs, FrameRange range, Outputs& outputs) {
   if (!job.input.empty())
-    for (std::uint32_t i = range.first; i <= range.last; ++i) outputs.reads(sequence_name(job.input, i));
+    for (std::uint32_t i = range.first; i <= range.last; ++i) outputs.reads(input_of(job, inputs, i));
   const std::string option = job.output_option == "OUTPUT" ? "" : job.output_option;
   outputs.writes_frames(option, job.output, job.kind, range.first, range.last);
   for (std::uint32_t i = range.first; i <= range.last; ++i) {
@@ -179,9 +207,10 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
     refuse_of_one(arguments, job);
     return run({{}, job.input, plain_name(job.output).string()}, common.outputs);
   }
-  const auto part = units_of(arguments, options, job);
+  const Inputs inputs = inputs_of(job);
+  const auto part = units_of(arguments, options, job, inputs);
   if (!part) return;
-  declare_files(job, *part, common.outputs);
+  declare_files(job, inputs, *part, common.outputs);
 
   // What is there already.
   const UnitKey key = key_of(arguments, job);
@@ -189,7 +218,7 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
   for (std::size_t i = 0; options.resume && i < reasons.size(); ++i) {
     const auto number = static_cast<std::uint32_t>(part->first + i);
     stop_if_interrupted();
-    reasons[i] = reason_of(unit_of(job, number), key);
+    reasons[i] = reason_of(unit_of(job, inputs, number), key);
     if (reasons[i].empty()) common.outputs.frame_done(number);
   }
   if (options.resume) print_reasons(part->first, reasons);
@@ -199,7 +228,7 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
   for (std::size_t i = 0; i < reasons.size(); ++i) {
     if (reasons[i].empty()) continue;
     stop_if_interrupted();
-    const Unit unit = unit_of(job, static_cast<std::uint32_t>(part->first + i));
+    const Unit unit = unit_of(job, inputs, static_cast<std::uint32_t>(part->first + i));
     const auto outputs = std::make_shared<Outputs>();
     outputs->set_force(common.force);
     common.outputs.begin_unit(outputs);

@@ -39,12 +39,14 @@ struct FileBeside {
 };
 /// What a command does many times.
 struct UnitJob {
-  std::string input;          ///< With %d or %04d if the output has one; empty: none.
+  std::string input;          ///< As core/numbered_files.hpp says if the output has a number; empty: none.
   std::string output_option;  ///< "-o", or "OUTPUT" for an argument.
   std::string output;
-  FileKind kind = FileKind::json;   ///< Of the output.
-  std::vector<std::string> device;  ///< Names of what computes it.
+  FileKind kind = FileKind::json;        ///< Of the output.
+  std::vector<std::string> device = {};  ///< Names of what computes it.
   std::vector<FileBeside> beside = {};
+  bool holds_missing = false;  ///< A number without a file takes that of the one before, or the first.
+  std::vector<std::string> depends_on = {};  ///< What else each output was made from.
 };
 struct Unit {
   std::optional<std::uint32_t> number;  ///< Nothing: it is the only one.
@@ -52,11 +54,11 @@ struct Unit {
 };
 using RunUnit = std::function<void(const Unit&, Outputs&)>;
 
-/// Runs the command once where the output has no number, otherwise for each number of the shard. The file
-/// "OUTPUT.key" beside each output says what it was made from (UnitKey, the names and hashes of the files
-/// read and written). With --resume those stay whose key, inputs and outputs are right, and the reasons for
-/// the others are printed. All files of all units are checked before the first one. Throws Error, what `run`
-/// throws, and Interrupted.
+/// Runs the command once where the output has no number, otherwise for each number of the shard; without
+/// --frames from the first file of the input to the last. The file "OUTPUT.key" beside each output says what
+/// it was made from (UnitKey, the names and hashes of the files read and written). With --resume those stay
+/// whose key, inputs and outputs are right, and the reasons for the others are printed. All files of all
+/// units are checked before the first one. Throws Error, what `run` throws, and Interrupted.
 void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
                const UnitJob& job, const RunUnit& run);
 

@@ -345,7 +345,7 @@ void render_whole(const Options& options, const Process& process) {
   facts.resident_bytes = resident_bytes();
   if (scenario.volumes)
     facts.volume_bytes =
-        static_cast<double>(std::uint64_t{scenario.volumes->first_frame(0).density.volume->slot_count()} *
+        static_cast<double>(std::uint64_t{scenario.volumes->typical_frame(0).density.volume->slot_count()} *
                             shared::kTexelsPerBrick * sizeof(std::uint16_t));
   image::save_png(options.output, picture).value_or_throw();
   report(options, gather(process, facts), context.info().name);

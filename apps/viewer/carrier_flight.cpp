@@ -29,7 +29,7 @@ float size_of_carried(const scenario::Scenario& scenario, const scene::Carrier& 
   for (std::size_t i = 0; i < timeline.volumes.size() && box.empty(); ++i)
     if (timeline.volumes[i].carrier == carrier.name)
       box = scenario::transformed(scenario::world_from_file(timeline.volumes[i]),
-                                  scenario.volumes->first_frame(i).bounds);
+                                  scenario.volumes->typical_frame(i).bounds);
   for (std::size_t i = 0; i < timeline.decals.size() && box.empty(); ++i)
     if (timeline.decals[i].carrier == carrier.name) {
       const scenario::SliceVolume& slices = scenario.slices.of_decals[i];

@@ -221,7 +221,7 @@ void lay_out_volumes(Game& game) {
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (begin_tree(volumes[i].file.filename().string().c_str())) {
-      const scenario::VolumeFrame& frame = live.scenario().volumes->first_frame(i);
+      const scenario::VolumeFrame& frame = live.scenario().volumes->typical_frame(i);
       changed = grid_rows(volumes[i], frame) || changed;
       changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
       changed = mask_rows(volumes[i], file[i]) || changed;

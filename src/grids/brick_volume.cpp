@@ -206,7 +206,7 @@ void fill_texels(const Level& level, float per_value, glm::ivec3 brick, std::spa
 struct Measures {
   float low = std::numeric_limits<float>::infinity(), high = 0;
   double sum = 0;
-  glm::dvec3 places{0}, squares{0};
+  glm::dvec3 places{0};
   Box<float> bounds = kEmptyBox;
 
   void add(const GridNumbers& numbers, std::size_t i) {
@@ -218,7 +218,6 @@ struct Measures {
       const glm::dvec3 p(numbers.brick(i) * 8 + voxel_at(voxel));
       sum += double{value};
       places += double{value} * (p + 0.5);
-      squares += double{value} * (p + 0.5) * (p + 0.5);
       bounds = united(bounds, {glm::vec3(p) - 0.5f, glm::vec3(p) + 1.5f});
     }
   }
@@ -227,7 +226,6 @@ struct Measures {
     high = std::max(high, other.high);
     sum += other.sum;
     places += other.places;
-    squares += other.squares;
     bounds = united(bounds, other.bounds);
   }
 };
@@ -259,6 +257,29 @@ void count_values(const GridNumbers& numbers, BrickVolume& out) {
       const auto bin = static_cast<std::size_t>(per_value * (value - out.low));
       ++out.histogram[std::min(bin, kHistogramBins - 1)];
     }
+}
+
+/// Halves of values above 0 are in the order of their bits. Needs the unit.
+void find_percentiles(const GridNumbers& numbers, BrickVolume& out) {
+  constexpr std::size_t kInfinity = 0x7c00;
+  std::vector<std::uint64_t> counts(kInfinity + 1);
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
+      const float value = numbers.at(i, voxel);
+      if (value <= 0) continue;
+      ++counts[half_of(value / out.unit)];
+      ++all;
+    }
+  const auto percentile = [&](double fraction) {
+    const auto rank = static_cast<std::uint64_t>(fraction * static_cast<double>(all - 1));
+    std::uint64_t below = 0;
+    std::size_t half = 0;
+    while (below += counts[half], below <= rank) ++half;
+    return out.unit * glm::unpackHalf1x16(static_cast<std::uint16_t>(half));
+  };
+  out.usual = percentile(0.9);
+  out.densest = percentile(0.999);
 }
 
 void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& out) {
@@ -302,7 +323,7 @@ BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds
     if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
     out.mean = all.places / all.sum;
     count_values(levels.density.numbers, out);
-    out.deviation = glm::sqrt(glm::max(all.squares / all.sum - out.mean * out.mean, 0.0));
+    find_percentiles(levels.density.numbers, out);
   }
   if (unit > 0) out.unit = unit;
   fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds, out);
@@ -384,6 +405,8 @@ BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool
   out.low *= fine.unit;
   out.high *= fine.unit;
   out.sum *= double{fine.unit};
+  out.usual *= fine.unit;
+  out.densest *= fine.unit;
   out.level = fine.level + levels.halvings;
   out.world_from_voxel = fine.world_from_voxel * scale_of(levels);
   return out;

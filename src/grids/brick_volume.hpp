@@ -52,14 +52,17 @@ struct BrickVolume {
   glm::dmat4 world_from_voxel{1};  ///< To the file's world.
   float unit = 1;                  ///< Value that the bricks store as 1: a power of two.
   float low = 0, high = 0;         ///< Range of the values.
-  double sum = 0;                  ///< Of all values.
+  /// Percentiles of the values above 0, in halves: the 90th, and the 99.9th, for which single hot
+  /// voxels do not count.
+  float usual = 0, densest = 0;
+  double sum = 0;  ///< Of all values.
   /// How many values above 0 are in each of kHistogramBins parts of equal length from low to high; empty
   /// without any.
   std::vector<std::uint64_t> histogram;
-  glm::dvec3 mean{0}, deviation{0};  ///< Of the values' places, weighted by value [voxel space].
-  int level = 0;                     ///< Halvings of the resolution: 0 is the file's own.
-  std::uint64_t odd = 0;             ///< Voxels and tiles that are NaN, infinite or beyond 1e30.
-  double rms_error = 0;              ///< Of the halvings, over active voxels; 0 at level 0.
+  glm::dvec3 mean{0};     ///< Of the values' places, weighted by value [voxel space].
+  int level = 0;          ///< Halvings of the resolution: 0 is the file's own.
+  std::uint64_t odd = 0;  ///< Voxels and tiles that are NaN, infinite or beyond 1e30.
+  double rms_error = 0;   ///< Of the halvings, over active voxels; 0 at level 0.
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,

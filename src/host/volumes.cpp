@@ -96,7 +96,7 @@ ShownVolumes add_volumes(Call& call, const brume_frame_params& params, planning:
     const std::scoped_lock lock(data.mutex);
     shown.push_back(data.volumes->at(std::span(&options[i], 1), seconds, data.wait).front());
     if (shown.back().frame)
-      planning::add_volume(options[i], shown.back(), data.volumes->first_frame(0), seconds, input);
+      planning::add_volume(options[i], shown.back(), data.volumes->typical_frame(0), seconds, input);
   }
   planning::sort_glow(input);
   return shown;
@@ -124,7 +124,7 @@ brume_result brume_volume_describe(const brume_volume* volume, brume_volume_info
     brume::host::VolumeData& data = *call.handle(volume).data;
     required(info, "info");
     const std::scoped_lock lock(data.mutex);
-    const brume::scenario::VolumeFrame& first = data.volumes->first_frame(0);
+    const brume::scenario::VolumeFrame& first = data.volumes->typical_frame(0);
     const auto point = [](const glm::vec3& p) { return brume_point{p.x, p.y, p.z}; };
     *info = {point(first.bounds.low),
              point(first.bounds.high),

@@ -156,8 +156,8 @@ struct VolumeInput {
   DisturbanceInput disturbance = {};
   VolumeDetailInput detail = {};
   std::size_t index = 0;  ///< Among the volumes of the timeline.
-  /// The largest optical depth along a voxel's shortest edge, of all its frames: above
-  /// shared::kDenseVoxelDepth it is lit as what is opaque.
+  /// The optical depth along a voxel's shortest edge, where it is as dense as it usually is
+  /// (grids::BrickVolume::usual): above shared::kDenseVoxelDepth it is lit as what is opaque.
   float voxel_depth = 0;
 };
 

@@ -26,35 +26,35 @@ DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const sce
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
 }
 
-/// The largest factor of the extinction: a value, or an opacity. That of the first frame, so that a sequence
-/// is lit, and its detail drawn, in one way.
-float densest_of(const scene::VolumeOptions& options, const scenario::VolumeFrame& first) {
-  if (options.opacity.empty()) return first.density.high;
+/// The largest factor of the extinction: a value, or an opacity.
+float largest_factor(const scene::VolumeOptions& options, float value) {
+  if (options.opacity.empty()) return value;
   return std::ranges::max_element(options.opacity, {}, &scene::OpacityPoint::opacity)->opacity;
 }
 
-/// The largest optical depth along the shortest edge of a voxel.
+/// The optical depth along the shortest edge of a voxel, of one as dense as voxels usually are. Of the
+/// typical frame, so that a sequence is lit in one way.
 float voxel_depth_of(const scene::VolumeOptions& options, const glm::mat4& world_from_voxel,
-                     const scenario::VolumeFrame& first) {
+                     const scenario::VolumeFrame& typical) {
   float edge = glm::length(glm::vec3(world_from_voxel[0]));
   for (int axis = 1; axis < 3; ++axis) edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
-  return options.extinction * densest_of(options, first) * edge;
+  return options.extinction * largest_factor(options, typical.density.usual) * edge;
 }
 
 VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                     const scenario::VolumeFrame& first, double seconds) {
+                     const scenario::VolumeFrame& typical, double seconds) {
   const grids::BrickVolume& density = volume.frame->density;
   VolumeInput input;
   input.volume = density.volume.get();
   input.world_from_voxel = volume.world_from_density;
   input.colors = volume.frame->colors.get();
-  input.transfer = {options.opacity, options.color_map, scenario::range_of(options, first) / density.unit,
+  input.transfer = {options.opacity, options.color_map, scenario::range_of(options, typical) / density.unit,
                     options.glow, options.emission};
   // Values are stored in a unit, which an opacity curve cancels.
   const float unit = options.opacity.empty() ? density.unit : 1;
   input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy,
                 options.multiple_scattering};
-  input.voxel_depth = voxel_depth_of(options, volume.world_from_density, first);
+  input.voxel_depth = voxel_depth_of(options, volume.world_from_density, typical);
   if (const auto& heat = volume.frame->heat; heat && options.emission > 0)
     // What glows is a multiple of the look's extinction.
     input.heat = {heat->volume.get(), volume.world_from_heat,
@@ -70,7 +70,8 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   }
   for (const scene::VolumeMask& mask : options.masks) input.tints.push_back(scene::glow_at(mask, seconds));
   input.disturbance = disturbance_of(options.disturbance, *volume.frame, seconds);
-  if (const float densest = densest_of(options, first); options.detail.strength > 0 && densest > 0)
+  if (const float densest = largest_factor(options, typical.density.high);
+      options.detail.strength > 0 && densest > 0)
     input.detail = {glm::mat4(glm::inverse(volume.frame->density.world_from_voxel)), options.detail,
                     densest / unit, static_cast<float>(seconds)};
   return input;
@@ -110,8 +111,8 @@ void add_glow(const scene::VolumeOptions& options, const scenario::VolumeAt& vol
 }  // namespace
 
 void add_volume(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                const scenario::VolumeFrame& first, double seconds, FrameInput& input) {
-  input.volumes.push_back(input_of(options, volume, first, seconds));
+                const scenario::VolumeFrame& typical, double seconds, FrameInput& input) {
+  input.volumes.push_back(input_of(options, volume, typical, seconds));
   add_glow(options, volume, seconds, input);
 }
 
@@ -137,7 +138,7 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
       input.particles.back().index = i;
       add_glow(options[i], volumes[i], seconds, input);
     } else {
-      add_volume(options[i], volumes[i], scenario.volumes->first_frame(i), seconds, input);
+      add_volume(options[i], volumes[i], scenario.volumes->typical_frame(i), seconds, input);
       input.volumes.back().index = i;
     }
   }

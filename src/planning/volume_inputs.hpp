@@ -13,10 +13,10 @@ namespace brume::planning {
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
                  const FrameOptions& frame, FrameInput& input);
 
-/// Adds one volume as it is at a time [s], and the light of what glows in it. `first`: the first frame of its
+/// Adds one volume as it is at a time [s], and the light of what glows in it. `typical`: that of its
 /// sequence.
 void add_volume(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                const scenario::VolumeFrame& first, double seconds, FrameInput& input);
+                const scenario::VolumeFrame& typical, double seconds, FrameInput& input);
 
 /// Puts the light of what glows in order: a frame takes a limited number, the brightest.
 void sort_glow(FrameInput& input);

@@ -26,7 +26,7 @@ struct FirstViewOptions {
   std::optional<scene::ToneCurve> tone = {};
   // Of a volume alone, as in scene::VolumeOptions.
   std::string density = {}, heat = {};
-  std::optional<float> kelvin = {};
+  std::optional<float> kelvin = {}, volume_frame_rate = {};
   std::vector<scene::OpacityPoint> opacity = {};
   scene::ColorMap color_map = {};
   std::optional<glm::vec2> range = {};

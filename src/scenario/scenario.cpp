@@ -63,7 +63,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
 void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scene::Scene& scene) {
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i) {
     const scene::VolumeOptions& options = timeline.volumes[i];
-    scene::Volume place = place_of(options, volumes.first_frame(i));
+    scene::Volume place = place_of(options, volumes.extent(i));
     const glm::mat4 pose = scene::pose_of(timeline.carriers, options.carrier, 0);
     scene.volumes.push_back(
         {place.name, transformed(pose, place.bounds_world), transformed(pose, place.core_world)});
@@ -83,11 +83,13 @@ Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewO
   chosen.kelvin = options.kelvin.value_or(chosen.kelvin);
   auto volumes = Volumes::load(std::array{chosen});
   if (!volumes) return volumes.failure();
-  warn_of_heat(file, (*volumes)->first_frame(0));
-  if (options.kelvin && !(*volumes)->first_frame(0).heat)
+  warn_of_heat(file, (*volumes)->typical_frame(0));
+  if (options.kelvin && !(*volumes)->typical_frame(0).heat)
     log_warning("--kelvin: nothing of " + file.string() + " glows");
   scene::Scene scene;
-  scene::Timeline timeline = prepare_volume_view(file, (*volumes)->first_frame(0), options);
+  (*volumes)->measure_sequence(0);
+  scene::Timeline timeline =
+      prepare_volume_view(file, (*volumes)->typical_frame(0), (*volumes)->extent(0), options);
   place_volumes(timeline, **volumes, scene);
   apply_level_options(timeline, scene);
   auto scenario = assemble(std::move(timeline), std::move(scene), std::move(*volumes), options.aspect, {});
@@ -173,7 +175,10 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   auto volumes = Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
-    warn_of_heat(timeline.volumes[i].file, (*volumes)->first_frame(i));
+    warn_of_heat(timeline.volumes[i].file, (*volumes)->typical_frame(i));
+  // A camera that the timeline leaves to be fitted is to see all frames.
+  if (timeline.camera.empty() && !scene->camera)
+    for (std::size_t i = 0; i < timeline.volumes.size(); ++i) (*volumes)->measure_sequence(i);
   place_volumes(timeline, **volumes, *scene);
   apply_level_options(timeline, *scene);
   return assemble(std::move(timeline), std::move(*scene), std::move(*volumes), 16.0f / 9.0f, cache_folder);

@@ -146,18 +146,11 @@ void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::B
 
 /// What a first view is made from.
 void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
-  const double voxel = std::abs(glm::determinant(glm::dmat3(density.world_from_index)));
   const auto active = static_cast<double>(count_active(density));
-  frame.filled_volume = active * voxel;
   frame.mean_density = active > 0 ? frame.density.sum * std::exp2(3 * frame.density.level) / active : 0;
   const shared::VolumeLayout& layout = frame.density.volume->layout();
   frame.bounds =
       transformed(glm::mat4(frame.density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
-  // Of a ball, 2.2 standard deviations are the radius.
-  const glm::dvec3 reach = 2.2 * frame.density.deviation + 1.0;
-  const Box<float> core{glm::vec3(frame.density.mean - reach), glm::vec3(frame.density.mean + reach)};
-  frame.core = transformed(glm::mat4(frame.density.world_from_voxel),
-                           intersection(core, {layout.bounds_min, layout.bounds_max}));
   frame.z_is_up = is_z_up(density);
   frame.is_extinction = grids::is_extinction_per_metre(density);
 }
@@ -264,6 +257,7 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     frame->colors = grids::make_mask_bricks(masks, frame->density);
     if (auto done = find_mask_glow(masks, *frame); !done) return done.failure();
   }
+  frame->density_name = density->name;
   measure_first_view(*density, *frame);
   return frame;
 }
@@ -321,8 +315,6 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
   (*frame)->number_grids = std::move(number_grids);
   (*frame)->color_grids = std::move(color_grids);
-  if ((*frame)->density.high <= 0 && !(*frame)->heat)
-    log_warning(file.string() + ": nothing to see: no voxel is above 0");
   return std::shared_ptr<const VolumeFrame>(std::move(*frame));
 }
 

@@ -35,15 +35,14 @@ struct VolumeFrame {
   std::unique_ptr<volume::SparseVolume> colors;
   std::vector<MaskGlow> mask_glow;  ///< Of its masks.
   double mean_density = 0;          ///< Of the active voxels.
-  double filled_volume = 0;         ///< That all active voxels take, in the file's world.
   Box<float> bounds;                ///< Around what can be dense, in the file's world.
-  Box<float> core;                  ///< Around most of it: a ball, but none of the wisps around it.
   /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
   bool is_extinction = false;
   /// Whether values of the heat are above kMostFactor: kelvin, and no factors of a temperature.
   bool heat_is_kelvin = false;
-  std::string heat_note;  ///< What was decided about the heat, a sentence; empty: there is none.
-  bool z_is_up = false;   ///< As Blender writes files; other programs have y up.
+  std::string density_name;  ///< Of the grid that is dense.
+  std::string heat_note;     ///< What was decided about the heat, a sentence; empty: there is none.
+  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
   /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
   std::vector<std::string> number_grids, color_grids;
 };

@@ -6,6 +6,7 @@
 
 #include "core/log.hpp"
 #include "scene/daylight.hpp"
+#include "shared/volume.h"
 
 namespace brume::scenario {
 namespace {
@@ -28,9 +29,8 @@ float chosen_scale(const std::filesystem::path& path, float extent, const FirstV
   return scale;
 }
 
-/// The mean factor of the extinction of all voxels above 0.
-double mean_factor(const VolumeFrame& frame, const scene::VolumeOptions& options) {
-  if (options.opacity.empty()) return frame.mean_density;
+/// The mean opacity of all voxels above 0.
+double mean_opacity(const VolumeFrame& frame, const scene::VolumeOptions& options) {
   const grids::BrickVolume& density = frame.density;
   const glm::dvec2 range(range_of(options, frame));
   const auto factor = [&](double value) {
@@ -48,10 +48,28 @@ double mean_factor(const VolumeFrame& frame, const scene::VolumeOptions& options
   return sum / std::max(count, 1.0);
 }
 
+/// An optical depth of kViewDepth through its deep parts, but voxels that are not opaque one by one: they
+/// would be lit as a surface is. Values that are far off on their own decide neither.
+double chosen_extinction(const VolumeFrame& frame, const VolumeExtent& extent,
+                         const scene::VolumeOptions& options) {
+  constexpr double kLeastDepth = 4, kVoxelDepth = 0.9 * double{shared::kDenseVoxelDepth};
+  const glm::dmat3 axes(frame.density.world_from_voxel);
+  const double scale{options.scale};
+  const double edge = std::min({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])}) * scale;
+  double depth = extent.depth * scale, usual{frame.density.usual};
+  if (!options.opacity.empty() && frame.mean_density > 0) {
+    const double opacity = mean_opacity(frame, options);
+    depth *= opacity / frame.mean_density;
+    usual = opacity;
+  }
+  if (!(depth > 0)) return 1;
+  return std::max(std::min(kViewDepth / depth, kVoxelDepth / (usual * edge)), kLeastDepth / depth);
+}
+
 }  // namespace
 
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
-                                    const FirstViewOptions& options) {
+                                    const VolumeExtent& extent, const FirstViewOptions& options) {
   scene::Timeline timeline;
   timeline.scene = path;
 
@@ -61,15 +79,16 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   volume.density = options.density;
   volume.heat = options.heat;
   volume.kelvin = options.kelvin.value_or(volume.kelvin);
-  const glm::vec3 size = frame.bounds.high - frame.bounds.low;
-  const float extent = std::max({size.x, size.y, size.z});
-  volume.scale = chosen_scale(path, extent, options);
+  volume.frame_rate = options.volume_frame_rate.value_or(volume.frame_rate);
+  const glm::vec3 size = extent.bounds.high - extent.bounds.low;
+  const float largest = std::max({size.x, size.y, size.z});
+  volume.scale = chosen_scale(path, largest, options);
   if (frame.z_is_up) volume.rotation.x = -90;
   const glm::mat4 turned = world_from_file(volume);
   Box<float> box = kEmptyBox;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
-    const glm::vec3 p(turned * glm::vec4(glm::mix(frame.bounds.low, frame.bounds.high, high), 1));
+    const glm::vec3 p(turned * glm::vec4(glm::mix(extent.bounds.low, extent.bounds.high, high), 1));
     box = united(box, {p, p});
   }
   const glm::vec3 middle = 0.5f * (box.low + box.high);
@@ -79,9 +98,7 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   volume.opacity = options.opacity;
   volume.color_map = options.color_map;
   volume.range = options.range;
-  const double across = std::cbrt(frame.filled_volume) * double{volume.scale};
-  const double depth = mean_factor(frame, volume) * across;
-  if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-36, 1e12));
+  volume.extinction = static_cast<float>(std::clamp(chosen_extinction(frame, extent, volume), 1e-36, 1e12));
   volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
   volume.anisotropy = frame.heat ? 0.2f : 0.5f;
   if (frame.is_extinction && volume.opacity.empty()) {
@@ -94,16 +111,16 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
 
   // Light, ground and smoke.
   timeline.sun = options.sun.value_or(kVolumeSun);
-  timeline.sky.zenith = {0.06f, 0.16f, 0.42f};
-  timeline.sky.horizon = {0.30f, 0.43f, 0.62f};
+  timeline.sky.zenith = {0.03f, 0.09f, 0.27f};
+  timeline.sky.horizon = {0.13f, 0.22f, 0.40f};
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
   const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
   timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure - std::log2(dimmed));
   // Clipped flames are yellow; compressed ones are pink.
   timeline.tone = options.tone.value_or(frame.heat ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
-  if (frame.heat) timeline.ground = 0.0f;
+  timeline.ground = 0.0f;
   timeline.grid.voxel =
-      options.voxel.value_or(std::clamp(extent * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));
+      options.voxel.value_or(std::clamp(largest * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));
   timeline.smokes = options.smokes;
   return timeline;
 }

@@ -12,14 +12,17 @@ namespace brume::scenario {
 ///
 /// - scale: as given, or fitting_scale with a warning;
 /// - up: as its program writes files (VolumeFrame::z_is_up);
-/// - extinction: an optical depth of kViewDepth through a ball of the volume's size, whatever its units and
-///   opacity curve;
-/// - light: a sun before a blue sky, exposed for white clouds;
-/// - ground: below a volume that glows, whose tone curve is ToneCurve::standard: flames stay yellow.
+/// - extinction: an optical depth of kViewDepth through the deep parts of the deepest frame, whatever its
+/// units; less
+///   where voxels would be opaque one by one. With an opacity curve: through a ball of the volume's size;
+/// - light: a sun before a deep blue sky, exposed for white clouds;
+/// - ground: below it, for its shadow;
+/// - tone curve: ToneCurve::standard for what glows: flames stay yellow.
 ///
-/// Smoke is thrown only where the options say so.
+/// Smoke is thrown only where the options say so. `frame` is the typical one of its sequence, of which
+/// `extent` is.
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
-                                    const FirstViewOptions& options);
-constexpr float kViewDepth = 12;
+                                    const VolumeExtent& extent, const FirstViewOptions& options);
+constexpr double kViewDepth = 12;
 
 }  // namespace brume::scenario

@@ -2,52 +2,28 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
 #include "core/log.hpp"
+#include "core/numbered_files.hpp"
+#include "grids/density_extent.hpp"
 
 namespace brume::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the number of a frame stands in a name: "%04d" or "%d".
-struct NumberPlace {
-  std::string before, after;
-};
-std::optional<NumberPlace> number_place(const std::string& name) {
-  for (std::size_t begin = name.find('%'); begin != std::string::npos; begin = name.find('%', begin + 1)) {
-    const std::size_t end = name.find_first_not_of("0123456789", begin + 1);
-    if (end != std::string::npos && name[end] == 'd')
-      return NumberPlace{name.substr(0, begin), name.substr(end + 1)};
-  }
-  return std::nullopt;
-}
-
 /// The files of a sequence's frames, by number.
 Result<std::map<std::int64_t, fs::path>> files_of(const scene::VolumeOptions& options) {
-  const fs::path& file = options.file;
-  const auto place = number_place(file.filename().string());
-  if (!place) return std::map<std::int64_t, fs::path>{{0, file}};
-  std::map<std::int64_t, fs::path> found;
-  std::error_code error;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    const std::size_t around = place->before.size() + place->after.size();
-    if (name.size() <= around || !name.starts_with(place->before) || !name.ends_with(place->after)) continue;
-    const char* const last = name.data() + name.size() - place->after.size();
-    std::int64_t number = 0;
-    const auto read = std::from_chars(name.data() + place->before.size(), last, number);
-    if (read.ec == std::errc() && read.ptr == last) found.emplace(number, file.parent_path() / name);
-  }
+  auto found = numbered_files(options.file);
+  const bool is_one = found.size() == 1 && found.begin()->second == options.file;
   std::erase_if(found, [&](const auto& one) {
-    return (options.first && one.first < *options.first) || (options.last && one.first > *options.last);
+    return !is_one &&
+           ((options.first && one.first < *options.first) || (options.last && one.first > *options.last));
   });
-  if (found.empty()) return Failure{ErrorCode::bad_input, file.string() + ": no such frames"};
+  if (found.empty()) return Failure{ErrorCode::bad_input, options.file.string() + ": no such frames"};
   return found;
 }
 
@@ -92,6 +68,52 @@ Box<float> dense_box(const volume::SparseVolume& volume, std::uint32_t slot) {
   return box;
 }
 
+/// Frames of a sequence that are measured: its first and last, its largest file, and others evenly in
+/// between.
+constexpr std::size_t kMostMeasured = 12;
+std::vector<std::int64_t> measured_numbers(const std::map<std::int64_t, fs::path>& files) {
+  std::vector<std::int64_t> all, chosen;
+  std::int64_t largest = files.begin()->first;
+  std::uintmax_t most = 0;
+  for (const auto& [number, file] : files) {
+    all.push_back(number);
+    std::error_code ignored;
+    const std::uintmax_t bytes = fs::file_size(file, ignored);
+    if (!ignored && bytes > most) {
+      most = bytes;
+      largest = number;
+    }
+  }
+  const std::size_t count = std::min(all.size(), kMostMeasured);
+  for (std::size_t i = 0; i < count; ++i)
+    chosen.push_back(all[count > 1 ? i * (all.size() - 1) / (count - 1) : 0]);
+  chosen.push_back(largest);
+  std::ranges::sort(chosen);
+  const auto twice = std::ranges::unique(chosen);
+  chosen.erase(twice.begin(), twice.end());
+  return chosen;
+}
+
+bool shows_nothing(const VolumeFrame& frame) {
+  return frame.density.high <= 0 && !frame.heat;
+}
+
+VolumeExtent extent_of(const VolumeFrame& frame) {
+  // What is less dense is not seen; what is less hot does not glow: by the fourth power.
+  constexpr float kSeen = 0.01f, kGlows = 0.4f;
+  VolumeExtent extent{.bounds = frame.bounds};
+  const auto add_seen = [&](const grids::BrickVolume& volume, float fraction) {
+    const grids::DensityExtent of = grids::measure_extent(volume, fraction);
+    if (!of.seen.empty())
+      extent.seen = united(extent.seen, transformed(glm::mat4(volume.world_from_voxel), of.seen));
+    return of.depth;
+  };
+  extent.depth = add_seen(frame.density, kSeen);
+  if (frame.heat) add_seen(*frame.heat, kGlows);
+  if (extent.seen.empty()) extent.seen = frame.bounds;
+  return extent;
+}
+
 /// Whether the axes of a volume span space.
 bool has_inverse(const scene::VolumeOptions& options) {
   const glm::dmat3 axes(options.x_axis, options.y_axis, options.z_axis);
@@ -119,16 +141,17 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
   return glm::scale(matrix, glm::vec3(options.scale)) * glm::mat4(axes);
 }
 
-glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first) {
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& typical) {
   if (options.range) return *options.range;
-  const float low = first.density.low, high = first.density.high;
+  const float low = typical.density.low, high = typical.density.high;
   if (high > low) return {low, high};
   return {0, high > 0 ? high : 1};
 }
 
-scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+scene::Volume place_of(const scene::VolumeOptions& options, const VolumeExtent& extent) {
   const glm::mat4 world = world_from_file(options);
-  return {options.file.filename().string(), transformed(world, frame.bounds), transformed(world, frame.core)};
+  return {options.file.filename().string(), transformed(world, extent.bounds),
+          transformed(world, extent.seen)};
 }
 
 std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total) {
@@ -144,10 +167,18 @@ std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std
   return parts;
 }
 
-std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Volumes& volumes,
+                                  std::size_t i) {
+  std::vector<glm::vec3> corners;
+  if (volumes.is_sequence(i)) {
+    const Box<float> seen = transformed(world_from_file(options), volumes.extent(i).seen);
+    for (int corner = 0; corner < 8; ++corner)
+      corners.push_back(glm::mix(seen.low, seen.high, glm::bvec3(corner & 1, corner & 2, corner & 4)));
+    return corners;
+  }
+  const VolumeFrame& frame = volumes.typical_frame(i);
   const volume::SparseVolume& volume = *frame.density.volume;
   const glm::dmat4 world = glm::dmat4(world_from_file(options)) * frame.density.world_from_voxel;
-  std::vector<glm::vec3> corners;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
     if (!volume.in_use(slot)) continue;
     // A brick inside of others, whose aprons reach its corners, is inside of their hull.
@@ -175,11 +206,22 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
                      where + one.file.string() + ": its axes lie in a plane; expected three that span space"};
     auto files = files_of(one);
     if (!files) return Failure{files.failure().code, where + files.failure().message};
-    Sequence sequence{one, std::move(*files), {}, {}, 0, {}, {}};
+    Sequence sequence{one, std::move(*files)};
     auto frame = load_volume_frame(sequence.files.begin()->second, one, {}, nullptr, read);
     if (!frame) return frame.failure();
-    sequence.first = sequence.shown = {std::move(*frame), nullptr};
-    sequence.shown_number = sequence.files.begin()->first;
+    sequence.typical = sequence.shown = {std::move(*frame), nullptr};
+    sequence.typical_number = sequence.shown_number = sequence.files.begin()->first;
+    // Simulations begin with nothing.
+    if (shows_nothing(*sequence.typical.frame) && sequence.files.size() > 1)
+      for (const std::int64_t number : measured_numbers(sequence.files)) {
+        auto other = load_volume_frame(sequence.files.at(number), one, {}, nullptr, read);
+        if (!other || shows_nothing(**other)) continue;
+        sequence.typical = {std::move(*other), nullptr};
+        sequence.typical_number = number;
+        break;
+      }
+    if (shows_nothing(*sequence.typical.frame))
+      log_warning(one.file.string() + ": nothing to see: no voxel is above 0");
     volumes->sequences_.push_back(std::move(sequence));
   }
   volumes->start_loader();
@@ -211,12 +253,13 @@ void Volumes::start_loader() {
 Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOptions& options) {
   Sequence& sequence = sequences_[volume];
   if (chosen_grids(sequence.options) == chosen_grids(options)) return {};
-  const auto& [number, file] = *sequence.files.begin();
-  auto frame = load_volume_frame(file, options, sequence.room, nullptr, read_);
+  auto frame =
+      load_volume_frame(sequence.files.at(sequence.typical_number), options, sequence.room, nullptr, read_);
   if (!frame) return frame.failure();
   auto preview = has_previews_ ? scenario::make_previews(**frame) : nullptr;
-  sequence.first = sequence.shown = {std::move(*frame), std::move(preview)};
-  sequence.shown_number = number;
+  sequence.typical = sequence.shown = {std::move(*frame), std::move(preview)};
+  sequence.shown_number = sequence.typical_number;
+  sequence.extent.reset();
   sequence.unreadable.clear();
   sequence.options = options;
   start_loader();
@@ -226,7 +269,7 @@ Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOption
 Result<void> Volumes::limit(const VolumeRoom& room) {
   std::vector<std::uint64_t> bricks, pages;
   for (const Sequence& sequence : sequences_) {
-    const VolumeRoom takes = room_of(*sequence.first.frame);
+    const VolumeRoom takes = room_of(*sequence.typical.frame);
     bricks.push_back(takes.bricks);
     pages.push_back(takes.pages);
   }
@@ -237,12 +280,12 @@ Result<void> Volumes::limit(const VolumeRoom& room) {
     Sequence& sequence = sequences_[i];
     VolumeRoom takes{bricks[i], pages[i]};
     if (brick_parts[i] < bricks[i] || page_parts[i] < pages[i]) {
-      auto frame = load_volume_frame(sequence.files.begin()->second, sequence.options,
+      auto frame = load_volume_frame(sequence.files.at(sequence.typical_number), sequence.options,
                                      {brick_parts[i], page_parts[i]}, nullptr, read_);
       if (!frame) return frame.failure();
-      sequence.first = sequence.shown = {std::move(*frame), nullptr};
-      sequence.shown_number = sequence.files.begin()->first;
-      takes = room_of(*sequence.first.frame);
+      sequence.typical = sequence.shown = {std::move(*frame), nullptr};
+      sequence.shown_number = sequence.typical_number;
+      takes = room_of(*sequence.typical.frame);
     }
     sequence.room = takes;
     unused.bricks -= std::min(unused.bricks, takes.bricks);
@@ -261,9 +304,33 @@ Result<void> Volumes::limit(const VolumeRoom& room) {
 void Volumes::make_previews() {
   has_previews_ = true;
   for (Sequence& sequence : sequences_)
-    for (LoadedVolume* loaded : {&sequence.first, &sequence.shown})
+    for (LoadedVolume* loaded : {&sequence.typical, &sequence.shown})
       if (!loaded->preview) loaded->preview = scenario::make_previews(*loaded->frame);
   start_loader();
+}
+
+void Volumes::measure_sequence(std::size_t volume) {
+  Sequence& sequence = sequences_[volume];
+  sequence.extent = extent_of(*sequence.typical.frame);
+  for (const std::int64_t number : measured_numbers(sequence.files)) {
+    if (number == sequence.typical_number) continue;
+    // One that cannot be read is warned of when it is shown.
+    auto frame =
+        load_volume_frame(sequence.files.at(number), sequence.options, sequence.room, nullptr, read_);
+    if (!frame || shows_nothing(**frame)) continue;
+    const VolumeExtent own = extent_of(**frame);
+    sequence.extent->bounds = united(sequence.extent->bounds, own.bounds);
+    sequence.extent->seen = united(sequence.extent->seen, own.seen);
+    if (own.depth <= sequence.extent->depth) continue;
+    sequence.extent->depth = own.depth;
+    sequence.typical = {std::move(*frame), nullptr};
+    sequence.typical_number = number;
+  }
+}
+
+VolumeExtent Volumes::extent(std::size_t volume) const {
+  const Sequence& sequence = sequences_[volume];
+  return sequence.extent ? *sequence.extent : extent_of(*sequence.typical.frame);
 }
 
 /// The frame that a time shows: the one before a missing one. Empty: none.

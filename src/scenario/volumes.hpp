@@ -28,6 +28,13 @@ struct VolumeAt {
   glm::mat4 world_from_density_preview{1}, world_from_heat_preview{1};
 };
 
+/// Where a volume can be seen over its frames, in the world of its files, and how deep it is.
+struct VolumeExtent {
+  Box<float> bounds = kEmptyBox;  ///< Around what can be dense.
+  Box<float> seen = kEmptyBox;    ///< Around what is dense enough to be seen, or glows: what a camera frames.
+  double depth = 0;               ///< As grids::DensityExtent::depth: of the deepest frame.
+};
+
 /// What to do about a frame that is not loaded yet.
 enum class VolumeWait {
   until_loaded,  ///< Wait: what is shown does not depend on timing.
@@ -38,8 +45,9 @@ enum class VolumeWait {
 /// time.
 class Volumes {
  public:
-  /// Loads the first frame of each by `read`, and later the others. Fails as `read`, and with bad_input for a
-  /// sequence without files, for axes without an inverse, and for grids that do not exist.
+  /// Loads the first frame of each by `read`, one more where there is nothing to see in it, and later the
+  /// others. Fails as `read`, and with bad_input for a sequence without files, for axes without an inverse,
+  /// and for grids that do not exist.
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options,
                                                grids::GridReader read = grids::load_grid_file);
 
@@ -63,7 +71,14 @@ class Volumes {
   /// Makes previews of all frames, those that are loaded included.
   void make_previews();
 
-  const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first.frame; }
+  /// The frame that stands for all of a sequence, so that they are lit and coloured in one way: the first one
+  /// in which there is something to see, and after measure_sequence the deepest of those that it looked at.
+  const VolumeFrame& typical_frame(std::size_t volume) const { return *sequences_[volume].typical.frame; }
+  bool is_sequence(std::size_t volume) const { return sequences_[volume].files.size() > 1; }
+  /// Loads up to a dozen frames of a sequence, for its extent and its typical frame.
+  void measure_sequence(std::size_t volume);
+  /// Of the frames that were measured; else of the typical one.
+  VolumeExtent extent(std::size_t volume) const;
   /// All files of all sequences, without what they describe or are described by (grids::files_of).
   std::vector<std::filesystem::path> files() const;
 
@@ -71,10 +86,11 @@ class Volumes {
   struct Sequence {
     scene::VolumeOptions options;                         ///< Those that loading follows.
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
-    LoadedVolume first, shown;
-    std::int64_t shown_number = 0;
-    std::set<std::int64_t> unreadable;  ///< Frames of which a warning was given.
-    VolumeRoom room{};                  ///< Of each frame.
+    LoadedVolume typical = {}, shown = {};
+    std::int64_t typical_number = 0, shown_number = 0;
+    std::optional<VolumeExtent> extent = {};  ///< Of measure_sequence.
+    std::set<std::int64_t> unreadable = {};   ///< Frames of which a warning was given.
+    VolumeRoom room = {};                     ///< Of each frame.
   };
   std::optional<std::int64_t> frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
                                        double seconds) const;
@@ -92,15 +108,16 @@ class Volumes {
 /// The part of `total` that each of several gets: what it wants where that is at most a fair part, and else
 /// as much as all others that get less than they want. The sum of the parts is at most `total`.
 std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total);
-/// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its first
+/// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its typical
 /// frame; from 0 on where all are the same.
-glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first);
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& typical);
 
-/// Where the first frame of a volume is.
-scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+/// Where a volume is.
+scene::Volume place_of(const scene::VolumeOptions& options, const VolumeExtent& extent);
 
-/// Corners of boxes around all that is dense in the first frame of a volume, in the world.
-std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+/// Corners of boxes around all that is dense in a volume, in the world; of a sequence around what is seen of
+/// its frames.
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Volumes& volumes, std::size_t i);
 
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);

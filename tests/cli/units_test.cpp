@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 #include "core/file.hpp"
@@ -137,13 +138,54 @@ TEST_F(Units, OcclusionOfPoses) {
 TEST_F(Units, AFailureNamesItsUnitAndKeepsTheOthers) {
   make_clouds();
   fs::remove(folder_.path() / "cloud_2.brv");
-  const Outcome stopped = run_brume(folder_.path(), slices_);
+  const Arguments convert{"convert", "cloud_%d.brv", "c_%d.nvdb", "--frames", "1-3"};
+  const Outcome stopped = run_brume(folder_.path(), convert);
   EXPECT_EQ(stopped.exit_code, 6);
   EXPECT_NE(stopped.error.find("cloud_2.brv: cannot open"), std::string::npos) << stopped.error;
   EXPECT_NE(stopped.error.find("1 of 3 frames written; continue with --resume\n"), std::string::npos)
       << stopped.error;
   make_clouds();
-  EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frames 2-3: missing\n");
+  EXPECT_EQ(run(convert, {"--resume"}).error, "brume: frames 2-3: missing\n");
+}
+
+// An engine shows the atlases of a sequence by one range, in one place.
+TEST_F(Units, AtlasesOfASequenceHaveOneBoxAndOneRange) {
+  // Frame 2 is missing, frame 3 is larger and denser.
+  const auto ball = [&](const std::string& name, const std::string& edge) {
+    run({"bake", "sphere", "-o", name, "--edge", edge, "--voxel", "0.1"});
+  };
+  ball("cloud_1.brv", "16");
+  ball("cloud_3.brv", "32");
+  run({"bake", "slices", "cloud_####.brv", "-o", "s_%d.png"});
+  const Files made = files("s_");
+  ASSERT_EQ(made.size(), 9u) << "from the first number that exists to the last";
+  EXPECT_EQ(made.at("s_1.png"), made.at("s_2.png")) << "which is held";
+  EXPECT_NE(made.at("s_1.png"), made.at("s_3.png"));
+  const auto box_of = [&](const std::string& name) {
+    const std::string& text = made.at(name);
+    return text.substr(text.find("\"box\""), text.find('}', text.find("\"box\"")) - text.find("\"box\""));
+  };
+  EXPECT_EQ(box_of("s_1.json"), box_of("s_3.json"));
+  // A range of one frame alone, of a value that the other does not have.
+  folder_.write("a_1.json",
+                R"({"format": "brume raw volume", "version": 1, "raw": "a_1.raw", "size": [1, 1, 2]})");
+  folder_.write("a_2.json",
+                R"({"format": "brume raw volume", "version": 1, "raw": "a_2.raw", "size": [1, 1, 2]})");
+  const auto raw = [](float a, float b) {
+    std::string bytes(8, '\0');
+    std::memcpy(bytes.data(), &a, 4);
+    std::memcpy(bytes.data() + 4, &b, 4);
+    return bytes;
+  };
+  folder_.write("a_1.raw", raw(1, 2));
+  folder_.write("a_2.raw", raw(0.5f, 8));
+  run({"bake", "slices", "a_%d.json", "-o", "r_%d.png"});
+  const Files ranges = files("r_");
+  for (const std::string name : {"r_1.json", "r_2.json"}) {
+    std::string text = ranges.at(name);
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+    EXPECT_NE(text.find("\"range\":[0.0,8.0]"), std::string::npos) << text;
+  }
 }
 
 // Interrupted before each of its calls: what it says is what is there.
@@ -203,7 +245,7 @@ TEST_F(Units, RefusesWhatIsNotNumbered) {
     expect_failure(folder_, arguments, 2, parts);
   };
   refuse({"convert", "cloud_1.brv", "c_%d.vdb", "--frames", "1-3"}, {"c_%d.vdb", "INPUT"});
-  refuse({"convert", "cloud_%d.brv", "c_%d.vdb"}, {"--frames"});
+  refuse({"bake", "pyroclastic", "-o", "c_%d.brv"}, {"--frames"});
   refuse({"convert", "cloud_1.brv", "c.vdb", "--shard", "1/2"}, {"--shard", "c", "number"});
   refuse({"convert", "cloud_1.brv", "c.vdb", "--resume"}, {"--resume"});
   refuse({"convert", "cloud_%d.brv", "cloud_%d.brv", "--frames", "1-3"}, {"is the input"});

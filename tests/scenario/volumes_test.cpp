@@ -75,7 +75,7 @@ TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
   options[0].last = 7;
   const auto volumes = Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->files().size(), 3u);
-  EXPECT_EQ(volumes->first_frame(0).density.high, 4);
+  EXPECT_EQ(volumes->typical_frame(0).density.high, 4);
   const auto shown = [&](double seconds) {
     const auto frame = volumes->at(options, seconds)[0].frame;
     return frame ? frame->density.high : 0;
@@ -95,6 +95,39 @@ TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
   EXPECT_EQ(Volumes::load(options).value_or_throw()->at(options, 0.7)[0].frame->density.high, 4);
   options[0].first = options[0].last = 7;
   EXPECT_EQ(Volumes::load(options).failure().code, ErrorCode::bad_input);
+}
+
+// Simulations begin with nothing, and end far from where they began.
+TEST_F(VolumesTest, TheTypicalFrameIsTheDeepestOfThoseWithAnything) {
+  const auto cubes = [](float value, int count) {
+    grids::Grid grid = cube("density", value);
+    for (int i = 1; i < count; ++i) {
+      const grids::Grid one = cube("density", value);
+      grid.bricks.push_back(one.bricks[0]);
+      grid.bricks.back().origin.x = 8 * i;
+      grid.values.insert(grid.values.end(), one.values.begin(), one.values.end());
+    }
+    return grid;
+  };
+  save("f_0.brv", {cubes(0, 1)});
+  save("f_1.brv", {cubes(2, 1)});
+  save("f_2.brv", {cubes(3, 1)});
+  save("f_3.brv", {cubes(0.5f, 6)});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_#.brv";
+  options[0].frame_rate = 1;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  EXPECT_EQ(volumes->typical_frame(0).density.high, 2) << "the first in which there is anything";
+  EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 0);
+  volumes->measure_sequence(0);
+  EXPECT_EQ(volumes->typical_frame(0).density.high, 3) << "few rays go along the six bricks of the last";
+  const VolumeExtent extent = volumes->extent(0);
+  EXPECT_DOUBLE_EQ(extent.depth, 24);
+  // Index 0 is the middle of voxel 0.
+  EXPECT_EQ(extent.seen.low, glm::vec3(-0.5f));
+  EXPECT_EQ(extent.seen.high, glm::vec3(47.5f, 7.5f, 7.5f));
+  EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 0) << "what is shown is that of the time";
+  EXPECT_EQ(volumes->at(options, 3)[0].frame->density.high, 0.5f);
 }
 
 // Starts and rates are float32, and written with fewer digits still.
@@ -300,12 +333,12 @@ TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "a.brv";
   const auto volumes = Volumes::load(options).value_or_throw();
-  ASSERT_TRUE(volumes->first_frame(0).colors);
-  EXPECT_EQ(volumes->first_frame(0).colors->slot_count(),
-            volumes->first_frame(0).density.volume->slot_count());
-  EXPECT_EQ(volumes->first_frame(0).color_grids, std::vector<std::string>{"Cd"});
-  EXPECT_EQ(volumes->first_frame(0).number_grids, (std::vector<std::string>{"density", "fuel"}));
-  EXPECT_EQ(range_of(options[0], volumes->first_frame(0)), glm::vec2(0, 2));
+  ASSERT_TRUE(volumes->typical_frame(0).colors);
+  EXPECT_EQ(volumes->typical_frame(0).colors->slot_count(),
+            volumes->typical_frame(0).density.volume->slot_count());
+  EXPECT_EQ(volumes->typical_frame(0).color_grids, std::vector<std::string>{"Cd"});
+  EXPECT_EQ(volumes->typical_frame(0).number_grids, (std::vector<std::string>{"density", "fuel"}));
+  EXPECT_EQ(range_of(options[0], volumes->typical_frame(0)), glm::vec2(0, 2));
   options[0].density = "fuel";
   EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 3);
   // On failure those before remain.
@@ -314,7 +347,7 @@ TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
   const auto refused = volumes->choose_grids(0, wrong);
   EXPECT_NE(refused.failure().message.find("expected colours, which are vec3f or vec3d"), std::string::npos)
       << refused.failure().message;
-  EXPECT_EQ(volumes->first_frame(0).density.high, 3);
+  EXPECT_EQ(volumes->typical_frame(0).density.high, 3);
 }
 
 TEST_F(VolumesTest, AnOpacityCurveDoesNotChangeHowDenseTheFirstViewIs) {
@@ -363,11 +396,11 @@ TEST_F(VolumesTest, CornersSurroundWhatIsDense) {
   scene::VolumeOptions options;
   options.file = save("a.brv", {grid});
   options.position_world = {1, 2, 3};
-  const auto frame = load_volume_frame(options.file, options).value_or_throw();
-  const std::vector<glm::vec3> corners = corners_of(options, *frame);
+  const auto volumes = Volumes::load(std::array{options}).value_or_throw();
+  const std::vector<glm::vec3> corners = corners_of(options, *volumes, 0);
   Box<float> box = kEmptyBox;
   for (const glm::vec3 p : corners) box = united(box, {p, p});
-  const Box<float> bounds = place_of(options, *frame).bounds_world;
+  const Box<float> bounds = place_of(options, volumes->extent(0)).bounds_world;
   EXPECT_LT(glm::length(box.low - bounds.low) + glm::length(box.high - bounds.high), 1e-5f);
 }
 

@@ -1,0 +1,26 @@
+// Files of a sequence, whose names differ by the number of their frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace brume {
+
+/// A name around its number.
+struct NumberedName {
+  std::string before, after;
+};
+
+/// Where a name has the number of a frame, in the form of any program: %d, %04d, ####, $F, $F4, <frame>,
+/// <frame04>, <f4>. Empty: it has none. The number of digits does not matter.
+std::optional<NumberedName> numbered_name(const std::string& name);
+
+/// The files of a sequence by their numbers, in any number of digits; the name with more digits where two
+/// have one number. A file that exists under the very name is the only one, and so is a file whose name has
+/// no number, whether or not it exists: each as number 0. Empty: there are no such files.
+std::map<std::int64_t, std::filesystem::path> numbered_files(const std::filesystem::path& file);
+
+}  // namespace brume
