@@ -243,14 +243,16 @@ std::vector<Case> tank_cases() {
       {{"tank/media", scene::TankView::spheres, 1, false, 0.1f}, "spheres that light passes, one bounce"},
       {{"tank/million", scene::TankView::spheres, 0, false, 1, 1000000}, "a million spheres, direct light"},
       {{"tank/voxels", scene::TankView::voxels}, "painted voxels"}};
-  for (const auto& [picture, what] : pictures)
-    cases.push_back({picture.name, what, [picture](Bench& b) { return picture_case(b, picture); }});
+  for (const auto& one : pictures)
+    cases.push_back(
+        {one.first.name, one.second, [picture = one.first](Bench& b) { return picture_case(b, picture); }});
   const std::vector<std::pair<Picture, const char*>> frames{
       {{"tank/frame"}, "exact spheres in a host's frame at 1080p, direct light"},
       {{"tank/frame_scattered", scene::TankView::spheres, 2}, "the same with two bounces"},
       {{"tank/frame_voxels", scene::TankView::voxels}, "painted voxels in a host's frame"}};
-  for (const auto& [picture, what] : frames)
-    cases.push_back({picture.name, what, [picture](Bench& b) { return frame_case(b, picture); }});
+  for (const auto& one : frames)
+    cases.push_back(
+        {one.first.name, one.second, [picture = one.first](Bench& b) { return frame_case(b, picture); }});
   for (const std::uint32_t blades : {6u, 5u, 9u})
     cases.push_back({"lens/" + std::to_string(blades), "2^26 points of a lens by the remap and by rejection",
                      [blades](Bench& b) { return lens_case(b, blades); }});

@@ -46,7 +46,9 @@ class Renderer {
                                   std::optional<std::uint32_t> samples) {
     const std::lock_guard lock(loaded_->drawing);
     prepare(camera, samples);
-    return playback_->draw_layers(seconds, 0);
+    image::LayeredImage image = playback_->draw_layers(seconds, 0);
+    image::set_background(image, image::Background::in);
+    return image;
   }
 
  private:

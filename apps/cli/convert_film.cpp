@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "apps/cli/console.hpp"
+#include "apps/cli/parse.hpp"
 #include "apps/cli/targets.hpp"
 #include "apps/cli/unit_key.hpp"
 #include "core/error.hpp"

@@ -39,8 +39,8 @@ std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::u
 struct FrameSettings {
   glm::uvec2 size_px{0};
   std::optional<std::uint32_t> samples;
-  bool has_layers = false;  ///< Frames are numbers.
-  std::uint64_t key = 0;    ///< Hash of what a frame depends on, for the checkpoint.
+  std::optional<LayerForm> layers;  ///< Empty: frames are colours, with their background.
+  std::uint64_t key = 0;            ///< Hash of what a frame depends on, for the checkpoint.
 };
 
 /// Frames of a scenario by the path tracer.

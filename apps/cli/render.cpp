@@ -123,7 +123,7 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   const std::vector<std::string> device{"reference", exact_text(time)};
   ReferenceFrames frames(
       loaded.scenario, std::move(loaded.simulation), options.reference,
-      {plan.renderer.size_px, options.samples, plan.has_layers(),
+      {plan.renderer.size_px, options.samples, plan.layers,
        checkpoint_key(sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}))});
   frames.set_camera(camera_before(plan, loaded));
   write(options, plan, common, film_of(loaded, {"reference"}), [&](double seconds, std::uint32_t i) {
@@ -171,7 +171,7 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   write(options, plan, common, film_of(loaded, {context.info().name, context.info().driver}),
         [&](double seconds, std::uint32_t i) {
           if (loaded.orbit) playback.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
-          return renderer.draw(seconds, i, plan.has_layers());
+          return renderer.draw(seconds, i, plan.layers ? &*plan.layers : nullptr);
         });
   Json statistics{{"mode", options.mode},
                   {"march", options.march},

@@ -42,6 +42,18 @@ void refuse_other_mode(const Arguments& arguments, const RenderOptions& options,
     arguments.refuse(option, "requires --mode reference");
 }
 
+image::Background parse_background(const RenderOptions& options, const Plan& plan) {
+  if (options.background.empty()) return plan.has_layers ? image::Background::layer : image::Background::in;
+  if (options.background == "layer" && !plan.has_layers)
+    throw Error(ErrorCode::usage, "--background layer: requires an .exr file, which has layers");
+  if (options.background == "none" && plan.kind == TargetKind::film)
+    throw Error(ErrorCode::usage,
+                "--background none: a film has no transparency; write numbered .png or .exr files");
+  return options.background == "none"    ? image::Background::none
+         : options.background == "layer" ? image::Background::layer
+                                         : image::Background::in;
+}
+
 // Refuses options that would do nothing.
 void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
   refuse_other_mode(arguments, options, plan);
@@ -57,8 +69,9 @@ void refuse_idle(const Arguments& arguments, const RenderOptions& options, const
     for (const char* option : {"--resume", "--shard"})
       arguments.refuse(option, "requires numbered frames, such as -o f_%04d.png");
   if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
-  if (plan.has_layers())
-    arguments.refuse("--view", "is for .png and .mp4; an .exr file has layers of its own");
+  if (plan.has_layers) arguments.refuse("--view", "is for .png and .mp4; an .exr file has layers of its own");
+  if (plan.layers && !plan.has_layers)
+    arguments.refuse("--view", "shows no transparency; remove --background");
   if (plan.slice && !passes::has_slice(plan.view))
     arguments.refuse("--slice", "requires --view density, light or distance");
 }
@@ -71,6 +84,13 @@ std::string view_names() {
 }
 
 void declare_quality(const Arguments& arguments, RenderOptions& options) {
+  arguments
+      .add_option(
+          "--background", options.background,
+          "The sky: in the picture, in a layer of its own (.exr), or none, with transparency in its place; "
+          "default: layer for .exr, else in")
+      .one_of({"none", "layer", "in"})
+      .type_name("FORM");
   arguments
       .add_option("--march", options.march,
                   "Smoke resolution: one ray per pixel, per 2x2 or per 4x4; default full")
@@ -159,7 +179,11 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   }
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.smoke.temporal = plan.renderer.antialias = options.temporal;
-  plan.renderer.smoke.record_entries = target_file_kind(options.output) == FileKind::exr;
+  plan.has_layers = target_file_kind(options.output) == FileKind::exr;
+  const image::Background background = parse_background(options, plan);
+  if (plan.has_layers || background == image::Background::none)
+    plan.layers = LayerForm{plan.has_layers, background};
+  plan.renderer.smoke.record_entries = plan.layers.has_value();
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
@@ -169,6 +193,8 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   if (grids::is_grid_file(options.input) && options.timeline.empty() && !plan.scene.volume_frame_rate)
     plan.scene.volume_frame_rate = static_cast<float>(plan.rate.per_second());
   plan.scene.camera = plan.camera;
+  // Else it would be before all of the transparency.
+  plan.scene.has_ground = background != image::Background::none;
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);

@@ -20,7 +20,7 @@ namespace brume::cli {
 struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
                                                view = "none", slice, fps = "24", raycast, mode = "realtime",
-                                               shard;
+                                               shard, background;
   SceneOptions scene;
   ReferenceOptions reference;
   std::optional<double> time, orbit, shutter;
@@ -41,8 +41,9 @@ struct Plan {
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;
   FrameRate rate;
-  /// Whether frames are written as numbers.
-  bool has_layers() const { return renderer.smoke.record_entries; }
+  bool has_layers = false;  ///< Whether frames are written as numbers.
+  /// Of frames that are drawn as numbers, to be written or for their alpha; empty: none is.
+  std::optional<LayerForm> layers;
 };
 
 void declare_render(const Arguments& arguments, RenderOptions& options);

@@ -54,12 +54,12 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
                      const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice,
-               fps, raycast, mode, shard, scene_options, reference, time, orbit, shutter, samples, temporal,
-               resume, step, light_update_fraction, resolve_error_scale, volume_memory] = options;
+               fps, raycast, mode, shard, background, scene_options, reference, time, orbit, shutter, samples,
+               temporal, resume, step, light_update_fraction, resolve_error_scale, volume_memory] = options;
   files.push_back(timeline);
   if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
 
-  std::vector<std::string> settings{size, march, camera, view, slice, fps, raycast, mode};
+  std::vector<std::string> settings{size, march, camera, view, slice, fps, raycast, mode, background};
   for (const auto& more : {texts_of(scene_options), texts_of(reference)})
     settings.insert(settings.end(), more.begin(), more.end());
   for (const double number : {double{step}, double{light_update_fraction}, double{resolve_error_scale},

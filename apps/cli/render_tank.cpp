@@ -18,6 +18,7 @@ namespace {
 // What is for levels and their smoke.
 void refuse_options_of_levels(const Arguments& arguments) {
   for (const char* option : {"--timeline",
+                             "--background",
                              "--march",
                              "--raycast",
                              "--temporal",
@@ -63,8 +64,8 @@ Json render_on_device(const TankJob& job) {
   const Stopwatch drawing;
   write(job.options, job.plan, job.common, job.film({context.info().name, context.info().driver}),
         [&](double seconds, std::uint32_t) -> Picture {
-          Picture picture = job.plan.has_layers() ? Picture(pictures.draw_layers(seconds, is_interrupted))
-                                                  : Picture(pictures.draw(seconds, is_interrupted));
+          Picture picture = job.plan.has_layers ? Picture(pictures.draw_layers(seconds, is_interrupted))
+                                                : Picture(pictures.draw(seconds, is_interrupted));
           stop_if_interrupted();
           return picture;
         });
@@ -102,7 +103,7 @@ Json render_by_paths(const TankJob& job) {
           add_samples(render, job.options.reference, samples,
                       checkpoint_key(sequence_key(without_limits, job.film({}).files, texts, {})));
           drawn += render.samples();
-          if (job.plan.has_layers()) return render.layers();
+          if (job.plan.has_layers) return render.layers();
           planning::View view;
           view.exposure = std::exp2(job.scenario.scene.exposure);
           view.tone = job.scenario.scene.tone;

@@ -114,6 +114,12 @@ bool is_numbered(const std::string& option, const std::filesystem::path& path) {
   return pattern->digits.has_value();
 }
 
+Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display) {
+  image::set_background(layers, form.background);
+  if (form.as_layers) return layers;
+  return image::colors_of(layers, display);
+}
+
 TargetKind target_kind(const std::filesystem::path& path) {
   const std::string extension = scene::lower_extension(path);
   if (extension != ".png" && extension != ".exr" && extension != ".mp4")

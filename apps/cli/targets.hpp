@@ -11,6 +11,7 @@
 #include "apps/cli/number.hpp"
 #include "apps/cli/outputs.hpp"
 #include "apps/cli/unit_key.hpp"
+#include "image/background.hpp"
 #include "image/image.hpp"
 
 namespace brume::cli {
@@ -30,6 +31,13 @@ FileKind target_file_kind(const std::filesystem::path& path);
 
 /// A frame as a file holds it: colours in a .png, numbers in an .exr.
 using Picture = std::variant<image::Image8, image::LayeredImage>;
+
+/// How frames that were drawn as numbers are written.
+struct LayerForm {
+  bool as_layers = false;  ///< As numbers, else as colours with alpha: those of Background::none.
+  image::Background background = image::Background::layer;
+};
+Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display);
 
 /// Writes a picture in the format of its kind. Throws Error.
 void save_picture(const std::filesystem::path& path, const Picture& picture,

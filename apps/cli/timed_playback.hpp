@@ -15,10 +15,12 @@ namespace brume::cli {
 class TimedPlayback {
  public:
   explicit TimedPlayback(render::Playback& playback) : playback_(playback) {}
-  Picture draw(double seconds, std::uint32_t frame_index, bool has_layers) {
+  /// `form`: null draws colours.
+  Picture draw(double seconds, std::uint32_t frame_index, const LayerForm* form) {
     return timed([&]() -> Picture {
-      if (has_layers) return playback_.draw_layers(seconds, frame_index);
-      return playback_.draw(seconds, frame_index);
+      if (!form) return playback_.draw(seconds, frame_index);
+      image::LayeredImage layers = playback_.draw_layers(seconds, frame_index);
+      return picture_of(std::move(layers), *form, playback_.display());
     });
   }
   Json statistics() const {

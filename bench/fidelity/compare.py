@@ -54,17 +54,18 @@ class Studio:
         """Linear radiance and transmittance."""
         file, (width, height) = f"{stem}_realtime.exr", self.size
         self.call("render", self.timeline(name, stem, edits, paint), "-o", file, "--size",
-                  f"{TIMES * width}x{TIMES * height}", "--time", self.seconds[name], "-q", *more)
+                  f"{TIMES * width}x{TIMES * height}", "--time", self.seconds[name], "--background", "in", "-q", *more)
         layers = images.read_exr(self.folder / file)
-        return (pictures.averaged(images.radiance(layers), TIMES), pictures.averaged(layers["transmittance"], TIMES))
+        return (pictures.averaged(images.radiance(layers), TIMES), pictures.averaged(layers["transmittance.V"], TIMES))
 
     def reference(self, name, stem, edits=(), paint=None, more=()):
         """Linear radiance and its standard error."""
         file, (width, height) = f"{stem}_reference.exr", self.size
         self.call("render", self.timeline(name, stem, edits, paint), "-o", file, "--size", f"{width}x{height}",
-                  "--time", self.seconds[name], "-q", "--mode", "reference", "--samples", self.samples, *more)
+                  "--time", self.seconds[name], "--background", "in", "-q", "--mode", "reference", "--samples",
+                  self.samples, *more)
         layers = images.read_exr(self.folder / file)
-        return images.radiance(layers), layers["error"]
+        return images.radiance(layers), layers["error.V"]
 
     def pair(self, name, mode, edits=(), paint=None):
         """Tables named `realtime ...` in edits are of the real-time picture alone."""

@@ -28,7 +28,8 @@ def _row(name, samples, measured, error, mean, **more):
 def brume(comparison, size):
     """Samples n to 2 n are a block of their own: what they add to the first n is independent of them."""
     samples = comparison.options.speed_brume_samples
-    words = [comparison.brume, "render", "speed.toml", "--mode", "reference", "--quiet", "--size", size]
+    words = [comparison.brume, "render", "speed.toml", "--mode", "reference", "--quiet", "--background", "in",
+             "--size", size]
 
     def render(count, times):
         out = f"speed_brume_{count}.exr"

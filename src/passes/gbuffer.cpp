@@ -130,9 +130,10 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
       draws.push_back({&draw, false});
   for (const Draw& draw : moving) draws.push_back({&draw, true});
   // In an order that every form has, for surfaces in the same place.
-  const std::span<VisibleDraw> others = std::ranges::stable_partition(draws, [&](const VisibleDraw& visible) {
+  const auto first_other = std::stable_partition(draws.begin(), draws.end(), [&](const VisibleDraw& visible) {
     return is_dull(scene.materials[visible.draw->material].constants);
   });
+  const std::span<VisibleDraw> others(first_other, draws.end());
 
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});

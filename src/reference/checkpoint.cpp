@@ -11,7 +11,7 @@ namespace brume::reference {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'B', 'R', 'U', 'M', 'E', 'R', 'E', 'F'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
   std::array<char, 8> magic = kMagic;

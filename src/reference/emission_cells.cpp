@@ -26,7 +26,8 @@ EmissionCells::EmissionCells(std::span<const Medium* const> media) {
   for (const Medium* medium : media) {
     const Majorants& majorants = medium->majorants();
     const auto index = static_cast<std::uint32_t>(media_.size());
-    Lit& lit = media_.emplace_back(medium, std::vector<float>(majorants.count()));
+    media_.push_back({medium, std::vector<float>(majorants.count())});
+    Lit& lit = media_.back();
     for (std::uint32_t cell = 0; cell < majorants.count(); ++cell) {
       if (!(majorants.bound(cell) > 0)) continue;
       const float power = power_of(*medium, cell);

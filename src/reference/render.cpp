@@ -93,7 +93,10 @@ void Render::sample(Tile& tile) {
       const bool hit = std::isfinite(found.distance);
       if (hit) sums.depth += found.distance * glm::dot(ray.direction, settings_.eyes.front().camera.forward);
       sums.hits += hit ? 1.0f : 0.0f;
-      sums.clear += !hit && found.through_media ? 1.0f : 0.0f;
+      if (!hit && found.through_media) {
+        sums.clear += 1;
+        sums.background += found.seen;
+      }
       sums.passed += found.through_media ? 1.0f : 0.0f;
     }
   ++tile.samples;
@@ -185,22 +188,25 @@ image::LayeredImage Render::layers() const {
       add(names[static_cast<std::size_t>(c)],
           [&](const Sums& sums, double n) { return glm::dvec3(value(sums))[c] / n; });
   };
-  add_three({"R", "G", "B"}, [](const Sums& sums) { return sums.seen + sums.single + sums.multiple; });
+  add_three({"R", "G", "B"},
+            [](const Sums& sums) { return sums.seen - sums.background + sums.single + sums.multiple; });
+  add_three({"background.R", "background.G", "background.B"},
+            [](const Sums& sums) { return sums.background; });
   add_three({"single.R", "single.G", "single.B"}, [](const Sums& sums) { return sums.single; });
   add_three({"multiple.R", "multiple.G", "multiple.B"}, [](const Sums& sums) { return sums.multiple; });
   add_three({"albedo.R", "albedo.G", "albedo.B"}, [](const Sums& sums) { return sums.albedo; });
   add_three({"normal.X", "normal.Y", "normal.Z"}, [](const Sums& sums) { return sums.normal; });
   add("A", [](const Sums& sums, double n) { return 1 - double{sums.clear} / n; });
-  add("transmittance", [](const Sums& sums, double n) { return double{sums.passed} / n; });
+  add("transmittance.V", [](const Sums& sums, double n) { return double{sums.passed} / n; });
   add("Z", [](const Sums& sums, double) {
     return sums.hits > 0 ? double{sums.depth} / double{sums.hits} : std::numeric_limits<double>::infinity();
   });
-  add("error", [](const Sums& sums, double n) {
+  add("error.V", [](const Sums& sums, double n) {
     const double mean = luminance(sums.seen + sums.single + sums.multiple) / n;
     return n < 2 ? std::numeric_limits<double>::infinity()
                  : std::sqrt(std::max(sums.squares / n - mean * mean, 0.0) / (n - 1));
   });
-  add("samples", [](const Sums&, double n) { return n; });
+  add("samples.V", [](const Sums&, double n) { return n; });
   return image;
 }
 

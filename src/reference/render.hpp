@@ -75,13 +75,14 @@ class Render {
   /// Sums over the samples of a pixel.
   struct Sums {
     glm::dvec3 seen{0}, single{0}, multiple{0};
-    double squares = 0;  ///< Of the luminance.
+    glm::dvec3 background{0};  ///< What is seen by paths that met nothing.
+    double squares = 0;        ///< Of the luminance.
     glm::vec3 albedo{0}, normal{0};
     float depth = 0, hits = 0;  ///< Along the view axis, of those that met a surface.
     float clear = 0;            ///< That met neither a surface nor a medium.
     float passed = 0;           ///< That met no medium before the surface.
   };
-  static_assert(sizeof(Sums) == 120);
+  static_assert(sizeof(Sums) == 144);
   struct Tile {
     glm::uvec2 low, end;  // [px]
     std::uint32_t samples = 0;

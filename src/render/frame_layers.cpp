@@ -103,12 +103,12 @@ image::LayeredImage FrameLayers::image() const {
   }
   image.layers.push_back({"A", std::move(alpha)});
   image.layers.push_back({"Z", std::move(z)});
-  image.layers.push_back({"transmittance", channel_of(media, 3)});
+  image.layers.push_back({"transmittance.V", channel_of(media, 3)});
   if (has_decals_)
-    image.layers.push_back({"occlusion", has_occlusion_
-                                             ? channel_of(values_of<Half>(occlusion_, 4 * count), 0)
-                                             : Halves(count, 0)});
-  image.layers.push_back({"depth_in", std::vector<float>(entries.begin(), entries.end())});
+    image.layers.push_back({"occlusion.V", has_occlusion_
+                                               ? channel_of(values_of<Half>(occlusion_, 4 * count), 0)
+                                               : Halves(count, 0)});
+  image.layers.push_back({"depth_in.V", std::vector<float>(entries.begin(), entries.end())});
   return image;
 }
 

@@ -18,18 +18,19 @@ class FrameLayers {
 
   /// The layers, when the device is done:
   ///
-  ///   R, G, B            half: radiance before exposure and tone curve
+  ///   R, G, B            half: radiance before exposure and tone curve; of a frame of several samples the mean
+  ///   so far
   ///   A                  half: 1 where there is a surface, else 1 - transmittance
   ///   Z                  float: distance of the nearest surface along the view axis [m]; infinity: none
-  ///   transmittance      half: of all media, up to the surface
-  ///   depth_in           float: distance along the ray at which the transmittance falls to
+  ///   transmittance.V    half: of all media, up to the surface
+  ///   depth_in.V         float: distance along the ray at which the transmittance falls to
   ///                      shared::kEntryTransmittance [m]; infinity: it does not
   ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none
   ///   media.R, .G, .B    half: radiance of the media alone, premultiplied
-  ///   occlusion          half: of the light that surfaces reflect, what decals take; in frames with decals
+  ///   occlusion.V        half: of the light that surfaces reflect, what decals take; in frames with decals
   ///   alone
   ///
-  /// R, G, B, media, transmittance and occlusion are the bits of the device.
+  /// All halves but A are the bits of the device.
   image::LayeredImage image() const;
 
  private:

@@ -1,23 +1,37 @@
-// The mean of frames as numbers.
+// The mean of the layers of the frames of one picture, and its background apart.
 #pragma once
+
+#include <array>
+#include <vector>
 
 #include "image/image.hpp"
 
 namespace brume::render {
 
-/// The mean of frames with the same layers. R, G and B are those of the last frame, which is the mean of
-/// those before (ViewSample); each value of `Z` and `depth_in` is the mean where it is finite.
+/// Takes the frames of a picture as FrameLayers reads them, in order.
 class LayerMean {
  public:
   void add(image::LayeredImage frame);
-  /// Of at least one frame, as it is where there is one.
+  /// Of at least one frame: R, G and B are halves, all others but of a single frame floats. The radiance of
+  /// the sky, as far as media let it through, is in layers of its own (image::Background::layer): before it
+  /// R, G and B are those of the media alone, to the bit where there is one frame.
   image::LayeredImage mean() const;
 
  private:
+  /// Of a colour of each pixel: what its frames that saw the sky saw of it.
+  struct Sky {
+    std::vector<double> sum;
+    std::vector<float> mean;  ///< Of the frames so far, the sky or not.
+  };
+  void add_sky(const image::LayeredImage& frame);
+  void take_background(image::LayeredImage& image) const;
+
   std::uint32_t frames_ = 0;
   image::LayeredImage last_;
   std::vector<std::vector<double>> sums_;
   std::vector<std::vector<std::uint32_t>> finite_;  ///< Summands.
+  std::array<Sky, 3> sky_;                          ///< Of R, G, B.
+  std::vector<std::uint32_t> sees_sky_;             ///< Frames.
 };
 
 }  // namespace brume::render

@@ -61,6 +61,7 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   last_frame_index_ = frame_index;
   if (exposure_) input.view.exposure = *exposure_;
   input.debug = debug_;
+  display_ = {input.view.exposure, static_cast<std::uint32_t>(input.view.tone)};
   const planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
                                        renderer_.smoke().is_accumulated() ? 1u : samples_);
   samples_drawn_ = samples.count();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "image/background.hpp"
 #include "image/image.hpp"
 #include "planning/scenario_frame.hpp"
 #include "render/frame_layers.hpp"
@@ -58,6 +59,8 @@ class Playback {
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
   /// Fraction of the pixels of the last frame whose rays were marched one by one, in [0, 1].
   double fraction_marched() const;
+  /// How the last frame became colours.
+  const image::Display& display() const { return display_; }
   /// Of the last image.
   std::uint32_t samples() const { return samples_drawn_; }
   const scenario::Simulation& simulation() const { return *simulation_; }
@@ -81,6 +84,7 @@ class Playback {
   planning::FrameOptions options_;
   std::optional<std::uint32_t> samples_;
   std::uint32_t samples_drawn_ = 0;
+  image::Display display_;
   std::optional<float> exposure_;  ///< Instead of the timeline's; a factor.
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;
   planning::DebugRequest debug_;

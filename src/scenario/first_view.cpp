@@ -269,7 +269,7 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   timeline.scale = chosen_scale(scene, path, options);
   timeline.origin = chosen_origin(scene, path, timeline.scale);
   choose_light(timeline, scene, options.sun);
-  if (!scene.camera) timeline.ground = ground_below(scene, timeline);
+  if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
   apply_level_options(timeline, scene);
   const Box<float> bounds = scene::world_bounds(scene);
   if (!bounds.empty() && is_line(bounds))

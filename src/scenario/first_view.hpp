@@ -18,6 +18,7 @@ struct FirstViewOptions {
   std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
   bool has_smoke = true;                       ///< Whether there is smoke without `smokes`.
+  bool has_ground = true;                      ///< Whether there may be a ground to the horizon.
   /// What is looked from instead of the camera of the result [m]: the smoke is placed for it.
   std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};

@@ -118,7 +118,7 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure - std::log2(dimmed));
   // Clipped flames are yellow; compressed ones are pink.
   timeline.tone = options.tone.value_or(frame.heat ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
-  timeline.ground = 0.0f;
+  if (options.has_ground) timeline.ground = 0.0f;
   timeline.grid.voxel =
       options.voxel.value_or(std::clamp(largest * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));
   timeline.smokes = options.smokes;

@@ -118,7 +118,8 @@ TEST_F(CameraOptions, FramesAsNumbersAreMeans) {
   const auto image =
       image::decode_exr(read_file(folder_.path() / "a.exr").value_or_throw(), "a.exr").value_or_throw();
   for (const image::Layer& layer : image.layers) {
-    const bool is_radiance = layer.name == "R" || layer.name == "G" || layer.name == "B";
+    const bool is_radiance = layer.name == "R" || layer.name == "G" || layer.name == "B" ||
+                             layer.name.starts_with("background.");
     EXPECT_EQ(std::holds_alternative<std::vector<float>>(layer.values), !is_radiance) << layer.name;
     if (layer.name != "A") continue;
     for (const float alpha : std::get<std::vector<float>>(layer.values)) {

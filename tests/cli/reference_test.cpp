@@ -38,7 +38,7 @@ TEST_F(ReferenceMode, LayersSayWhatIsInThem) {
   std::vector<std::string> names;
   for (const image::Layer& layer : image.layers) names.push_back(layer.name);
   for (const char* name :
-       {"R", "single.G", "multiple.B", "albedo.R", "normal.Y", "A", "Z", "error", "samples", "transmittance"})
+       {"R", "single.G", "multiple.B", "albedo.R", "normal.Y", "A", "Z", "error.V", "samples.V", "transmittance.V"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 }
 

@@ -302,9 +302,9 @@ TEST_F(Render, NumbersInLayers) {
   EXPECT_EQ(parts[0]["height"], 17);
   std::map<std::string, std::string> layers;
   for (const auto& layer : parts[0]["layers"]) layers[layer["name"]] = layer["type"];
-  for (const char* half : {"R", "G", "B", "A", "transmittance", "albedo.R", "media.B"})
+  for (const char* half : {"R", "G", "B", "A", "transmittance.V", "albedo.R", "media.B", "background.G"})
     EXPECT_EQ(layers[half], "half") << half;
-  for (const char* number : {"Z", "depth_in"}) EXPECT_EQ(layers[number], "float") << number;
+  for (const char* number : {"Z", "depth_in.V"}) EXPECT_EQ(layers[number], "float") << number;
   EXPECT_NE(run_brume(folder_.path(), {"info", "a.exr"}).out.find("\nZ               float\n"),
             std::string::npos);
 

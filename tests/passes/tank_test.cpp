@@ -46,10 +46,10 @@ TEST_F(TankTest, FindsTheIdsAndColoursOfAllVoxels) {
     int tries;
   };
   // Radii below a voxel overflow the four ids of some.
-  for (const auto& [size, radius, tries] :
-       {Case{{1, 1, 1}, {0.1f, 0.4f}, 20}, Case{{7, 7, 7}, {0.3f, 2}, 200},
-        Case{{33, 17, 5}, {0.2f, 2.4f}, 3000}}) {
-    const spheres::Tank tank = random_tank(size, radius, tries, 200, 5);
+  for (const Case& one : {Case{{1, 1, 1}, {0.1f, 0.4f}, 20}, Case{{7, 7, 7}, {0.3f, 2}, 200},
+                          Case{{33, 17, 5}, {0.2f, 2.4f}, 3000}}) {
+    const glm::uvec3 size = one.size;
+    const spheres::Tank tank = random_tank(size, one.radius, one.tries, 200, 5);
     ASSERT_FALSE(tank.spheres.empty());
     const DeviceTank device(context(), runner(), tank);
     const auto ids = read_back<glm::uvec2>(device.volume.ids);

@@ -24,7 +24,7 @@ class RenderTest(unittest.TestCase):
     def test_radiance_is_that_of_the_program(self):
         with work_folder() as folder:
             exr = folder + "/demo.exr"
-            run_brume("render", DEMO, "-o", exr, "--time", 2.5, "--size", "80x45")
+            run_brume("render", DEMO, "-o", exr, "--time", 2.5, "--size", "80x45", "--background", "in")
             channels = read_exr(exr)
         picture = brume.render(str(DEMO), 2.5, size=(80, 45), linear=True)
         self.assertEqual((picture.shape, picture.dtype), ((45, 80, 3), np.float32))

@@ -1,5 +1,6 @@
 // The numbers behind a frame: bit for bit the device's, and what they mean.
 #include "render/frame_layers.hpp"
+#include "render/layer_mean.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,9 @@ class FrameLayersTest : public gpu::GpuTest {
   Layers draw() {
     FrameLayers layers(context(), renderer().targets().size_px);
     renderer().draw(input_, [&](gpu::Recorder& recorder) { layers.record(recorder, renderer()); });
-    return Layers(layers.image());
+    LayerMean mean;
+    mean.add(layers.image());
+    return Layers(mean.mean());
   }
   /// Direction of a pixel's ray; its part along the view axis is 1.
   glm::dvec3 ray(std::size_t i, glm::uvec2 size) const {
@@ -124,13 +127,25 @@ TEST_F(FrameLayersTest, AreTheBitsOfTheDeviceAtEverySize) {
     EXPECT_EQ(layers.size(), size);
     const auto radiance = read_back<passes::Half4>(renderer().targets().radiance);
     const auto media = read_back<passes::Half4>(renderer().media());
+    // Before the sky they are those of the media, and the rest is behind them.
     ASSERT_EQ(layers.halves("R").size(), std::size_t{size.x} * size.y);
     for (std::size_t i = 0; i < radiance.size(); ++i) {
       const passes::Half4 drawn{layers.halves("R")[i], layers.halves("G")[i], layers.halves("B")[i],
                                 radiance[i][3]};
-      EXPECT_EQ(drawn, radiance[i]) << i;
+      const bool is_sky = std::isinf(layers.floats("Z")[i]);
+      passes::Half4 expected = is_sky ? media[i] : radiance[i];
+      expected[3] = radiance[i][3];
+      EXPECT_EQ(drawn, expected) << i;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::string color = std::string("background.") + "RGB"[c];
+        const float all = passes::from_half(radiance[i])[static_cast<int>(c)];
+        const float sum = passes::from_half(drawn)[static_cast<int>(c)] + layers.half(color, i);
+        // A half rounds by 2^-11 of it.
+        EXPECT_NEAR(sum, all, std::ldexp(all, -11)) << i;
+        EXPECT_EQ(is_sky || layers.half(color, i) == 0, true) << i;
+      }
       const passes::Half4 marched{layers.halves("media.R")[i], layers.halves("media.G")[i],
-                                  layers.halves("media.B")[i], layers.halves("transmittance")[i]};
+                                  layers.halves("media.B")[i], layers.halves("transmittance.V")[i]};
       EXPECT_EQ(marched, media[i]) << i;
     }
   }
@@ -142,11 +157,14 @@ TEST_F(FrameLayersTest, AConstantSkyIsItsRadiance) {
   const Layers layers = draw();
   for (std::size_t i = 0; i < layers.halves("R").size(); ++i) {
     EXPECT_EQ(glm::vec4(layers.half("R", i), layers.half("G", i), layers.half("B", i), layers.half("A", i)),
-              glm::vec4(0.25f, 0.5f, 2, 0));
-    EXPECT_EQ(layers.half("transmittance", i), 1);
+              glm::vec4(0));
+    EXPECT_EQ(glm::vec3(layers.half("background.R", i), layers.half("background.G", i),
+                        layers.half("background.B", i)),
+              glm::vec3(0.25f, 0.5f, 2));
+    EXPECT_EQ(layers.half("transmittance.V", i), 1);
     EXPECT_EQ(layers.half("albedo.R", i), 0);
     EXPECT_EQ(layers.floats("Z")[i], std::numeric_limits<float>::infinity());
-    EXPECT_EQ(layers.floats("depth_in")[i], std::numeric_limits<float>::infinity());
+    EXPECT_EQ(layers.floats("depth_in.V")[i], std::numeric_limits<float>::infinity());
   }
 }
 
@@ -166,7 +184,7 @@ TEST_F(FrameLayersTest, SurfacesHaveDistanceAlbedoAndFullAlpha) {
     } else if (along.y > 0) {
       ++sky;
       EXPECT_EQ(layers.floats("Z")[i], std::numeric_limits<float>::infinity());
-      EXPECT_EQ(layers.halves("A")[i], glm::packHalf1x16(1 - layers.half("transmittance", i))) << i;
+      EXPECT_EQ(layers.halves("A")[i], glm::packHalf1x16(1 - layers.half("transmittance.V", i))) << i;
     }
   }
   EXPECT_GT(floor, 50);
@@ -174,7 +192,7 @@ TEST_F(FrameLayersTest, SurfacesHaveDistanceAlbedoAndFullAlpha) {
 }
 
 TEST_F(FrameLayersTest, DecalsHaveTheirOcclusionAsALayer) {
-  EXPECT_FALSE(draw().has("occlusion"));
+  EXPECT_FALSE(draw().has("occlusion.V"));
   grids::DenseGrid grid;
   grid.size = glm::uvec3(1);
   grid.box = {glm::dvec3(-5), glm::dvec3(5)};
@@ -186,15 +204,15 @@ TEST_F(FrameLayersTest, DecalsHaveTheirOcclusionAsALayer) {
   const auto occlusion = read_back<passes::Half4>(*renderer().occlusion());
   int darkened = 0;
   for (std::size_t i = 0; i < occlusion.size(); ++i) {
-    EXPECT_EQ(layers.halves("occlusion")[i], occlusion[i][0]) << i;
-    darkened += layers.half("occlusion", i) == 0.5f;
+    EXPECT_EQ(layers.halves("occlusion.V")[i], occlusion[i][0]) << i;
+    darkened += layers.half("occlusion.V", i) == 0.5f;
   }
   EXPECT_GT(darkened, 20);
   // Behind the camera: a film keeps its layers.
   input_.decals[0].world_from_box = glm::translate(glm::mat4(1), glm::vec3(0, 0, 50));
   const Layers away = draw();
   EXPECT_EQ(renderer().occlusion(), nullptr);
-  EXPECT_EQ(away.halves("occlusion"), Halves(occlusion.size(), 0));
+  EXPECT_EQ(away.halves("occlusion.V"), Halves(occlusion.size(), 0));
 }
 
 TEST_F(FrameLayersTest, TheMediaBeginWhereTheTransmittanceFalls) {
@@ -202,11 +220,11 @@ TEST_F(FrameLayersTest, TheMediaBeginWhereTheTransmittanceFalls) {
   const double step = 0.25;  // a voxel: no step is longer
   const double behind = -std::log(double{shared::kEntryTransmittance}) / double{kExtinction};
   int entered = 0;
-  for (std::size_t i = 0; i < layers.floats("depth_in").size(); ++i) {
+  for (std::size_t i = 0; i < layers.floats("depth_in.V").size(); ++i) {
     const glm::dvec2 inside = inside_cube(i);
-    const double entry{layers.floats("depth_in")[i]};
+    const double entry{layers.floats("depth_in.V")[i]};
     // Half floats round the transmittance.
-    const float transmittance = layers.half("transmittance", i);
+    const float transmittance = layers.half("transmittance.V", i);
     if (std::abs(transmittance - shared::kEntryTransmittance) > 1e-3f) {
       EXPECT_EQ(std::isfinite(entry), transmittance < shared::kEntryTransmittance) << i;
     }
@@ -223,12 +241,13 @@ TEST_F(FrameLayersTest, TheMediaBeginWithTheRayOfATile) {
     renderer().set_march_scale(scale);
     const Layers reduced = draw();
     int entered = 0;
-    for (std::size_t i = 0; i < full.floats("depth_in").size(); ++i) {
+    for (std::size_t i = 0; i < full.floats("depth_in.V").size(); ++i) {
       const glm::uvec2 px(i % kSize.x, i / kSize.x);
       // Tiles well inside of the cube's outline.
       if (px.x < 13 || px.x > 19 || px.y < 7 || px.y > 9) continue;
       ++entered;
-      EXPECT_NEAR(full.floats("depth_in")[i], reduced.floats("depth_in")[i], 0.6f) << scale << " at " << i;
+      EXPECT_NEAR(full.floats("depth_in.V")[i], reduced.floats("depth_in.V")[i], 0.6f)
+          << scale << " at " << i;
     }
     EXPECT_EQ(entered, 21);
   }
@@ -286,12 +305,15 @@ TEST_F(FrameLayersTest, ExposureAndToneCurveGiveTheShownImage) {
     const Layers layers(playback.draw_layers(1.5, 0));
     int smoke = 0;
     for (std::size_t i = 0; i < layers.halves("R").size(); ++i) {
-      const glm::dvec3 radiance(layers.half("R", i), layers.half("G", i), layers.half("B", i));
+      const auto of = [&](const std::string& color) {
+        return double{layers.half(color, i)} + double{layers.half("background." + color, i)};
+      };
+      const glm::dvec3 radiance(of("R"), of("G"), of("B"));
       const glm::dvec3 toned = neutral_tone(radiance * std::exp2(0.5));
       // Half a step for the noise against bands, half for rounding.
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(255 * srgb_of(toned[c]), shown.rgba[4 * i + static_cast<std::size_t>(c)], 1.001) << i;
-      smoke += layers.half("transmittance", i) < 0.5f;
+      smoke += layers.half("transmittance.V", i) < 0.5f;
     }
     EXPECT_GT(smoke, 40) << scale;
   }

@@ -1,5 +1,6 @@
 // Lens and shutter in real time: pictures that follow from geometry.
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <numbers>
 
 #include "render/playback.hpp"

@@ -134,7 +134,7 @@ class TankInLevelTest : public gpu::GpuTest {
     return mean;
   }
 
-  const cli::WorkFolder folder_;
+  const cli::WorkFolder folder_{};
 };
 
 /// How the light that the surface of an opaque ball scatters once is rounded: cells of light at most a voxel
