@@ -70,20 +70,28 @@ Summary replay_summary(const std::filesystem::path& path) {
   return summary;
 }
 
-Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
+bool is_scene_file(const std::filesystem::path& path) {
+  const std::string extension = scene::lower_extension(path);
+  return extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj";
+}
+
+struct Choices {
+  bool check = false, objects = false;
+};
+
+Summary summary_of(const std::filesystem::path& path, const Choices& choices, Outputs& outputs) {
   expect_suffix("", path,
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
                  ".png", ".exr", ".jpg", ".jpeg", ".webp", ".spheres"});
   const std::string extension = scene::lower_extension(path);
-  if (scene::is_tank_scene(path)) return tank_scene_summary(path, check);
-  if (extension == ".toml") return timeline_summary(path, check, outputs);
+  if (scene::is_tank_scene(path)) return tank_scene_summary(path, choices.check);
+  if (extension == ".toml") return timeline_summary(path, choices.check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
   if (spheres::is_tank_file(path)) return tank_summary(path);
   if (grids::is_grid_file(path)) return volume_summary(path, outputs);
   if (extension == ".exr") return layers_summary(path);
-  if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
-    return scene_summary(path, outputs);
+  if (is_scene_file(path)) return scene_summary(path, choices.objects, outputs);
   return image_summary(path);
 }
 
@@ -136,7 +144,7 @@ void add_layout(Summary& summary, const voxel::GridLayout& layout) {
 Command add_info(CommandLine& program) {
   struct Options {
     std::string input, json;
-    bool check = false;
+    Choices choices;
   };
   Command command =
       declare(program, "info", "Summarizes a scene, timeline, voxel, volume, tank, recording or image file.",
@@ -147,18 +155,22 @@ Command add_info(CommandLine& program) {
   auto options = std::make_shared<Options>();
   command.arguments.add_option("FILE", options->input, "The file to summarize").required().type_name("");
   command.arguments.add_flag(
-      "--check", options->check,
+      "--check", options->choices.check,
       "Fail (exit code 3) if a timeline cannot be rendered: its scene, masks, fonts or "
       "doors are missing or invalid; the same of a scene of a tank");
+  command.arguments.add_flag("--objects", options->choices.objects,
+                             "List the names of a scene's objects, by which timelines move them");
   declare_json(command.arguments, options->json, "the summary");
   command.run = [arguments = command.arguments, options, common = command.common] {
     if (scene::lower_extension(options->input) != ".toml")
       arguments.refuse("--check", "is for timelines and scenes of tanks (.toml)");
+    if (!is_scene_file(options->input))
+      arguments.refuse("--objects", "is for scenes (.glb, .gltf, .obj, .txt)");
     common->outputs.reads(std::filesystem::path(options->input));
     if (scenario::is_tank_input(options->input))
       common->outputs.reads(scenario::files_of_tank_input(options->input));
     common->outputs.writes("--json", options->json, FileKind::json);
-    const Summary summary = summary_of(options->input, options->check, common->outputs);
+    const Summary summary = summary_of(options->input, options->choices, common->outputs);
     if (!options->json.empty()) {
       Json info{{"file", options->input}};
       info.update(summary.json());

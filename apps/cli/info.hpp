@@ -43,8 +43,8 @@ void add_camera(Summary& summary, const scene::Camera& camera, bool own);
 void add_layout(Summary& summary, const voxel::GridLayout& layout);
 
 /// A scene file: counts, size, lights, and what `render` shows of it without a timeline: camera, grid and a
-/// place for smoke. Throws Error.
-Summary scene_summary(const std::filesystem::path& path, Outputs& outputs);
+/// place for smoke; with `lists_objects` a line with the name of each object. Throws Error.
+Summary scene_summary(const std::filesystem::path& path, bool lists_objects, Outputs& outputs);
 
 /// A timeline: its events and, if its files exist, grid, doors and what happens to each smoke; otherwise a
 /// warning or, with `check`, an Error (bad_input).

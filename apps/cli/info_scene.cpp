@@ -49,7 +49,7 @@ void add_lights(Summary& summary, const scene::Scene& scene) {
     summary.add_line("", std::to_string(scene.lights.size() - kMostLines) + " more");
 }
 
-void add_counts(Summary& summary, const scene::Scene& scene) {
+void add_counts(Summary& summary, const scene::Scene& scene, bool lists_objects) {
   std::uint64_t triangles = 0, solid = 0;
   for (const scene::Object& object : scene.objects) {
     const std::uint64_t count = scene.meshes[object.mesh].indices.size() / 3;
@@ -57,6 +57,13 @@ void add_counts(Summary& summary, const scene::Scene& scene) {
     if (object.voxelized) solid += count;
   }
   summary.add("objects", scene.objects.size());
+  std::vector<std::string> names;
+  for (const scene::Object& object : scene.objects)
+    if (!object.name.empty() && std::ranges::find(names, object.name) == names.end())
+      names.push_back(object.name);
+  summary.set("object_names", Json(names));
+  for (std::size_t i = 0; i < (lists_objects ? names.size() : 0); ++i)
+    summary.add_line("", printable(names[i]));
   summary.add("grenade", scene.grenade ? "from the file" : "built in");
   summary.add("meshes", scene.meshes.size());
   summary.add("materials", scene.materials.size());
@@ -141,12 +148,12 @@ void add_camera(Summary& summary, const scene::Camera& camera, bool own) {
                   "\"");
 }
 
-Summary scene_summary(const std::filesystem::path& path, Outputs& outputs) {
+Summary scene_summary(const std::filesystem::path& path, bool lists_objects, Outputs& outputs) {
   scene::Scene scene = scene::load_scene(path).value_or_throw();
   outputs.reads(scene.files);
   Summary summary("scene");
   const bool own_camera = scene.camera.has_value();
-  add_counts(summary, scene);
+  add_counts(summary, scene, lists_objects);
   const Box<float> bounds = scene::world_bounds(scene);
   add_lights(summary, scene);
   stop_if_interrupted();

@@ -193,8 +193,10 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   if (grids::is_grid_file(options.input) && options.timeline.empty() && !plan.scene.volume_frame_rate)
     plan.scene.volume_frame_rate = static_cast<float>(plan.rate.per_second());
   plan.scene.camera = plan.camera;
-  // Else it would be before all of the transparency.
-  plan.scene.has_ground = background != image::Background::none;
+  // A ground by default would be before all of the transparency.
+  if (background == image::Background::none && options.timeline.empty() &&
+      !scenario::is_timeline(options.input))
+    plan.scene.has_ground = false;
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);

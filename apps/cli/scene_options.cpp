@@ -92,6 +92,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
   refuse_transfer(options, "is for a volume without a timeline; set it in [[volume]] of the timeline");
   if (options.scale) timeline.scale = *options.scale;
   if (options.sun) timeline.sun = *options.sun;
+  if (!options.has_ground) timeline.ground.reset();
   if (options.voxel) timeline.grid.voxel = *options.voxel;
   if (options.exposure) timeline.exposure = *options.exposure;
   if (options.tone) timeline.tone = *options.tone;
@@ -194,6 +195,13 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
   arguments.add_option("--sun", options.sun, "Azimuth from +z towards +x and elevation of the sun [degrees]")
       .type_name("AZ,EL");
   arguments
+      .add_option("--ground", options.ground,
+                  "Ground to the horizon: auto, below a volume or a scene without a camera, or none; "
+                  "default: auto, of "
+                  "a timeline its own")
+      .one_of({"auto", "none"})
+      .type_name("FORM");
+  arguments
       .add_option("--tone", options.tone,
                   "Tone curve: neutral compresses highlights, standard clips them as Blender does; default: "
                   "the timeline's, "
@@ -226,6 +234,7 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   texts.push_back("throws");
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());
   texts.push_back(options.sun);
+  texts.push_back(options.ground);
   for (const std::string& text :
        {options.tone, options.opacity, options.color_map, options.range, options.density, options.heat})
     texts.push_back(text);
@@ -248,6 +257,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.bounces = options.bounces;
   if (!options.tone.empty())
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
+  parsed.has_ground = options.ground != "none";
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
   if (!options.opacity.empty()) parsed.opacity = parse_opacity(options.opacity);
   if (!options.range.empty()) parsed.range = parse_range(options.range);

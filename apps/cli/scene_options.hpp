@@ -17,7 +17,7 @@ namespace brume::cli {
 struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
-  std::string sun, tone, opacity, color_map, range, density, heat;
+  std::string sun, tone, ground = "auto", opacity, color_map, range, density, heat;
   std::optional<double> kelvin, volume_fps;
   std::optional<std::uint32_t> bounces;
 };

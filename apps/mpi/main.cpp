@@ -98,6 +98,7 @@ struct Subject {
 
 scenario::FirstViewOptions view_of(const Options& options) {
   scenario::FirstViewOptions view;
+  view.has_ground = false;  // there is no level
   if (!options.camera.empty()) view.camera = cli::parse_camera("--camera", options.camera);
   const glm::vec2 size_px(cli::parse_size("--size", options.size));
   view.aspect = size_px.x / size_px.y;

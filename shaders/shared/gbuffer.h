@@ -51,8 +51,9 @@ SHARED_SIZE(DrawConstants, 88);
 /// A draw into a shadow layer.
 struct ShadowDraw {
   mat4 clip_from_mesh;
+  float alpha_cutoff;
 };
-SHARED_SIZE(ShadowDraw, 64);
+SHARED_SIZE(ShadowDraw, 68);
 
 SHARED_END
 #endif

@@ -15,6 +15,39 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+bool is_word_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// Those of at least three letters.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && is_word_letter(text[end])) ++end;
+    if (end - i >= 3) words.push_back(lower(text.substr(i, end - i)));
+    i = end + 1;
+  }
+  return words;
+}
+
+/// The known names that contain most of the words of a name, in order.
+std::vector<std::string> names_of_same_words(std::string_view name, std::span<const std::string> known) {
+  const std::vector<std::string> words = words_of(name);
+  std::size_t most = 1;
+  std::vector<std::string> found;
+  for (const std::string& candidate : known) {
+    const std::string other = lower(candidate);
+    const auto same = static_cast<std::size_t>(std::ranges::count_if(
+        words, [&](const std::string& word) { return other.find(word) != std::string::npos; }));
+    if (same < most) continue;
+    if (same > most) found.clear();
+    most = same;
+    found.push_back(candidate);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -56,13 +89,20 @@ std::optional<std::string> similar_name(std::string_view name, std::span<const s
 }
 
 std::string suggestion(std::string_view name, std::span<const std::string> known, std::string_view quote) {
-  constexpr std::size_t kMostListed = 12;
+  constexpr std::size_t kMostListed = 12, kMostAlike = 6;
   const auto quoted = [&](const std::string& text) { return std::string(quote) + text + std::string(quote); };
   if (const auto similar = similar_name(name, known)) return "; did you mean " + quoted(*similar) + "?";
-  if (known.empty() || known.size() > kMostListed) return "";
-  std::string list;
-  for (const std::string& candidate : known) list += (list.empty() ? "" : ", ") + quoted(candidate);
-  return "; expected " + std::string(known.size() > 1 ? "one of " : "") + list;
+  const auto listed = [&](std::span<const std::string> names) {
+    std::string list;
+    for (const std::string& one : names) list += (list.empty() ? "" : ", ") + quoted(one);
+    return (names.size() > 1 ? "one of " : "") + list;
+  };
+  if (known.empty()) return "";
+  if (known.size() <= kMostListed) return "; expected " + listed(known);
+  std::vector<std::string> alike = names_of_same_words(name, known);
+  if (alike.empty()) return "";
+  alike.resize(std::min(alike.size(), kMostAlike));
+  return "; did you mean " + listed(alike) + "?";
 }
 
 }  // namespace brume

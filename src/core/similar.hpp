@@ -19,7 +19,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::optional<std::string> similar_name(std::string_view name, std::span<const std::string> known);
 
 /// What to add to a message about an unknown name: `; did you mean "time"?`, else the known names if there
-/// are no more than twelve, `; expected one of "a", "b"`, else nothing. `quote` surrounds names.
+/// are no more than twelve, `; expected one of "a", "b"`, else at most six that have most of its words in
+/// common, `; did you mean one of "door_leaf", "door_frame"?`, else nothing. `quote` surrounds names.
 std::string suggestion(std::string_view name, std::span<const std::string> known, std::string_view quote);
 
 }  // namespace brume

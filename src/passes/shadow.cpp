@@ -62,7 +62,9 @@ std::uint32_t shadow_size(std::uint32_t layers) {
 }
 
 ShadowPass::ShadowPass(gpu::Context& context)
-    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}) {}
+    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}),
+      cut_pipeline_(context, {&shaders::shadow_cut_vert, &shaders::shadow_cut_frag, {}, kFormat, 2.0f, 0}),
+      sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1}) {}
 
 ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& scene) const {
   ShadowMaps maps;
@@ -126,15 +128,33 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream,
   // One submission a layer: its view lives until the device is done with it.
   const gpu::LayerView view(context, maps.layers, layer);
   stream.run([&](gpu::Recorder& recorder) {
+    const auto material_of = [&](const Draw& draw) -> const MaterialImages& {
+      return scene.materials[draw.material];
+    };
+    const auto draw_one = [&](const gpu::GraphicsPipeline& pipeline, const Draw& draw) {
+      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh,
+                                         material_of(draw).constants.alpha_cutoff};
+      recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
+      recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+    };
+    std::vector<const Draw*> cut;
+    for (const Draw& draw : scene.draws)
+      if (material_of(draw).constants.alpha_cutoff > 0 && draws(draw)) cut.push_back(&draw);
+
     recorder.prepare_for_draws({gpu::read(scene.vertices)});
+    for (const Draw* const draw : cut)
+      recorder.prepare_for_draws({gpu::sampled(scene.images[material_of(*draw).base_color], sampler_)});
     recorder.prepare_indices(scene.indices);
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
     recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
-    for (const Draw& draw : scene.draws) {
-      if (!draws(draw)) continue;
-      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh};
-      recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
-      recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+    for (const Draw& draw : scene.draws)
+      if (material_of(draw).constants.alpha_cutoff <= 0 && draws(draw)) draw_one(pipeline_, draw);
+    for (const Draw* const draw : cut) {
+      recorder.bind_for_draws(
+          cut_pipeline_,
+          {{shared::kBindVertices, gpu::read(scene.vertices)},
+           {shared::kBindBaseColorMap, gpu::sampled(scene.images[material_of(*draw).base_color], sampler_)}});
+      draw_one(cut_pipeline_, *draw);
     }
     recorder.end_rendering();
   });

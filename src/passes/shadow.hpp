@@ -37,7 +37,8 @@ class ShadowPass {
   void record_layer(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                     const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
                     const Sees& draws) const;
-  gpu::GraphicsPipeline pipeline_;
+  gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< Of what no texture cuts out, and of the rest.
+  gpu::Sampler sampler_;
 };
 
 }  // namespace brume::passes

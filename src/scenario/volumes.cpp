@@ -89,8 +89,7 @@ std::vector<std::int64_t> measured_numbers(const std::map<std::int64_t, fs::path
     chosen.push_back(all[count > 1 ? i * (all.size() - 1) / (count - 1) : 0]);
   chosen.push_back(largest);
   std::ranges::sort(chosen);
-  const auto twice = std::ranges::unique(chosen);
-  chosen.erase(twice.begin(), twice.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
 

@@ -208,7 +208,11 @@ TEST(SimilarName, IsOfferedOnlyWhenNear) {
   EXPECT_EQ(similar_name("x", keys), std::nullopt);
   EXPECT_EQ(suggestion("tim", keys, "'"), "; did you mean 'time'?");
   EXPECT_EQ(suggestion("radius", std::vector<std::string>{"a", "b"}, ""), "; expected one of a, b");
-  EXPECT_EQ(suggestion("radius", std::vector<std::string>(13, "abcdefgh"), ""), "");
+  std::vector<std::string> many(13, "abcdefgh");
+  EXPECT_EQ(suggestion("radius", many, ""), "");
+  for (const char* name : {"door_leaf", "Frame_front_door", "frontage"}) many.push_back(name);
+  EXPECT_EQ(suggestion("front door", many, "'"), "; did you mean 'Frame_front_door'?") << "both words";
+  EXPECT_EQ(suggestion("the door", many, "'"), "; did you mean one of 'door_leaf', 'Frame_front_door'?");
 }
 
 TEST(Utf8, MatchesTheStandard) {

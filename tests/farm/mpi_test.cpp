@@ -25,14 +25,16 @@ class Mpi : public testing::Test {
 };
 
 TEST_F(Mpi, ProcessesMakeThePictureOfOne) {
-  const Outcome whole =
-      run_brume(folder_.path(), {"render", "cloud.brv", "-o", "whole.png", "--size", "64x48"});
+  const Outcome whole = run_brume(
+      folder_.path(), {"render", "cloud.brv", "-o", "whole.png", "--size", "64x48", "--ground", "none"});
   ASSERT_EQ(whole.exit_code, 0) << whole.error;
   const Outcome parts =
       run("3", {"render", "cloud.brv", "-o", "parts.png", "--size", "64x48", "--json", "facts.json"});
   ASSERT_EQ(parts.exit_code, 0) << parts.error;
   const Outcome diff = run_brume(folder_.path(), {"diff", "whole.png", "parts.png", "--json", "-"});
-  EXPECT_LE(nlohmann::json::parse(diff.out)["max"].get<double>(), 1.0) << "of 255";
+  // Optical depths of the parts are halves: three of a depth of 12 add an error of up to 3 * 2^-11 * 12 to
+  // it, 1.8 % of the light behind it, which is 2 of 255 where the display is steep.
+  EXPECT_LE(nlohmann::json::parse(diff.out)["max"].get<double>(), 2.0) << "of 255";
 
   // Each holds about a third of the bricks.
   const auto processes = nlohmann::json::parse(text_of(folder_, "facts.json"))["processes"];
@@ -47,22 +49,23 @@ TEST_F(Mpi, ProcessesMakeThePictureOfOne) {
   EXPECT_LT(most, sum / 2);
 }
 
-// Opaque within a voxel, which no parts can show together.
+// A volume that is out of view, of which parts have nothing to show.
 TEST_F(Mpi, OneProcessRendersWhateverRenderDoes) {
-  const Outcome made =
-      run_brume(folder_.path(), {"bake", "sphere", "--edge", "12", "--binary", "-o", "dense.brv"});
+  const Outcome made = run_brume(folder_.path(), {"bake", "sphere", "--edge", "12", "-o", "ball.brv"});
   ASSERT_EQ(made.exit_code, 0) << made.error;
-  const std::vector<std::string> more{"--size", "32x24", "--camera", "0.1,0.2,9 0,0,0 50"};
-  std::vector<std::string> render{"render", "dense.brv", "-o", "render.png"};
-  std::vector<std::string> alone{"render", "dense.brv", "-o", "alone.png"};
+  const std::vector<std::string> more{"--size", "32x24", "--camera", "0.1,0.2,9 0,0,99 50"};
+  std::vector<std::string> render{"render", "ball.brv", "-o", "render.png", "--ground", "none"};
+  std::vector<std::string> alone{"render", "ball.brv", "-o", "alone.png"};
   for (auto* words : {&render, &alone}) words->insert(words->end(), more.begin(), more.end());
   ASSERT_EQ(run_brume(folder_.path(), render).exit_code, 0);
   const Outcome one = run("1", alone);
   ASSERT_EQ(one.exit_code, 0) << one.error;
   EXPECT_TRUE(text_of(folder_, "render.png") == text_of(folder_, "alone.png"));
-  const Outcome two = run("2", {"render", "dense.brv", "-o", "two.png", "--size", "32x24"});
+  std::vector<std::string> parts{"render", "ball.brv", "-o", "two.png"};
+  parts.insert(parts.end(), more.begin(), more.end());
+  const Outcome two = run("2", parts);
   EXPECT_EQ(two.exit_code, 3) << two.error;
-  EXPECT_NE(two.error.find("brume: dense.brv: "), std::string::npos) << two.error;
+  EXPECT_NE(two.error.find("brume: ball.brv: "), std::string::npos) << two.error;
   EXPECT_EQ(two.error.find("MPI_ABORT"), std::string::npos) << two.error;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "two.png"));
 }
