@@ -23,6 +23,6 @@ namespace brume::scenario {
 /// `extent` is.
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
                                     const VolumeExtent& extent, const FirstViewOptions& options);
-constexpr double kViewDepth = 12;
+constexpr double kViewDepth = 15;
 
 }  // namespace brume::scenario
