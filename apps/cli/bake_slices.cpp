@@ -190,11 +190,11 @@ grids::GridBox volume_box(const SliceOptions& options, const std::vector<const g
 
 /// What all frames of a sequence have in common, so that nothing jumps from one to the next.
 struct SequenceBake {
-  std::optional<grids::GridBox> box;      ///< Around that of each; empty: each has its own.
+  std::optional<grids::GridBox> box;      ///< Encloses every frame; empty: each frame has its own.
   std::vector<grids::AtlasRange> ranges;  ///< Of each channel.
 };
 
-/// Of the values of a grid, 0 beside them.
+/// The range of all finite values of a grid, widened to contain [0, 1].
 grids::AtlasRange range_of_values(const grids::Grid& grid) {
   double low = 0, high = 1;
   const auto add = [&](const std::byte* value) {
@@ -218,8 +218,8 @@ bool is_near(const glm::dvec3& a, const glm::dvec3& b) {
 
 /// Around both, in the voxels of the first; nullopt: their axes or voxels differ.
 std::optional<grids::GridBox> united_boxes(const grids::GridBox& a, const grids::GridBox& b) {
-  const auto voxel_of = [](const grids::GridBox& of) {
-    return (of.box.high - of.box.low) / glm::dvec3(of.size);
+  const auto voxel_of = [](const grids::GridBox& one) {
+    return (one.box.high - one.box.low) / glm::dvec3(one.size);
   };
   if (a.world_from_box != b.world_from_box || !is_near(voxel_of(a), voxel_of(b))) return std::nullopt;
   grids::GridBox all = a;
@@ -228,7 +228,7 @@ std::optional<grids::GridBox> united_boxes(const grids::GridBox& a, const grids:
   return all;
 }
 
-/// What is to be baked of one frame; nullopt: it cannot be read, which it will say when its turn comes.
+/// The grids of one frame; nullopt if it cannot be read, which is reported when that frame is baked.
 std::optional<grids::GridFile> readable_frame(const std::filesystem::path& file) {
   try {
     Outputs ignored;
@@ -298,7 +298,7 @@ Baked bake_volume(const SliceOptions& options, const SequenceBake* sequence, Out
   return baked;
 }
 
-/// `sequence`: null for a file that is none.
+/// `sequence`: null for a single file.
 void bake_slices(const SliceOptions& options, const SequenceBake* sequence, Outputs& outputs) {
   const Stopwatch watch;
   const bool is_volume = grids::is_grid_file(options.input);

@@ -34,7 +34,7 @@ using Picture = std::variant<image::Image8, image::LayeredImage>;
 
 /// How frames that were drawn as numbers are written.
 struct LayerForm {
-  bool as_layers = false;  ///< As numbers, else as colours with alpha: those of Background::none.
+  bool as_layers = false;  ///< Numbers; otherwise colours with alpha, as Background::none leaves them.
   image::Background background = image::Background::layer;
 };
 Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display);

@@ -45,7 +45,7 @@ struct UnitJob {
   FileKind kind = FileKind::json;        ///< Of the output.
   std::vector<std::string> device = {};  ///< Names of what computes it.
   std::vector<FileBeside> beside = {};
-  bool holds_missing = false;  ///< A number without a file takes that of the one before, or the first.
+  bool holds_missing = false;  ///< A missing input is replaced by the one before it, or by the first.
   std::vector<std::string> depends_on = {};  ///< What else each output was made from.
 };
 struct Unit {
