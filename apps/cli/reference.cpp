@@ -189,9 +189,8 @@ Picture ReferenceFrames::draw(double seconds) {
   error_ = std::max(error_, render.error());
   seconds_ += watch.seconds();
   cpu_seconds_ += watch.cpu_seconds();
-  if (settings_.layers)
-    return picture_of(render.layers(), *settings_.layers,
-                      {frame.view.exposure, static_cast<std::uint32_t>(frame.view.tone)});
+  display_ = {frame.view.exposure, static_cast<std::uint32_t>(frame.view.tone)};
+  if (settings_.layers) return picture_of(render.layers(), *settings_.layers, display_);
   return reference::picture_of(render, settings_.size_px, frame.view);
 }
 

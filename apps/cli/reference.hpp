@@ -55,6 +55,8 @@ class ReferenceFrames {
   /// Renders the frame at a time [s] until the limits of the options, with progress. Saves and continues the
   /// checkpoint. Throws Error and Interrupted.
   Picture draw(double seconds);
+  /// How the last frame became colours, or would.
+  const image::Display& display() const { return display_; }
   /// Of all frames so far.
   Json statistics() const;
 
@@ -71,6 +73,7 @@ class ReferenceFrames {
   FrameSettings settings_;
   planning::FrameOptions frame_options_{.particles = false};
   std::optional<float> exposure_;  ///< Measured; a factor.
+  image::Display display_;
   std::uint32_t frames_ = 0;
   double samples_ = 0, error_ = 0, seconds_ = 0, cpu_seconds_ = 0;
 };

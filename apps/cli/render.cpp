@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/flipbook.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/orbit.hpp"
 #include "apps/cli/render_options.hpp"
@@ -79,6 +82,14 @@ Film film_of(const Loaded& loaded, std::vector<std::string> device) {
   return {duration_of(loaded), scenario::files_of(loaded.scenario), std::move(device)};
 }
 
+// Whether frames at different times differ, but for the camera.
+bool plays(const scenario::Scenario& scenario) {
+  const scene::Timeline& timeline = scenario.timeline;
+  for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
+    if (scenario.volumes->is_sequence(i)) return true;
+  return !timeline.smokes.empty() || !timeline.carriers.empty();
+}
+
 void simulate(const RenderOptions& options, const Plan& plan, Loaded& loaded) {
   loaded.simulation = scenario::Simulation::create(loaded.scenario).value_or_throw();
   check_raycast(options, loaded.scenario);
@@ -112,28 +123,42 @@ void set_shutter(const RenderOptions& options, Plan& plan, scenario::Scenario& s
   for (scene::CameraKey& key : scenario.timeline.camera) key.camera.shutter = seconds;
 }
 
-Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
-  simulate(options, plan, loaded);
-  common.grace_seconds = kReferenceGrace;
-  const double time = picture_time(options, duration_of(loaded));
-  RenderOptions without_limits = options;
-  without_limits.reference = {};  // A checkpoint knows the limits itself.
-  without_limits.reference.matte = options.reference.matte;
-  without_limits.samples.reset();
-  const std::vector<std::string> device{"reference", exact_text(time)};
-  ReferenceFrames frames(
-      loaded.scenario, std::move(loaded.simulation), options.reference,
-      {plan.renderer.size_px, options.samples, plan.layers,
-       checkpoint_key(sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}))});
-  frames.set_camera(camera_before(plan, loaded));
-  write(options, plan, common, film_of(loaded, {"reference"}), [&](double seconds, std::uint32_t i) {
-    if (loaded.orbit) frames.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
-    return frames.draw(seconds);
-  });
-  Json statistics{{"mode", options.mode}};
-  statistics.update(frames.statistics());
-  return statistics;
-}
+/// Those of the path tracer.
+class TracedFrames final : public FrameSource {
+ public:
+  TracedFrames(const RenderOptions& options, const Plan& plan, Loaded& loaded)
+      : plan_(plan),
+        orbit_(loaded.orbit),
+        frames_(loaded.scenario, std::move(loaded.simulation), options.reference,
+                {plan.renderer.size_px, options.samples, plan.layers, key_of(options, loaded)}) {
+    frames_.set_camera(camera_before(plan, loaded));
+  }
+  Picture draw(double seconds, std::uint32_t frame) override {
+    if (orbit_) frames_.set_camera(orbiting(plan_, *orbit_, seconds, frame));
+    return frames_.draw(seconds);
+  }
+  void set_camera(const scene::Camera& camera) override {
+    frames_.set_camera([camera](double) { return camera; });
+  }
+  image::Display display() const override { return frames_.display(); }
+  Json statistics() const override { return frames_.statistics(); }
+
+ private:
+  // Of what a checkpoint depends on; it knows its limits itself.
+  static std::uint64_t key_of(const RenderOptions& options, const Loaded& loaded) {
+    RenderOptions without_limits = options;
+    without_limits.reference = {};
+    without_limits.reference.matte = options.reference.matte;
+    without_limits.samples.reset();
+    const std::vector<std::string> device{"reference",
+                                          exact_text(picture_time(options, duration_of(loaded)))};
+    return checkpoint_key(sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {}));
+  }
+
+  const Plan& plan_;
+  const std::optional<Orbit>& orbit_;
+  ReferenceFrames frames_;
+};
 
 // Frames that depend on those before are single samples.
 void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario::Scenario& scenario) {
@@ -152,33 +177,92 @@ void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario
                 ": shows neither the aperture nor the shutter of the camera; all is sharp");
 }
 
+/// Those of a device.
+class DeviceFrames final : public FrameSource {
+ public:
+  DeviceFrames(gpu::Context& context, const RenderOptions& options, const Plan& plan, Loaded& loaded)
+      : plan_(plan),
+        orbit_(loaded.orbit),
+        playback_(context, loaded.scenario, plan.renderer, std::move(loaded.simulation)) {
+    playback_.set_camera(camera_before(plan, loaded));
+    playback_.set_samples(frames_depend(options) ? 1 : options.samples);
+    if (loaded.scenario.measure_exposure) playback_.measure_exposure();
+    playback_.set_step_scale(options.step);
+    playback_.set_light_update_fraction(options.light_update_fraction);
+    playback_.set_resolve_error_scale(options.resolve_error_scale);
+    playback_.set_view(plan.view, plan.slice);
+  }
+  Picture draw(double seconds, std::uint32_t frame) override {
+    if (orbit_) playback_.set_camera(orbiting(plan_, *orbit_, seconds, frame));
+    return timed_.draw(seconds, frame, plan_.layers ? &*plan_.layers : nullptr);
+  }
+  void set_camera(const scene::Camera& camera) override { playback_.set_camera(camera); }
+  image::Display display() const override { return playback_.display(); }
+  Json statistics() const override { return timed_.statistics(); }
+
+ private:
+  const Plan& plan_;
+  const std::optional<Orbit>& orbit_;
+  render::Playback playback_;
+  TimedPlayback timed_{playback_};
+};
+
+/// Draws and writes frames that `make` makes, as the plan says; returns their statistics.
+Json write_frames(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded,
+                  std::vector<std::string> device,
+                  const std::function<std::unique_ptr<FrameSource>()>& make) {
+  if (!plan.flipbook) {
+    const auto frames = make();
+    write(options, plan, common, film_of(loaded, std::move(device)),
+          [&](double seconds, std::uint32_t i) { return frames->draw(seconds, i); });
+    return frames->statistics();
+  }
+  scenario::Scenario& scenario = loaded.scenario;
+  const FrameRange range = frames_of(plan, duration_of(loaded));
+  const planning::CameraAt still = camera_before(plan, loaded);
+  const double begin = plan.rate.time_of(range.first);
+  const bool is_sequence =
+      scenario.timeline.smokes.empty() && scenario.timeline.carriers.empty() && !loaded.orbit;
+  // What no one has chosen may be chosen better.
+  const bool fits_camera =
+      scenario.camera_is_fitted && scenario.timeline.camera.empty() && !plan.camera && !loaded.orbit;
+  return write_flipbook({*plan.flipbook, range, plan.rate,
+                         still ? still(begin) : scene::camera_at(scenario.timeline, scenario.camera, begin),
+                         is_sequence, fits_camera, [&](const FlipbookLight& light) {
+                           set_light(light, scenario);
+                           if (!loaded.simulation)
+                             loaded.simulation = scenario::Simulation::create(scenario).value_or_throw();
+                           return make();
+                         }});
+}
+
+Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
+  simulate(options, plan, loaded);
+  common.grace_seconds = kReferenceGrace;
+  Json statistics{{"mode", options.mode}};
+  statistics.update(
+      write_frames(options, plan, common, loaded, {"reference"}, [&]() -> std::unique_ptr<FrameSource> {
+        return std::make_unique<TracedFrames>(options, plan, loaded);
+      }));
+  return statistics;
+}
+
 Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   gpu::Context context({options.device, false});
   if (loaded.scenario.volumes)
     loaded.scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
         .value_or_throw();
   simulate(options, plan, loaded);
-  render::Playback playback(context, loaded.scenario, plan.renderer, std::move(loaded.simulation));
-  playback.set_camera(camera_before(plan, loaded));
-  playback.set_samples(frames_depend(options) ? 1 : options.samples);
-  if (loaded.scenario.measure_exposure) playback.measure_exposure();
-  playback.set_step_scale(options.step);
-  playback.set_light_update_fraction(options.light_update_fraction);
-  playback.set_resolve_error_scale(options.resolve_error_scale);
-  playback.set_view(plan.view, plan.slice);
   warn_of_lens(options, plan, loaded.scenario);
-  TimedPlayback renderer(playback);
-  write(options, plan, common, film_of(loaded, {context.info().name, context.info().driver}),
-        [&](double seconds, std::uint32_t i) {
-          if (loaded.orbit) playback.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
-          return renderer.draw(seconds, i, plan.layers ? &*plan.layers : nullptr);
-        });
   Json statistics{{"mode", options.mode},
                   {"march", options.march},
                   {"temporal", options.temporal},
                   {"device", context.info().name},
                   {"driver", context.info().driver}};
-  statistics.update(renderer.statistics());
+  statistics.update(write_frames(options, plan, common, loaded, {context.info().name, context.info().driver},
+                                 [&]() -> std::unique_ptr<FrameSource> {
+                                   return std::make_unique<DeviceFrames>(context, options, plan, loaded);
+                                 }));
   return statistics;
 }
 
@@ -194,6 +278,9 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, Json::list({})};
   set_shutter(options, plan, loaded.scenario);
+  // A turn around what stands still has a frame for each tile.
+  if (plan.flipbook && options.orbit && !plan.frames && !plays(loaded.scenario))
+    plan.frames = FrameRange{0, plan.flipbook->layout.tiles() - 1};
   if (plan.kind == TargetKind::sequence && !plan.frames)
     declare_frames(options, plan, frames_of(plan, duration_of(loaded)), common.outputs);
   common.outputs.reads(scenario::files_of(loaded.scenario));
@@ -222,6 +309,7 @@ Command add_render(CommandLine& program) {
       "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
       "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
       "  brume render cloud.vdb -o turntable.mp4 --orbit 360 --frames 0-239\n"
+      "  brume render smoke_%04d.vdb -o sheet.png --flipbook 8x8 --flipbook-maps six-way,motion\n"
       "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
       "  brume render scenes/demo.toml -o truth.png --time 2.5 --mode reference --samples 8 --size 320x180\n"
       "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");

@@ -17,6 +17,7 @@ void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outp
   outputs.writes("--json", options.json, FileKind::json);
   outputs.writes("--checkpoint", options.reference.checkpoint, FileKind::checkpoint);
   const FileKind kind = target_file_kind(options.output);
+  if (plan.flipbook) return declare_flipbook_files(*plan.flipbook, outputs);
   if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(options.output), kind);
   // Without --frames the timeline decides how many there are.
   if (plan.kind == TargetKind::sequence && plan.frames) declare_frames(options, plan, *plan.frames, outputs);
@@ -57,10 +58,17 @@ image::Background parse_background(const RenderOptions& options, const Plan& pla
 // Refuses options that would do nothing.
 void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
   refuse_other_mode(arguments, options, plan);
-  if (plan.kind == TargetKind::picture) {
-    const char* const needs = "requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
-    for (const char* option : {"--frames", "--fps", "--temporal", "--light-update-fraction", "--orbit"})
-      arguments.refuse(option, needs);
+  if (plan.flipbook) {
+    for (const char* option : {"--time", "--temporal", "--light-update-fraction", "--view", "--checkpoint"})
+      arguments.refuse(option, "is not for --flipbook");
+    if (is_lit_by_sides(*plan.flipbook))
+      arguments.refuse("--orbit",
+                       "turns the camera under the light of six-way and normals; leave those maps out");
+  } else if (plan.kind == TargetKind::picture) {
+    const std::string needs = "requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
+    for (const char* option : {"--frames", "--fps", "--orbit"})
+      arguments.refuse(option, needs + ", or --flipbook");
+    for (const char* option : {"--temporal", "--light-update-fraction"}) arguments.refuse(option, needs);
   } else {
     arguments.refuse("--time", "is for a single image; use --frames");
   }
@@ -180,9 +188,20 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.smoke.temporal = plan.renderer.antialias = options.temporal;
   plan.has_layers = target_file_kind(options.output) == FileKind::exr;
-  const image::Background background = parse_background(options, plan);
+  if (!options.flipbook.grid.empty()) {
+    const glm::uvec2 tile_px = arguments.given("--size") ? plan.renderer.size_px : glm::uvec2(256);
+    plan.flipbook = parse_flipbook(options.flipbook, tile_px, options.output);
+    plan.renderer.size_px = plan.flipbook->layout.picture_px();
+    arguments.refuse("--background", "is none in a flipbook");
+  } else {
+    for (const char* option :
+         {"--flipbook-maps", "--flipbook-alpha", "--flipbook-gutter", "--flipbook-preset"})
+      arguments.refuse(option, "requires --flipbook");
+  }
+  const image::Background background =
+      plan.flipbook ? image::Background::none : parse_background(options, plan);
   if (plan.has_layers || background == image::Background::none)
-    plan.layers = LayerForm{plan.has_layers, background};
+    plan.layers = LayerForm{plan.has_layers || plan.flipbook, background};
   plan.renderer.smoke.record_entries = plan.layers.has_value();
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);
@@ -242,6 +261,7 @@ void declare_render(const Arguments& arguments, RenderOptions& options) {
                   "realtime: on a GPU; reference: path-traced on the CPU, without approximations")
       .one_of({"realtime", "reference"})
       .type_name("MODE");
+  declare_flipbook(arguments, options.flipbook);
   declare_camera(arguments, options);
   declare_reference(arguments, options.reference);
   declare_quality(arguments, options);

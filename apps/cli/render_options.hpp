@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/flipbook_options.hpp"
 #include "apps/cli/outputs.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/reference.hpp"
@@ -23,6 +24,7 @@ struct RenderOptions {
                                                shard, background;
   SceneOptions scene;
   ReferenceOptions reference;
+  FlipbookOptions flipbook;
   std::optional<double> time, orbit, shutter;
   std::optional<std::uint32_t> samples;
   bool temporal = false, resume = false;
@@ -44,6 +46,7 @@ struct Plan {
   bool has_layers = false;  ///< Whether frames are written as numbers.
   /// Of frames that are drawn as numbers, to be written or for their alpha; empty: none is.
   std::optional<LayerForm> layers;
+  std::optional<FlipbookPlan> flipbook;  ///< Instead of a picture: of all frames.
 };
 
 void declare_render(const Arguments& arguments, RenderOptions& options);

@@ -14,8 +14,8 @@
 namespace brume::cli {
 
 FrameRange frames_of(const Plan& plan, double duration) {
-  // A duration of a whole number of frames must not become one more by rounding.
-  constexpr double kRounding = 1e-6;
+  // A duration of a whole number of frames must not become one more by rounding, which is that of a float.
+  constexpr double kRounding = 1e-3;
   const double frames = duration * plan.rate.per_second();
   const auto all = static_cast<std::uint32_t>(std::ceil(frames - kRounding));
   return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
@@ -54,7 +54,7 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
                      const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice,
-               fps, raycast, mode, shard, background, scene_options, reference, time, orbit, shutter, samples,
+               fps, raycast, mode, shard, background, scene_options, reference, flipbook, time, orbit, shutter, samples,
                temporal, resume, step, light_update_fraction, resolve_error_scale, volume_memory] = options;
   files.push_back(timeline);
   if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.

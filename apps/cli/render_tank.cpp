@@ -19,6 +19,7 @@ namespace {
 void refuse_options_of_levels(const Arguments& arguments) {
   for (const char* option : {"--timeline",
                              "--background",
+                             "--flipbook",
                              "--march",
                              "--raycast",
                              "--temporal",

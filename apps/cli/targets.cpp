@@ -117,7 +117,7 @@ bool is_numbered(const std::string& option, const std::filesystem::path& path) {
 Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display) {
   image::set_background(layers, form.background);
   if (form.as_layers) return layers;
-  return image::colors_of(layers, display);
+  return image::colors_of(image::displayed_straight(image::texels_of(layers), display));
 }
 
 TargetKind target_kind(const std::filesystem::path& path) {

@@ -13,6 +13,7 @@
 #include "apps/cli/unit_key.hpp"
 #include "image/background.hpp"
 #include "image/image.hpp"
+#include "image/texels.hpp"
 
 namespace brume::cli {
 

@@ -76,6 +76,8 @@ Result<Description> read_description(const fs::path& path) {
   const auto json = read_json_object(path);
   if (!json) return json.failure();
   if (!json->contains("format")) return bad(path, "describes no volume: \"format\" is missing");
+  if (const Json& format = json->at("format"); format.is_string() && format != kFormat)
+    return bad(path, "describes no volume, but a file of the format " + format.dump());
   Description description;
   for (const auto& [key, value] : json->items())
     if (!set_member(description, key, value))

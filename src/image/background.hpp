@@ -16,13 +16,4 @@ enum class Background {
 /// background.
 void set_background(LayeredImage& image, Background background);
 
-/// How radiance becomes colour.
-struct Display {
-  float exposure = 1;      ///< A factor.
-  std::uint32_t tone = 0;  ///< shared::kToneNeutral or kToneStandard.
-};
-/// The colours of a picture that is Background::none, and its alpha, by which they are not multiplied
-/// (PNG 2003, 13.16); 0 where it is transparent.
-Image8 colors_of(const LayeredImage& image, const Display& display);
-
 }  // namespace brume::image

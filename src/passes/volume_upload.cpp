@@ -190,10 +190,13 @@ void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const plannin
     const std::vector<std::uint64_t> row = colors_of(volumes[volume.index].heat);
     colors.insert(colors.end(), row.begin(), row.end());
   }
-  const auto rows = static_cast<std::uint32_t>(visible.size());
+  if (visible.empty()) return;
+  // A filter reads the row after the last one, too, with a weight of 0: it must hold numbers.
+  const std::uint32_t rows = std::min(static_cast<std::uint32_t>(visible.size()) + 1, shared::kMaxVolumes);
+  colors.resize(std::size_t{rows} * shared::kVolumeColors);
   const gpu::Recorder::Region used{
       std::as_bytes(std::span(colors)), glm::ivec3(0), {shared::kVolumeColors, rows, 1}};
-  if (rows > 0) recorder.upload(colors_, {&used, 1});
+  recorder.upload(colors_, {&used, 1});
 }
 
 void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,

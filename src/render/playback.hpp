@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "image/background.hpp"
 #include "image/image.hpp"
+#include "image/texels.hpp"
 #include "planning/scenario_frame.hpp"
 #include "render/frame_layers.hpp"
 #include "render/renderer.hpp"

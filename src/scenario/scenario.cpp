@@ -90,6 +90,8 @@ Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewO
   (*volumes)->measure_sequence(0);
   scene::Timeline timeline =
       prepare_volume_view(file, (*volumes)->typical_frame(0), (*volumes)->extent(0), options);
+  if ((*volumes)->is_sequence(0))
+    timeline.duration = static_cast<float>((*volumes)->length(0)) / timeline.volumes.front().frame_rate;
   place_volumes(timeline, **volumes, scene);
   apply_level_options(timeline, scene);
   auto scenario = assemble(std::move(timeline), std::move(scene), std::move(*volumes), options.aspect, {});

@@ -308,6 +308,11 @@ void Volumes::make_previews() {
   start_loader();
 }
 
+std::int64_t Volumes::length(std::size_t volume) const {
+  const auto& files = sequences_[volume].files;
+  return files.rbegin()->first - files.begin()->first + 1;
+}
+
 void Volumes::measure_sequence(std::size_t volume) {
   Sequence& sequence = sequences_[volume];
   sequence.extent = extent_of(*sequence.typical.frame);

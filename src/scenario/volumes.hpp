@@ -75,6 +75,9 @@ class Volumes {
   /// in which there is something to see, and after measure_sequence the deepest of those that it looked at.
   const VolumeFrame& typical_frame(std::size_t volume) const { return *sequences_[volume].typical.frame; }
   bool is_sequence(std::size_t volume) const { return sequences_[volume].files.size() > 1; }
+  /// Frames of a sequence, those that are missing between its first and its last included; 1 of a single
+  /// file.
+  std::int64_t length(std::size_t volume) const;
   /// Loads up to a dozen frames of a sequence, for its extent and its typical frame.
   void measure_sequence(std::size_t volume);
   /// Of the frames that were measured; else of the typical one.

@@ -142,8 +142,8 @@ TEST_F(CommandLineTest, OptionsThatWouldDoNothingAreRefused) {
     return refusal(more);
   };
   const std::string film = " requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
-  EXPECT_EQ(still({"--fps", "24"}), "--fps:" + film);
-  EXPECT_EQ(still({"--frames", "0-1"}), "--frames:" + film);
+  EXPECT_EQ(still({"--fps", "24"}), "--fps:" + film + ", or --flipbook");
+  EXPECT_EQ(still({"--frames", "0-1"}), "--frames:" + film + ", or --flipbook");
   EXPECT_EQ(still({"--temporal"}), "--temporal:" + film);
   EXPECT_EQ(still({"--light-update-fraction", "0.5"}), "--light-update-fraction:" + film);
   EXPECT_EQ(still({"--resolve-error-scale", "2"}), "--resolve-error-scale: requires --march half or quarter");

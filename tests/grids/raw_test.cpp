@@ -86,7 +86,7 @@ TEST_F(Raw, NamesWhatIsWrongInADescription) {
           {"[1]", "not a JSON object"},
           {std::string(100, '['), "not a JSON object"},
           {"{}", "\"format\" is missing"},
-          {R"({"format": "x"})", "\"format\""},
+          {R"({"format": "x"})", "describes no volume, but a file of the format \"x\""},
           {head + R"("raw": "b.raw"})", "\"size\" is missing"},
           {head + R"("size": [2, 2, 2]})", "\"raw\" is missing"},
           {head + R"("raw": "../b.raw", "size": [2, 2, 2]})", "\"raw\""},

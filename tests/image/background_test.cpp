@@ -63,13 +63,5 @@ TEST(Background, APictureWithoutOneStaysAsItIs) {
   EXPECT_EQ(values_of(image, "R"), Values{2});
 }
 
-// "Over" by what the layers say is "over" by the colours, up to their rounding.
-TEST(Background, ColorsAreNotMultipliedByAlpha) {
-  const Image8 image = colors_of(picture(), {2, 1});
-  // 0.25 / 0.5 at an exposure of 2 is 1; 0.125 is 0.25, in sRGB 0.537.
-  const std::vector<std::uint8_t> expected{255, 255, 255, 128, 137, 137, 137, 255, 0, 0, 0, 0};
-  EXPECT_EQ(image.rgba, expected);
-}
-
 }  // namespace
 }  // namespace brume::image
