@@ -10,6 +10,7 @@
 #include "apps/cli/atlas_options.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/volumes.hpp"
+#include "grids/cut_sides.hpp"
 #include "grids/files.hpp"
 #include "grids/metadata.hpp"
 #include "scenario/volume_frame.hpp"
@@ -151,6 +152,26 @@ std::optional<grids::SliceLayout> atlas_layout(const std::filesystem::path& path
   return grids::read_slice_layout(files.front()).value_or_throw();
 }
 
+/// The axis of the world, with its sign, that a side in index space faces most: "+y".
+std::string side_name(const Grid& grid, std::size_t side) {
+  const glm::dvec3 out =
+      (side % 2 == 0 ? -1.0 : 1.0) * glm::dvec3(grid.world_from_index[static_cast<int>(side / 2)]);
+  const glm::dvec3 size = glm::abs(out);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return std::string(out[axis] < 0 ? "-" : "+") + "xyz"[axis];
+}
+
+/// Where a density ends abruptly.
+std::vector<std::string> cut_at(const Grid& grid) {
+  std::vector<std::string> names;
+  const bool has_density = grid.type == ValueType::float32 || grid.type == ValueType::float64;
+  if (!has_density || grid.grid_class == grids::GridClass::level_set) return names;
+  const grids::Sides sides = grids::cut_sides(grid);
+  for (std::size_t side = 0; side < sides.size(); ++side)
+    if (sides[side] >= grids::kCutSide) names.push_back(side_name(grid, side));
+  return names;
+}
+
 Json add_grid(Summary& summary, const Grid& grid) {
   const std::uint64_t active = count_active(grid);
   const Box<double> bounds = active_bounds(grid);
@@ -174,6 +195,10 @@ Json add_grid(Summary& summary, const Grid& grid) {
     summary.add_line("  not finite", std::to_string(values.odd) +
                                          (values.odd == 1 ? " voxel: NaN, infinite or beyond 1e30"
                                                           : " voxels: NaN, infinite or beyond 1e30"));
+  const std::vector<std::string> cut = cut_at(grid);
+  std::string at;
+  for (const std::string& name : cut) at += (at.empty() ? "" : ", ") + name;
+  if (!cut.empty()) summary.add_line("  cut off", at + ": ends abruptly there, as at a wall of its domain");
   // Without the statistics of the file, which the lines above give.
   for (const grids::Metadata& entry : grid.metadata)
     if (entry.name.rfind("file_", 0) != 0)
@@ -197,6 +222,7 @@ Json add_grid(Summary& summary, const Grid& grid) {
             {"min", values.any ? Json(values.low) : Json(nullptr)},
             {"max", values.any ? Json(values.high) : Json(nullptr)},
             {"not_finite", values.odd},
+            {"cut_sides", cut},
             {"histogram", histogram},
             {"memory_bytes", memory_of(grid)}};
   json.set("metadata", metadata_json(grid.metadata));
