@@ -32,16 +32,16 @@ def shape(name, part):
 
 
 def thruster_ring(segments=96, around=64):
-    """A hollow cone: a round-edged wall that leaves the annular slot of the nozzle, widens and thins."""
-    middle = monotone([0, 0.12, 0.5, 1], [0.0148, 0.0146, 0.0190, 0.0256])
-    half = monotone([0, 0.10, 0.35, 0.75, 1], [0.0034, 0.0037, 0.0035, 0.0029, 0.0024])
+    """A hollow cone: a wall that leaves the annular slot of the nozzle, widens, and thins to nothing, so that it fades."""
+    middle = monotone([0, 0.12, 0.5, 1], [0.0148, 0.0146, 0.0168, 0.0180])
+    half = monotone([0, 0.10, 0.28, 0.52, 0.72, 0.88, 1], [0.0034, 0.0037, 0.0024, 0.0009, 0.00022, 0.00003, 0.00001])
     profile = []
     for angle in np.arange(around) / around * TURN:
         c, s = np.cos(angle), np.sin(angle)
         t = 0.5 - 0.5 * np.sign(c) * abs(c) ** 1.35
-        # The ends are round: a half circle of the wall's thickness, as seen in the plane of the axis.
+        # It begins round: a half circle of the wall's thickness, as seen in the plane of the axis.
         z = -0.058 + 0.116 * t
-        end = min(z + 0.058, 0.058 - z)
+        end = z + 0.058
         thick = float(half(t))
         round_off = np.sqrt(max(0.0, 1 - (1 - min(end / (2.4 * thick), 1.0)) ** 2))
         profile.append((float(middle(t)) + np.sign(round(s, 9)) * thick * round_off, z))
