@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
+#include <cstring>
+#include <string_view>
 
 #include "core/file.hpp"
 #include "image/formats.hpp"
@@ -13,6 +16,18 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 3> kJpegSignature{0xff, 0xd8, 0xff};
 constexpr std::array<std::uint8_t, 4> kRiffSignature{'R', 'I', 'F', 'F'}, kWebpForm{'W', 'E', 'B', 'P'};
+
+constexpr std::array<std::uint8_t, 2> kBmpSignature{'B', 'M'};
+constexpr std::string_view kTgaFooter{"TRUEVISION-XFILE.\0", 18};
+
+// Files of the first version have no mark of their own: their name must say what they are.
+bool is_tga(std::span<const std::byte> bytes, std::string name) {
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".tga") || name.ends_with(".tga\"")) return true;
+  return bytes.size() >= kTgaFooter.size() && std::memcmp(bytes.data() + bytes.size() - kTgaFooter.size(),
+                                                          kTgaFooter.data(), kTgaFooter.size()) == 0;
+}
 
 template <std::size_t N>
 bool starts_with(std::span<const std::byte> bytes, const std::array<std::uint8_t, N>& signature) {
@@ -42,7 +57,10 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string&
   if (starts_with(bytes, kRiffSignature) &&
       starts_with(bytes.subspan(std::min<std::size_t>(bytes.size(), 8)), kWebpForm))
     return decode_webp(bytes, name);
-  return Failure{ErrorCode::bad_input, name + ": none of PNG, JPEG and WebP; convert it to one of these"};
+  if (is_tga(bytes, name)) return decode_tga(bytes, name);
+  if (starts_with(bytes, kBmpSignature)) return decode_bmp(bytes, name);
+  return Failure{ErrorCode::bad_input,
+                 name + ": none of PNG, JPEG, WebP, TGA and BMP; convert it to one of these"};
 }
 
 Result<Image8> load_image(const std::filesystem::path& path) {

@@ -41,9 +41,9 @@ class MaskErrors : public testing::Test {
 TEST_F(MaskErrors, InvalidImages) {
   expect_mask_fails("none.png", 3, {"No such file", "check the path"});
   folder_.write("words.png", "not a picture");
-  expect_mask_fails("words.png", 3, {"none of PNG, JPEG and WebP", "convert it"});
+  expect_mask_fails("words.png", 3, {"none of PNG, JPEG, WebP, TGA and BMP", "convert it"});
   folder_.write("empty.png", "");
-  expect_mask_fails("empty.png", 3, {"none of PNG, JPEG and WebP", "convert it"});
+  expect_mask_fails("empty.png", 3, {"none of PNG, JPEG, WebP, TGA and BMP", "convert it"});
   std::filesystem::create_directory(folder_.path() / "folder.png");
   expect_mask_fails("folder.png", 3, {"not a regular file", "check the path"});
   // A truncated file.
