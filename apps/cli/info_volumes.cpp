@@ -165,11 +165,17 @@ std::string side_name(const Grid& grid, std::size_t side) {
 std::vector<std::string> cut_at(const Grid& grid) {
   std::vector<std::string> names;
   const bool has_density = grid.type == ValueType::float32 || grid.type == ValueType::float64;
-  if (!has_density || grid.grid_class == grids::GridClass::level_set) return names;
+  if (!has_density || is_level_set(grid)) return names;
   const grids::Sides sides = grids::cut_sides(grid);
   for (std::size_t side = 0; side < sides.size(); ++side)
     if (sides[side] >= grids::kCutSide) names.push_back(side_name(grid, side));
   return names;
+}
+
+std::string class_text(const Grid& grid) {
+  const std::string name = name_of(grid.grid_class);
+  const bool is_lost = grid.grid_class == grids::GridClass::unknown && is_level_set(grid);
+  return is_lost ? name + " class, taken as a level set by its values" : name;
 }
 
 Json add_grid(Summary& summary, const Grid& grid) {
@@ -179,7 +185,7 @@ Json add_grid(Summary& summary, const Grid& grid) {
 
   // As text.
   summary.add_line("", "");
-  summary.add_line(printable(grid.name), std::string(name_of(grid.type)) + ", " + name_of(grid.grid_class) +
+  summary.add_line(printable(grid.name), std::string(name_of(grid.type)) + ", " + class_text(grid) +
                                              (grid.saved_as_half ? ", saved in half precision" : ""));
   summary.add_line("  active", std::to_string(active) + " voxels; " + std::to_string(grid.bricks.size()) +
                                    " bricks, " + std::to_string(grid.tiles.size()) + " tiles");

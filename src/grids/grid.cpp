@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <tuple>
 
@@ -66,6 +67,31 @@ bool any_above(const Grid& grid, double value) {
   }
   return std::ranges::any_of(grid.tiles,
                              [&](const Tile& tile) { return tile.active && is_above(tile.value.data()); });
+}
+
+bool is_level_set(const Grid& grid) {
+  if (grid.grid_class == GridClass::level_set) return true;
+  if (grid.grid_class != GridClass::unknown) return false;
+  if (grid.type != ValueType::float32 && grid.type != ValueType::float64) return false;
+  const double background = number_of(grid.type, grid.background.data());
+  if (!(background > 0)) return false;
+  // Rounding of halves.
+  const double most = background * (1 + 1e-3);
+  bool inside = false, outside = false;
+  const auto may_be = [&](const std::byte* at) {
+    const double value = number_of(grid.type, at);
+    inside = inside || value < 0;
+    outside = outside || value > 0;
+    return std::abs(value) <= most;
+  };
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
+    const std::byte* values = grid.values_of(i).data();
+    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel)
+      if (grid.bricks[i].is_active(voxel) && !may_be(values + voxel * bytes_of(grid.type))) return false;
+  }
+  for (const Tile& tile : grid.tiles)
+    if (tile.active && !may_be(tile.value.data())) return false;
+  return inside && outside;
 }
 
 Box<double> active_bounds(const Grid& grid) {

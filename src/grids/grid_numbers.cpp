@@ -31,7 +31,7 @@ std::size_t voxel_number(glm::ivec3 v) {
 NumberReader::NumberReader(const Grid& grid)
     : type_(grid.type),
       bytes_(bytes_of(grid.type)),
-      level_set_(grid.grid_class == GridClass::level_set),
+      level_set_(is_level_set(grid)),
       is_plain_(type_ == ValueType::float32 && !level_set_) {
   ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
   find_most(grid);

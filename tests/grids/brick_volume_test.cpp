@@ -156,15 +156,16 @@ TEST(BrickVolume, WhatIsNoNumberIsTheLargestOrNothing) {
   }
 }
 
-TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
+/// A level set whose surface is at x = 3, of voxels of 0.5 and a band of 1.5.
+Grid level_set_of(GridClass grid_class) {
   Grid grid;
-  grid.grid_class = GridClass::level_set;
+  grid.grid_class = grid_class;
   const float outside = 1.5f, inside = -1.5f;
   std::memcpy(grid.background.data(), &outside, sizeof outside);
   grid.world_from_index = glm::scale(glm::dmat4(1), glm::dvec3(0.5));
   Brick& brick = grid.bricks.emplace_back();
   for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
-    const float distance = 0.5f * (static_cast<float>(voxel % 8) - 3);  // [world], the surface at x = 3
+    const float distance = std::clamp(0.5f * (static_cast<float>(voxel % 8) - 3), inside, outside);
     brick.active[voxel / 64] |= std::uint64_t{1} << (voxel % 64);
     const auto* const bytes = reinterpret_cast<const std::byte*>(&distance);
     grid.values.insert(grid.values.end(), bytes, bytes + 4);
@@ -172,11 +173,32 @@ TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
   Tile tile{{-8, 0, 0}, 8, false, {}};
   std::memcpy(tile.value.data(), &inside, sizeof inside);
   grid.tiles = {tile};
-  const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
-  for (int x = -7; x < 8; ++x)
-    EXPECT_NEAR(filtered(*bricks.volume, glm::vec3(x, 4, 4) + 0.5f),
-                std::clamp((3.0f - static_cast<float>(x)) / 3, 0.0f, 1.0f), 1e-3f)
-        << x;
+  return grid;
+}
+
+// Whether or not the file says what it is.
+TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
+  for (const GridClass grid_class : {GridClass::level_set, GridClass::unknown}) {
+    const Grid grid = level_set_of(grid_class);
+    EXPECT_TRUE(is_level_set(grid));
+    const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
+    for (int x = -7; x < 8; ++x)
+      EXPECT_NEAR(filtered(*bricks.volume, glm::vec3(x, 4, 4) + 0.5f),
+                  std::clamp((3.0f - static_cast<float>(x)) / 3, 0.0f, 1.0f), 1e-3f)
+          << x;
+  }
+}
+
+TEST(BrickVolume, WhatMayBeDensityIsNoLevelSet) {
+  EXPECT_FALSE(is_level_set(level_set_of(GridClass::fog_volume)));
+  Grid beyond = level_set_of(GridClass::unknown);
+  const float far = 2;
+  std::memcpy(beyond.values.data(), &far, sizeof far);
+  EXPECT_FALSE(is_level_set(beyond));
+  Grid without = level_set_of(GridClass::unknown);
+  without.background = {};
+  EXPECT_FALSE(is_level_set(without));
+  EXPECT_FALSE(is_level_set(Grid{}));
 }
 
 TEST(BrickVolume, StoresTheNearestHalves) {
