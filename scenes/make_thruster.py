@@ -32,7 +32,7 @@ def shape(name, part):
 
 
 def thruster_ring(segments=96, around=64):
-    """A hollow cone: a wall that leaves the annular slot of the nozzle, widens, and thins to nothing, so that it fades."""
+    """A hollow cone: a wall that leaves the annular slot of the nozzle, widens, and thins until it fades."""
     middle = monotone([0, 0.12, 0.5, 1], [0.0148, 0.0146, 0.0168, 0.0180])
     half = monotone([0, 0.10, 0.28, 0.52, 0.72, 0.88, 1], [0.0034, 0.0037, 0.0024, 0.0009, 0.00022, 0.00003, 0.00001])
     profile = []
