@@ -16,7 +16,7 @@ void add_box(scene::Scene& scene, glm::vec3 low, glm::vec3 high) {
   glm::mat4 place(1);
   for (int axis = 0; axis < 3; ++axis) place[axis][axis] = high[axis] - low[axis];
   place[3] = glm::vec4(0.5f * (low + high), 1);
-  scene.objects.push_back({"box", 0, 0, place, true});
+  scene.objects.push_back({"box", 0, 0, place});
 }
 
 /// Adds a court, the unit of the world: ground, two walls, crates, eight lights.

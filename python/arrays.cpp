@@ -103,21 +103,47 @@ Box<int> voxel_box(const voxel::GridLayout& layout, const py::object& low, const
   return box;
 }
 
+namespace {
+
+/// Writes a value for each solid voxel into an array (x, y, z).
+template <typename Value>
+void write_solid(const voxel::BitGrid& grid, Value value, Value* out) {
+  const glm::ivec3 size = grid.size();
+  grid.for_each_brick([&](glm::ivec3 brick, const voxel::BitGrid::Brick& words) {
+    for (int z = 0; z < 8; ++z)
+      for (int bit = 0; bit < 64; ++bit) {
+        const glm::ivec3 v = brick * 8 + glm::ivec3(bit & 7, bit >> 3, z);
+        if ((words[static_cast<std::size_t>(z)] >> bit & 1) != 0 && grid.contains(v))
+          out[(std::size_t(v.x) * std::size_t(size.y) + std::size_t(v.y)) * std::size_t(size.z) +
+              std::size_t(v.z)] = value;
+      }
+  });
+}
+
+}  // namespace
+
 py::array_t<bool> solid_array(const voxel::BitGrid& grid) {
   const glm::ivec3 size = voxel_box(grid.layout(), py::none(), py::none()).high;
   py::array_t<bool> result({size.x, size.y, size.z});
   bool* const out = result.mutable_data();
   released([&] {
     std::fill_n(out, result.size(), false);
-    grid.for_each_brick([&](glm::ivec3 brick, const voxel::BitGrid::Brick& words) {
-      for (int z = 0; z < 8; ++z)
-        for (int bit = 0; bit < 64; ++bit) {
-          const glm::ivec3 v = brick * 8 + glm::ivec3(bit & 7, bit >> 3, z);
-          if ((words[static_cast<std::size_t>(z)] >> bit & 1) != 0 && grid.contains(v))
-            out[(std::size_t(v.x) * std::size_t(size.y) + std::size_t(v.y)) * std::size_t(size.z) +
-                std::size_t(v.z)] = true;
-        }
-    });
+    write_solid(grid, true, out);
+  });
+  return result;
+}
+
+py::array_t<std::uint8_t> role_array(const voxel::Solids& solids) {
+  const glm::ivec3 size = voxel_box(solids.smoke.layout(), py::none(), py::none()).high;
+  py::array_t<std::uint8_t> result({size.x, size.y, size.z});
+  std::uint8_t* const out = result.mutable_data();
+  released([&] {
+    const auto number = [](Role role) { return static_cast<std::uint8_t>(role); };
+    std::fill_n(out, result.size(), number(Role::ghost));
+    // Each is within the one before.
+    write_solid(solids.bodies, number(Role::grille), out);
+    write_solid(solids.smoke, number(Role::glass), out);
+    write_solid(solids.sight, number(Role::wall), out);
   });
   return result;
 }

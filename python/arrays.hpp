@@ -12,7 +12,7 @@
 
 #include "core/box.hpp"
 #include "python/calls.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 
 namespace brume::python {
 
@@ -62,5 +62,7 @@ Box<int> voxel_box(const voxel::GridLayout& layout, const py::object& low, const
 
 /// Which voxels are solid, as bool (x, y, z).
 py::array_t<bool> solid_array(const voxel::BitGrid& grid);
+/// The role of each voxel, as uint8 (x, y, z): the number of the Role.
+py::array_t<std::uint8_t> role_array(const voxel::Solids& solids);
 
 }  // namespace brume::python

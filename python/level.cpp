@@ -64,6 +64,24 @@ std::vector<voxel::Triangle> triangles_of(const py::object& value) {
   return triangles;
 }
 
+/// By the number of each triangle's Role; None: all are walls.
+voxel::TrianglesByRole by_role(std::vector<voxel::Triangle> triangles, const py::object& value) {
+  if (value.is_none()) return {std::move(triangles), {}, {}};
+  const py::array array = numbers_of("roles", value);
+  if (array.ndim() != 1 || array.size() != static_cast<py::ssize_t>(triangles.size()))
+    refuse("roles", "expected the shape (N,), one for each triangle, got " + shape_text(array));
+  const auto numbers = Doubles::ensure(array);
+  if (!numbers) throw py::error_already_set();
+  voxel::TrianglesByRole result;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const double number = numbers.data()[i];
+    if (number != 0 && number != 1 && number != 2 && number != 3)
+      refuse("roles", "expected 0 (wall), 1 (glass), 2 (grille) or 3 (ghost) at " + std::to_string(i));
+    result.add(static_cast<Role>(static_cast<int>(number)), std::span(triangles).subspan(i, 1));
+  }
+  return result;
+}
+
 voxel::GridLayout layout_around(std::span<const voxel::Triangle> triangles, float voxel_size, int margin) {
   if (triangles.empty()) refuse("triangles", "are none; give size and origin for an empty level");
   glm::vec3 low(INFINITY), high(-INFINITY);
@@ -74,32 +92,35 @@ voxel::GridLayout layout_around(std::span<const voxel::Triangle> triangles, floa
   return voxel::layout_around(low, high, voxel_size, margin).value_or_throw();
 }
 
-Level voxelized(const std::vector<voxel::Triangle>& triangles, const voxel::GridLayout& layout) {
-  voxel::BitGrid grid = voxel::voxelize(triangles, layout).value_or_throw();
-  voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(triangles, grid);
-  return level_of({std::move(grid), std::move(planes), false, 0, triangles.size()});
+Level voxelized(const voxel::TrianglesByRole& triangles, const voxel::GridLayout& layout) {
+  voxel::BitGrid grid = voxel::voxelize(triangles.smoke, layout).value_or_throw();
+  voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(triangles.smoke, grid);
+  voxel::RoleGrids roles = voxel::voxelize_roles(triangles, grid).value_or_throw();
+  return level_of({std::move(grid), std::move(planes), false, 0, triangles.smoke.size(), std::move(roles)});
 }
 
 Level from_triangles(const py::object& value, float voxel_size, const py::object& size,
-                     const py::object& origin, int margin) {
+                     const py::object& origin, int margin, const py::object& roles) {
   const std::vector<voxel::Triangle> triangles = triangles_of(value);
+  const voxel::TrianglesByRole sorted = by_role(triangles, roles);
   if (size.is_none() != origin.is_none())
     refuse(size.is_none() ? "origin" : "size", "requires both size and origin");
   std::optional<voxel::GridLayout> layout;
   if (!size.is_none()) layout = {whole_of("size", size), voxel_size, glm::vec3(vector_of("origin", origin))};
   return released(
-      [&] { return voxelized(triangles, layout ? *layout : layout_around(triangles, voxel_size, margin)); });
+      [&] { return voxelized(sorted, layout ? *layout : layout_around(triangles, voxel_size, margin)); });
 }
 
 Level load_level(const fs::path& path, float voxel_size, int margin) {
   return released([&] {
     if (scene::lower_extension(path) == ".vxl") {
       auto contents = of_file(voxel::load_vxl(path, std::nullopt), path);
-      return level_of({std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles});
+      return level_of({std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles,
+                       std::move(contents->roles)});
     }
     const scene::Scene scene = of_file(scene::load_scene(path), path);
-    const std::vector<voxel::Triangle> triangles = scenario::world_triangles(scene);
-    return voxelized(triangles, layout_around(triangles, voxel_size, margin));
+    const std::vector<voxel::Triangle> all = scenario::world_triangles(scene, stops_bodies);
+    return voxelized(scenario::triangles_by_role(scene), layout_around(all, voxel_size, margin));
   });
 }
 
@@ -107,7 +128,7 @@ void save_level(const Level& level, const fs::path& path) {
   if (scene::lower_extension(path) != ".vxl") refuse("path", path.string() + ": expected the suffix .vxl");
   released([&] {
     const scenario::Voxels& v = *level.voxels;
-    of_file(voxel::save_vxl(path, {v.grid, v.planes, v.triangles}, 0), path, FileUse::write);
+    of_file(voxel::save_vxl(path, {v.grid, v.planes, v.triangles, v.roles}, 0), path, FileUse::write);
   });
 }
 
@@ -138,13 +159,15 @@ origin: low corner of voxel (0, 0, 0) [m].
 Smoke ends at the faces of the voxels. Raises TypeError for another dtype, ValueError for another shape or a
 number out of range, MemoryError for an axis beyond 4096.)")
       .def_static("from_triangles", &from_triangles, "triangles"_a, "voxel_size"_a = 0.25f, py::kw_only(),
-                  "size"_a = py::none(), "origin"_a = py::none(), "margin"_a = 2,
-                  R"(A level from triangles: exactly the voxels that a triangle touches are solid.
+                  "size"_a = py::none(), "origin"_a = py::none(), "margin"_a = 2, "roles"_a = py::none(),
+                  R"(A level from triangles: exactly the voxels that a wall or glass touches are solid.
 
 triangles: numbers, shape (N, 3, 3): the corners of each triangle [m], in any order.
 voxel_size: edge length of a voxel [m], 1/64 to 64.
 size, origin: voxels along each axis, 1 to 4096, and low corner of voxel (0, 0, 0) [m]. By default around all
     triangles, with `margin` voxels on every side.
+roles: what each triangle stops, shape (N,): 0 for a wall, 1 for glass, which sight passes, 2 for a grille, which stops
+    only bodies and grenades, 3 for nothing. By default all are walls.
 
 Smoke ends at the triangles, not at the voxels. Raises ValueError for another shape or a number that is not
 finite, MemoryError for an axis beyond 4096.)")
@@ -168,6 +191,10 @@ Raises FileNotFoundError, ValueError for a damaged file, MemoryError for an axis
       .def_property_readonly(
           "solid", [](const Level& l) { return solid_array(l.grid()); },
           "Which voxels are solid: a new array of bool, shape (x, y, z). MemoryError beyond 2^30 voxels.")
+      .def_property_readonly(
+          "roles", [](const Level& l) { return role_array(l.voxels->solids()); },
+          "What each voxel stops: a new array of uint8, shape (x, y, z). 0: wall, 1: glass, 2: grille, 3: "
+          "nothing, it is free. MemoryError beyond 2^30 voxels.")
       .def("__repr__", &description);
 }
 

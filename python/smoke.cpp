@@ -48,12 +48,12 @@ void Smoke::make_sight(bool drawn) {
   if (!sight_) {
     update_volume();
     holes_ = smoke::holes_of(state, settings.masks);
-    sight_.emplace(volume(), world().grid(), holes_, time, settings);
+    sight_.emplace(volume(), world().solids().sight, holes_, time, settings);
   }
   if (!drawn || drawn_) return;
   const auto [look, swirl_period] = drawn_look();
   const smoke::SmokeInput input{&volume(), &state, holes_, look, swirl_period, time};
-  drawn_ = std::make_unique<const smoke::DrawnSight>(input, world().grid(), settings);
+  drawn_ = std::make_unique<const smoke::DrawnSight>(input, world().solids().sight, settings);
 }
 
 /// Calls query(sight). The first call notes the revision; later ones throw where it has changed since.

@@ -26,8 +26,7 @@ bool touches_edit(const sim::EditBlocks& edits, glm::ivec3 cell) {
     const auto found = std::lower_bound(
         edits.begin(), edits.end(), block,
         [](const sim::EditBlock& edit, glm::i16vec3 at) { return sim::block_before(edit.at, at); });
-    if (found != edits.end() && found->at == block &&
-        ((found->make_solid | found->make_free) >> sim::block_bit_index(voxel) & 1) != 0)
+    if (found != edits.end() && found->at == block && (found->all() >> sim::block_bit_index(voxel) & 1) != 0)
       return true;
   }
   return false;
@@ -69,7 +68,7 @@ World::World(Level level, float extinction, std::uint32_t ticks_per_second,
     : level_(std::move(level)),
       masks_(pack_masks(masks)),
       settings_{extinction, glm::vec3(0.92f), &masks_},
-      world_(level_.grid(), {ticks_per_second, masks_.key()}) {
+      world_(level_.voxels->solids(), {ticks_per_second, masks_.key()}) {
   if (!(extinction >= 0 && extinction <= 1e6f)) refuse("extinction", "expected 0 to 1,000,000 per metre");
 }
 

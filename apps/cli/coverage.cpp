@@ -81,7 +81,7 @@ SightSample sample_sight(const scenario::Scenario& scenario, const scenario::Sim
   const sim::State& state = simulation.world().state();
   const std::vector<shared::Hole> holes = smoke::holes_of(state, &scenario.masks);
   const scene::SmokeOptions& options = scenario.timeline.smoke;
-  const voxel::BitGrid& grid = simulation.world().grid();
+  const voxel::BitGrid& grid = simulation.world().solids().sight;
   const float time = state.seconds(state.tick);
   const smoke::SightSettings settings{options.extinction, options.albedo, &scenario.masks};
   if (line.drawn) {

@@ -54,7 +54,13 @@ Summary voxel_summary(const std::filesystem::path& path) {
   BRUME_ASSERT(contents.has_value(), "loading without a key accepts any file");
   Summary summary("voxels");
   add_layout(summary, contents->grid.layout());
-  summary.add("solid", contents->grid.count_solid());
+  const voxel::Solids solids(contents->grid, contents->roles);
+  const std::uint64_t solid = solids.smoke.count_solid();
+  summary.add("solid", solid);
+  if (!contents->roles.empty()) {
+    summary.add("glass", solid - solids.sight.count_solid());
+    summary.add("grilles", solids.bodies.count_solid() - solid);
+  }
   summary.add("planes", contents->planes.plane_count());
   summary.add("triangles", contents->triangles);
   return summary;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <numbers>
 
@@ -49,12 +50,27 @@ void add_lights(Summary& summary, const scene::Scene& scene) {
     summary.add_line("", std::to_string(scene.lights.size() - kMostLines) + " more");
 }
 
+/// Triangles by role, where any is no wall.
+void add_roles(Summary& summary, const scene::Scene& scene) {
+  std::array<std::uint64_t, kRoleNames.size()> counts{};
+  for (const scene::Object& object : scene.objects)
+    counts[static_cast<std::size_t>(object.role)] += scene.meshes[object.mesh].indices.size() / 3;
+  Json roles = Json::object();
+  std::string text;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    roles.set(kRoleNames[i], counts[i]);
+    if (counts[i] > 0) text += (text.empty() ? "" : ", ") + std::to_string(counts[i]) + " " + kRoleNames[i];
+  }
+  const std::uint64_t others = counts[1] + counts[2] + counts[3];
+  if (others > 0) summary.add("roles", roles, text + " triangles");
+}
+
 void add_counts(Summary& summary, const scene::Scene& scene, bool lists_objects) {
   std::uint64_t triangles = 0, solid = 0;
   for (const scene::Object& object : scene.objects) {
     const std::uint64_t count = scene.meshes[object.mesh].indices.size() / 3;
     triangles += count;
-    if (object.voxelized) solid += count;
+    if (stops_smoke(object.role)) solid += count;
   }
   summary.add("objects", scene.objects.size());
   std::vector<std::string> names;
@@ -72,6 +88,7 @@ void add_counts(Summary& summary, const scene::Scene& scene, bool lists_objects)
       "triangles", triangles,
       std::to_string(triangles) + ", " + std::to_string(solid) + " of them in objects that stop smoke");
   summary.add("solid_triangles", solid);
+  add_roles(summary, scene);
 }
 
 /// Bounds in a file's units as the timeline places them [m].
@@ -192,6 +209,7 @@ Summary timeline_summary(const std::filesystem::path& path, bool check, Outputs&
   }
   outputs.reads(scenario::files_of(*scenario));
   stop_if_interrupted();
+  add_roles(summary, scenario->scene);
   add_layout(summary, scenario->voxels.grid.layout());
   add_smokes(summary, *scenario);
   return summary;

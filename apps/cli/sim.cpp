@@ -264,8 +264,8 @@ void simulate(const SimOptions& options, Outputs& outputs) {
   const std::vector<sim::Event> events = scenario::events_of(scenario, schedule.rate).value_or_throw();
 
   const sim::WorldSettings settings{schedule.rate, scenario.masks.key()};
-  wire::Replay replay = wire::replay_of(scenario.voxels.grid, settings, events);
-  sim::World world(scenario.voxels.grid, settings);
+  wire::Replay replay = wire::replay_of(scenario.voxels.solids(), settings, events);
+  sim::World world(scenario.voxels.solids(), settings);
   world.append(events).value_or_throw();
   const Json smokes = report_timeline(scenario, scenario::report_smokes(scenario, world));
   Progress job("ticks", schedule.ticks);

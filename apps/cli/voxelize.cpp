@@ -84,10 +84,15 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   const std::uint64_t solid = voxels.grid.count_solid();
   if (solid == 0) log_warning("no voxel is solid: the scene lies outside the grid; move it with --origin");
   const double seconds = watch.seconds();
+  const voxel::Solids solids = voxels.solids();
+  const std::uint64_t glass = solid - (voxels.roles.sight ? solids.sight.count_solid() : solid),
+                      grilles = (voxels.roles.bodies ? solids.bodies.count_solid() : solid) - solid;
   if (!options.json.empty()) {
     write_json(options.json,
                {{"scene", options.scene},
                 {"solid", solid},
+                {"glass", glass},
+                {"grilles", grilles},
                 {"milliseconds", 1000 * seconds},
                 {"voxelize_milliseconds", voxels.milliseconds},
                 {"triangles", voxels.triangles},
@@ -102,6 +107,10 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
                 static_cast<unsigned long long>(voxels.triangles), static_cast<unsigned long long>(solid),
                 frame.size.x, frame.size.y, frame.size.z,
                 voxels.cached ? "loaded from the cache" : "voxelized", seconds);
+  print(text);
+  if (voxels.roles.empty()) return;
+  std::snprintf(text, sizeof text, "%llu of them are glass; %llu other voxels are grilles\n",
+                static_cast<unsigned long long>(glass), static_cast<unsigned long long>(grilles));
   print(text);
 }
 

@@ -50,7 +50,7 @@ bool Game::report(const Result<void>& done) {
 void Game::go_to_start() {
   const scenario::Scenario& scenario = session_->live().scenario();
   first_camera_ = scene::camera_at(scenario.timeline, scenario.camera, 0);
-  player_.start(grid(), first_camera_);
+  player_.start(bodies(), first_camera_);
 }
 
 // Actions that change the timeline: each is a step to undo.
@@ -87,7 +87,7 @@ void Game::step_history(Action action) {
   const ShotKind kind = choices_.weapons.kind;
   choices_.weapons = edits.weapons;
   choices_.weapons.kind = kind;
-  player_.set_options(grid(), edits.body);
+  player_.set_options(bodies(), edits.body);
   // A camera path changes it, too, which is no step.
   if (!(edits.optics == optics_before)) player_.set_optics(edits.optics);
   ++changes_;
@@ -157,7 +157,7 @@ void Game::set_steering(bool steers) {
   ++changes_;
   if (!steers) {
     notify_(carriers[flight_->carrier()].name + " is on its path again");
-    player_.go_to(grid(), with_optics(flight_->camera_before(), optics_of(player_.camera())));
+    player_.go_to(bodies(), with_optics(flight_->camera_before(), optics_of(player_.camera())));
     flight_.reset();
     return;
   }
@@ -208,7 +208,7 @@ void Game::choose(Action action) {
   if (action == Action::shape_glyph) choices_.weapons.kind = ShotKind::glyph;
   if (action == Action::shape_word) choices_.weapons.kind = ShotKind::word;
   if (action == Action::shape_picture) choices_.weapons.kind = ShotKind::picture;
-  if (action == Action::fly && !player_.set_flying(grid(), !player_.flying()))
+  if (action == Action::fly && !player_.set_flying(bodies(), !player_.flying()))
     notify_("still flying: there is no floor below");
   if (action == Action::steer_carrier) set_steering(!flight_);
   if (action == Action::decals) show_decals(!choices_.decals);
@@ -246,7 +246,7 @@ void Game::act(Action action, glm::vec3 aim_world) {
 
 void Game::move(const Input& input, double passed) {
   if (flight_) {
-    if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
+    if (input.wheel != 0) player_.change_fly_speed(bodies(), input.wheel);
     const double seconds = std::min(passed, Session::kLongestFrame);
     if (flight_->steer(input, player_.options().fly_speed, seconds)) ++changes_;
     return player_.follow(with_optics(flight_->camera(grid()), optics_of(player_.camera())));
@@ -260,8 +260,8 @@ void Game::move(const Input& input, double passed) {
     session_->leave_path();
   }
   player_.turn(input.look_px);
-  if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
-  if (!player_.move(input, grid(), std::min(passed, Session::kLongestFrame)))
+  if (input.wheel != 0) player_.change_fly_speed(bodies(), input.wheel);
+  if (!player_.move(input, bodies(), std::min(passed, Session::kLongestFrame)))
     notify_("you fell off the level, and are back where you stood");
   if (!session_->paused()) session_->record_camera(player_.camera());
 }

@@ -50,7 +50,9 @@ class Game {
   /// The camera at the start.
   const scene::Camera& first_camera() const { return first_camera_; }
   void notify(const std::string& line) const { notify_(line); }
+  /// What stops shots, and what stops bodies.
   const voxel::BitGrid& grid() const { return session_->simulation().world().grid(); }
+  const voxel::BitGrid& bodies() const { return session_->simulation().world().solids().bodies; }
   /// A number that grows whenever a paused image must be rendered again, beyond time and camera.
   std::uint64_t changes() const { return changes_; }
   void change_picture() { ++changes_; }

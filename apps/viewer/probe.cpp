@@ -22,8 +22,8 @@ Result<ProbeResult> evaluate(const Probe& probe, const scenario::Scenario& scena
   smoke::SightSettings settings;
   settings.extinction = scenario.timeline.smoke.extinction;
   settings.masks = &scenario.masks;
-  const smoke::Sight sight(simulation.volume(), simulation.world().grid(), holes, static_cast<float>(seconds),
-                           settings);
+  const smoke::Sight sight(simulation.volume(), simulation.world().solids().sight, holes,
+                           static_cast<float>(seconds), settings);
   const auto depth = sight.optical_depth(*probe.a_world, *probe.b_world);
   if (!depth) return depth.failure();
   const auto wall = sight.first_wall(*probe.a_world, *probe.b_world);

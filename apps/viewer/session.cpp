@@ -198,7 +198,8 @@ Result<void> Session::add(const scene::Timeline& actions) {
 }
 
 Result<void> Session::throw_smoke(glm::vec3 from_world, glm::vec3 direction_world) {
-  const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
+  const scenario::Aim aim =
+      scenario::aim(simulation().world().solids().bodies, from_world, direction_world, kReach);
   if (!aim.meets || !aim.landing_world) return no_target("hit");
   scene::Timeline actions;
   actions.smokes.push_back({next_tick_seconds(), from_world, aim.at_world});

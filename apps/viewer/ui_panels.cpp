@@ -226,7 +226,7 @@ void lay_out_camera(Game& game, UiRequests& requests) {
     if (option_rows(walker, scenario::WalkerOptions(),
                     [](auto& o, auto&& visitor) { scenario::visit_walker_options(o, visitor); })) {
       walker.eye = std::min(walker.eye, walker.height);
-      player.set_options(game.grid(), walker);
+      player.set_options(game.bodies(), walker);
       game.setting_changed("body");
     }
     ImGui::TreePop();

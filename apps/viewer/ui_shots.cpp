@@ -37,7 +37,7 @@ class Eye {
         camera_(game.player().camera()),
         scenario_(session_.live().scenario()),
         holes_(smoke::holes_of(session_.simulation().world().state(), &scenario_.masks)),
-        sight_(session_.simulation().volume(), session_.simulation().world().grid(), holes_,
+        sight_(session_.simulation().volume(), session_.simulation().world().solids().sight, holes_,
                static_cast<float>(session_.seconds()), settings(scenario_)) {}
 
   std::optional<glm::vec2> at(glm::vec3 world) const { return on_display(camera_, world); }

@@ -152,6 +152,14 @@ typedef struct brume_layout {
   brume_point origin;  ///< Low corner of voxel (0, 0, 0) [m], each within +-16384.
 } brume_layout;
 
+/// What a surface stops. Each role stops less than the one before it.
+typedef enum brume_role {
+  BRUME_ROLE_WALL = 0,    ///< Smoke, sight, shots, bodies and thrown grenades.
+  BRUME_ROLE_GLASS = 1,   ///< The same without sight.
+  BRUME_ROLE_GRILLE = 2,  ///< Bodies and thrown grenades: a fence, leaves.
+  BRUME_ROLE_GHOST = 3    ///< Nothing.
+} brume_role;
+
 /// A level as solid voxels.
 typedef struct brume_voxels_params {
   uint32_t struct_size;
@@ -161,11 +169,20 @@ typedef struct brume_voxels_params {
   /// i = x + size.x * (y + size.y * z). Bits after the last voxel are ignored.
   const uint8_t* bits;
   size_t byte_count;  ///< Of `bits`: (size.x * size.y * size.z + 7) / 8.
+  /// As many bytes, in the same order: which of the solid voxels are glass. Null: none, all are walls.
+  const uint8_t* glass_bits;
+  /// Likewise: which of the others are grilles. Null: none.
+  const uint8_t* grille_bits;
 } brume_voxels_params;
 
 static inline brume_voxels_params brume_voxels_defaults(void) {
-  brume_voxels_params params = {
-      sizeof(brume_voxels_params), BRUME_NULL, {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}}, BRUME_NULL, 0};
+  brume_voxels_params params = {sizeof(brume_voxels_params),
+                                BRUME_NULL,
+                                {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}},
+                                BRUME_NULL,
+                                0,
+                                BRUME_NULL,
+                                BRUME_NULL};
   return params;
 }
 
@@ -182,6 +199,9 @@ typedef struct brume_triangles_params {
   /// Three numbers of points for each triangle, in any winding. Triangles without area are allowed.
   const uint32_t* indices;
   size_t index_count;  ///< A multiple of 3.
+  /// The brume_role of each triangle: index_count / 3 of them. A voxel has the role that stops most of those
+  /// that touch it. Null: all are walls.
+  const uint8_t* roles;
 } brume_triangles_params;
 
 static inline brume_triangles_params brume_triangles_defaults(void) {
@@ -192,7 +212,8 @@ static inline brume_triangles_params brume_triangles_defaults(void) {
                                    BRUME_NULL,
                                    0,
                                    BRUME_NULL,
-                                   0};
+                                   0,
+                                   BRUME_NULL};
   return params;
 }
 
@@ -200,10 +221,10 @@ static inline brume_triangles_params brume_triangles_defaults(void) {
 BRUME_API brume_result brume_level_create_from_voxels(brume_context* context,
                                                       const brume_voxels_params* params,
                                                       brume_level** level) BRUME_NOEXCEPT;
-/// Creates a level from the triangles of its collision mesh: every voxel that one touches is solid, exactly,
-/// and smoke ends at the surface of the triangles, not at the grid. The same triangles and layout give the
-/// same level on every machine.
-/// Errors: BRUME_ERROR_LIMIT when an axis would exceed BRUME_MAX_AXIS.
+/// Creates a level from the triangles of its collision mesh: every voxel that a wall or glass touches is
+/// solid, exactly, and smoke ends at the surface of the triangles, not at the grid. The same triangles, roles
+/// and layout give the same level on every machine. Errors: BRUME_ERROR_LIMIT when an axis would exceed
+/// BRUME_MAX_AXIS.
 BRUME_API brume_result brume_level_create_from_triangles(brume_context* context,
                                                          const brume_triangles_params* params,
                                                          brume_level** level) BRUME_NOEXCEPT;
@@ -211,10 +232,13 @@ BRUME_API brume_result brume_level_destroy(brume_level* level) BRUME_NOEXCEPT;
 
 /// Writes the layout of the level.
 BRUME_API brume_result brume_level_layout(const brume_level* level, brume_layout* layout) BRUME_NOEXCEPT;
-/// Writes which voxels of the box [low, high) are solid as loaded: 1 or 0 each, x fastest, then y, then z.
-/// The box must lie in the level and have a voxel; `count` is the number of its voxels.
+/// Writes which voxels of the box [low, high) are solid as loaded, walls or glass: 1 or 0 each, x fastest,
+/// then y, then z. The box must lie in the level and have a voxel; `count` is the number of its voxels.
 BRUME_API brume_result brume_level_solid(const brume_level* level, brume_voxel low, brume_voxel high,
                                          uint8_t* solid, size_t count) BRUME_NOEXCEPT;
+/// Writes the brume_role of each voxel of a box, likewise; BRUME_ROLE_GHOST where it is free.
+BRUME_API brume_result brume_level_roles(const brume_level* level, brume_voxel low, brume_voxel high,
+                                         uint8_t* roles, size_t count) BRUME_NOEXCEPT;
 
 // ---- Masks: images that shots may cut out of smoke ----
 
@@ -263,8 +287,8 @@ typedef enum brume_hole_shape {
   BRUME_HOLE_MASK = 2
 } brume_hole_shape;
 
-/// A smoke grenade is thrown from `from`. It flies straight at 20 m/s through `at` to the first wall, and
-/// detonates in the free voxel before it; without a wall, at `at`.
+/// A smoke grenade is thrown from `from`. It flies straight at 20 m/s through `at` to the first wall, glass
+/// or grille, and detonates in the free voxel before it; without one, at `at`.
 typedef struct brume_smoke_event {
   brume_position from, at;  ///< Where it is thrown from, and at.
   uint32_t voxels;          ///< Amount of smoke: voxels that it fills, [1, 2^27].
@@ -302,9 +326,9 @@ typedef struct brume_move_event {
   brume_position to;  ///< Its new position.
 } brume_move_event;
 
-/// The level changes: all voxels of the box [low, high) become solid or free. A door opens, a wall breaks.
-/// The part of the box outside of the level is ignored; the box must have a voxel. In an edited voxel, smoke
-/// ends at the voxel's faces.
+/// The level changes: all voxels of the box [low, high) become wall or free of all roles. A door opens, a
+/// wall breaks. The part of the box outside of the level is ignored; the box must have a voxel. In an edited
+/// voxel, smoke ends at the voxel's faces.
 typedef struct brume_edit_event {
   brume_voxel low, high;  ///< The box [low, high).
   uint32_t solid;         ///< 1: solid, 0: free.
@@ -587,10 +611,10 @@ typedef struct brume_segment {
   brume_point a, b;  ///< An end [m].
 } brume_segment;
 
-/// The first solid voxel along a segment.
+/// The first voxel of a wall along a segment. Glass and grilles are none.
 typedef struct brume_wall {
   uint32_t hit;        ///< 1; 0: there is none, and all other members are 0.
-  brume_voxel voxel;   ///< The solid voxel.
+  brume_voxel voxel;   ///< The voxel.
   brume_voxel normal;  ///< Outward normal of the face that the segment enters: a unit vector.
   float distance;      ///< From a to that face [m].
 } brume_wall;
@@ -614,9 +638,9 @@ BRUME_API brume_result brume_field_changed_bricks(const brume_field* field, brum
 /// of the light passes. The same bits on every machine, for any number of threads, for one segment or many.
 BRUME_API brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments,
                                                   size_t count, float* depths) BRUME_NOEXCEPT;
-/// Writes 1 for each segment whose ends see each other, else 0: no solid voxel between the voxels of a and b,
-/// and an optical depth of at most `threshold` (at least 0; infinity: walls only). Faster than the depth: it
-/// ends at the first obstacle.
+/// Writes 1 for each segment whose ends see each other, else 0: no wall between the voxels of a and b, where
+/// glass and grilles are none, and an optical depth of at most `threshold` (at least 0; infinity: walls
+/// only). Faster than the depth: it ends at the first obstacle.
 BRUME_API brume_result brume_field_visible(const brume_field* field, const brume_segment* segments,
                                            size_t count, float threshold, uint8_t* visible) BRUME_NOEXCEPT;
 /// How noise erodes smoke in the picture: brume_smoke_look of brume_vulkan.h has the same members.
@@ -648,7 +672,7 @@ BRUME_API brume_result brume_field_drawn_depths(const brume_field* field, const 
 BRUME_API brume_result brume_field_drawn_visible(const brume_field* field, const brume_drawn_params* params,
                                                  const brume_segment* segments, size_t count, float threshold,
                                                  uint8_t* visible) BRUME_NOEXCEPT;
-/// Writes the first solid voxel along each segment, other than those that a and b lie in.
+/// Writes the first voxel of a wall along each segment, other than those that a and b lie in.
 BRUME_API brume_result brume_field_first_walls(const brume_field* field, const brume_segment* segments,
                                                size_t count, brume_wall* walls) BRUME_NOEXCEPT;
 /// Writes the density of each voxel of the box [low, high), [0, 255], x fastest, then y, then z. Blasts

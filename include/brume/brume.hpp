@@ -147,6 +147,12 @@ class Level : public detail::Handle<brume_level, brume_level_destroy> {
     check(brume_level_solid(get(), low, high, out.data(), out.size()));
     return out;
   }
+  /// The brume_role of each voxel of the box.
+  Bytes roles(brume_voxel low, brume_voxel high) const {
+    Bytes out(detail::voxels_of(low, high));
+    check(brume_level_roles(get(), low, high, out.data(), out.size()));
+    return out;
+  }
 };
 
 /// A brume_masks.

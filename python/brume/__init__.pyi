@@ -21,6 +21,7 @@ class Level:
         size: Optional[Sequence[int]] = None,
         origin: Optional[_Point] = None,
         margin: int = 2,
+        roles: Optional[ArrayLike] = None,
     ) -> Level: ...
     @staticmethod
     def load(path: _Path, voxel_size: float = 0.25, *, margin: int = 2) -> Level: ...
@@ -33,6 +34,8 @@ class Level:
     def origin(self) -> tuple[float, float, float]: ...
     @property
     def solid(self) -> NDArray[np.bool_]: ...
+    @property
+    def roles(self) -> NDArray[np.uint8]: ...
 
 class Smoke:
     @property

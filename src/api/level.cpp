@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "api/objects.hpp"
@@ -6,7 +8,20 @@
 #include "voxel/voxelize.hpp"
 
 namespace brume::api {
+
+// The sizes of 0.1 and 0.2.
+template <>
+inline constexpr std::array kEarlierSizes<brume_voxels_params>{
+    std::uint32_t{offsetof(brume_voxels_params, glass_bits)}};
+template <>
+inline constexpr std::array kEarlierSizes<brume_triangles_params>{
+    std::uint32_t{offsetof(brume_triangles_params, roles)}};
+
 namespace {
+
+static_assert(static_cast<int>(Role::glass) == BRUME_ROLE_GLASS &&
+              static_cast<int>(Role::grille) == BRUME_ROLE_GRILLE &&
+              static_cast<int>(Role::ghost) == BRUME_ROLE_GHOST);
 
 using voxel::BitGrid;
 using voxel::GridLayout;
@@ -50,6 +65,15 @@ void copy_brick(const std::uint8_t* bits, glm::ivec3 at, BitGrid& grid) {
   if (any != 0) grid.ensure_brick(at) = brick;
 }
 
+BitGrid grid_of(const std::uint8_t* bits, const GridLayout& layout) {
+  BitGrid grid(layout);
+  const glm::ivec3 bricks = (layout.size + voxel::kBrickSize - 1) / voxel::kBrickSize;
+  for (int z = 0; z < bricks.z; ++z)
+    for (int y = 0; y < bricks.y; ++y)
+      for (int x = 0; x < bricks.x; ++x) copy_brick(bits, {x, y, z}, grid);
+  return grid;
+}
+
 LevelData level_of(const brume_voxels_params& params) {
   const GridLayout layout = grid_layout_of(params.layout);
   check_layout(layout);
@@ -58,12 +82,18 @@ LevelData level_of(const brume_voxels_params& params) {
   if (params.byte_count != bytes)
     refuse("`byte_count` is " + std::to_string(params.byte_count) + ", expected " + std::to_string(bytes));
   required(params.bits, "bits");
-  LevelData level{BitGrid(layout), {}};
-  const glm::ivec3 bricks = (layout.size + voxel::kBrickSize - 1) / voxel::kBrickSize;
-  for (int z = 0; z < bricks.z; ++z)
-    for (int y = 0; y < bricks.y; ++y)
-      for (int x = 0; x < bricks.x; ++x) copy_brick(params.bits, {x, y, z}, level.grid);
+  LevelData level{grid_of(params.bits, layout), {}};
+  if (params.glass_bits) level.roles.sight = voxel::without(level.grid, grid_of(params.glass_bits, layout));
+  if (params.grille_bits) level.roles.bodies = voxel::united(level.grid, grid_of(params.grille_bits, layout));
   return level;
+}
+
+/// Of params.roles. Throws a CallFailure for a number that is no role.
+Role role_of(const brume_triangles_params& params, std::size_t triangle) {
+  const unsigned role = params.roles[triangle];
+  if (role > BRUME_ROLE_GHOST)
+    refuse("role " + std::to_string(triangle) + " is " + std::to_string(role) + ", expected a brume_role");
+  return static_cast<Role>(role);
 }
 
 std::vector<voxel::Triangle> triangles_of(const brume_triangles_params& params) {
@@ -103,15 +133,27 @@ LevelData level_of(const brume_triangles_params& params) {
     layout = unwrap(voxel::layout_around(low, high, layout.voxel_size, static_cast<int>(params.margin)));
   }
   check_layout(layout);
-  BitGrid grid = unwrap(voxel::voxelize(triangles, layout));
-  voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(triangles, grid);
-  return {std::move(grid), std::move(planes)};
+  voxel::TrianglesByRole by_role;
+  if (params.roles)
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      by_role.add(role_of(params, i), std::span(triangles).subspan(i, 1));
+  const std::vector<voxel::Triangle>& solid = params.roles ? by_role.smoke : triangles;
+  BitGrid grid = unwrap(voxel::voxelize(solid, layout));
+  voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(solid, grid);
+  voxel::RoleGrids roles = unwrap(voxel::voxelize_roles(by_role, grid));
+  return {std::move(grid), std::move(planes), std::move(roles)};
 }
 
 void read_solid(const BitGrid& grid, glm::ivec3 low, glm::ivec3 high, std::uint8_t* solid) {
   for (int z = low.z; z < high.z; ++z)
     for (int y = low.y; y < high.y; ++y)
       for (int x = low.x; x < high.x; ++x) *solid++ = grid.solid({x, y, z}) ? 1 : 0;
+}
+
+void read_roles(const voxel::Solids& solids, glm::ivec3 low, glm::ivec3 high, std::uint8_t* roles) {
+  for (int z = low.z; z < high.z; ++z)
+    for (int y = low.y; y < high.y; ++y)
+      for (int x = low.x; x < high.x; ++x) *roles++ = static_cast<std::uint8_t>(solids.role({x, y, z}));
 }
 
 template <typename Params>
@@ -178,6 +220,15 @@ brume_result brume_level_solid(const brume_level* level, brume_voxel low, brume_
     const BitGrid& grid = call.handle(level).data->grid;
     checked_box(grid.layout(), low, high, count);
     read_solid(grid, ivec3_of(low), ivec3_of(high), &required(solid, "solid"));
+  });
+}
+
+brume_result brume_level_roles(const brume_level* level, brume_voxel low, brume_voxel high, uint8_t* roles,
+                               size_t count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const LevelData& data = *call.handle(level).data;
+    checked_box(data.grid.layout(), low, high, count);
+    read_roles(data.solids(), ivec3_of(low), ivec3_of(high), &required(roles, "roles"));
   });
 }
 

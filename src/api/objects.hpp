@@ -9,7 +9,7 @@
 #include "api/call.hpp"
 #include "sim/world.hpp"
 #include "smoke/mask_atlas.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 #include "voxel/surface_planes.hpp"
 #include "wire/receiver.hpp"
 #include "wire/sender.hpp"
@@ -20,6 +20,8 @@ namespace brume::api {
 struct LevelData {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
+  voxel::RoleGrids roles = {};
+  voxel::Solids solids() const { return {grid, roles}; }
 };
 
 glm::ivec3 ivec3_of(const brume_voxel& v);
@@ -59,7 +61,7 @@ struct brume_world : brume::api::Handle {
   brume_world(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
               const brume::sim::WorldSettings& world_settings)
       : Handle(kKind, std::move(of)), level(std::move(of_level)) {
-    world.emplace(level->grid, world_settings);
+    world.emplace(level->solids(), world_settings);
   }
 
   std::shared_ptr<const brume::api::LevelData> level;

@@ -70,7 +70,7 @@ void SmokeField::update(const sim::State& state) {
 
 void SmokeField::look(const sim::State& state) {
   holes_ = smoke::holes_of(state, masks_.get());
-  sight_.emplace(volume_, grid(), holes_, state.seconds(state.tick), sight_settings());
+  sight_.emplace(volume_, solids().sight, holes_, state.seconds(state.tick), sight_settings());
 }
 
 smoke::SightSettings SmokeField::sight_settings() const {
@@ -86,7 +86,7 @@ std::shared_ptr<const smoke::Sight> SmokeField::drawn_sight(const smoke::NoiseLo
   smoke::SmokeInput input{
       .volume = &volume_, .state = &state_, .holes = holes_, .time = state_.seconds(state_.tick)};
   smoke::set_noise(input.look, look);
-  const auto drawn = std::make_shared<const smoke::DrawnSight>(input, grid(), sight_settings());
+  const auto drawn = std::make_shared<const smoke::DrawnSight>(input, solids().sight, sight_settings());
   drawn_look_ = look;
   drawn_sight_ = {drawn, &drawn->sight()};
   return drawn_sight_;
@@ -137,7 +137,7 @@ void SmokeField::follow_edits(const std::shared_ptr<const EditBlocks>& edits) {
   if (edits == edits_) return;
   const EditBlocks blocks = differing(edits_ ? *edits_ : kNone, edits ? *edits : kNone);
   if (!blocks.empty() && !edited_) {
-    edited_.emplace(level_->grid);
+    edited_.emplace(EditedLevel{level_->grid, level_->roles});
     changed_voxels_.emplace(layout());
   }
   for (const EditBlock& block : blocks) set_block(block);
@@ -146,10 +146,11 @@ void SmokeField::follow_edits(const std::shared_ptr<const EditBlocks>& edits) {
 
 /// Makes a block that of the level with these edits.
 void SmokeField::set_block(const EditBlock& block) {
-  const std::uint64_t loaded = sim::solid_bits(level_->grid, glm::ivec3(block.at));
-  const std::uint64_t solid = (loaded | block.make_solid) & ~block.make_free;
-  sim::apply_edits(*edited_, std::array{EditBlock{block.at, solid, ~solid}});
-  sim::apply_edits(*changed_voxels_, std::array{EditBlock{block.at, loaded ^ solid, ~(loaded ^ solid)}});
+  const EditBlock now = sim::merge_edits(sim::content_of(level_->solids(), glm::ivec3(block.at)), block);
+  sim::apply_edits(edited_->grid, edited_->roles, std::array{now});
+  const std::uint64_t changed =
+      sim::solid_bits(level_->grid, glm::ivec3(block.at)) ^ now.of_smoke().make_solid;
+  sim::apply_edits(*changed_voxels_, std::array{EditBlock{block.at, changed, ~changed}});
   // The cells that have one of its voxels as a corner.
   const glm::ivec3 low = glm::ivec3(block.at) * kBlock;
   volume_.planes_changed(low - 1, low + kBlock - 1);

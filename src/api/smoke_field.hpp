@@ -35,8 +35,11 @@ class SmokeField {
   /// Those of the last state, of the field's masks.
   std::span<const shared::Hole> holes() const { return holes_; }
   const sim::State& state() const { return state_; }
-  /// The level with the state's edits.
-  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_->grid; }
+  /// The level with the state's edits: what stops smoke, and all roles.
+  const voxel::BitGrid& grid() const { return edited_ ? edited_->grid : level_->grid; }
+  voxel::Solids solids() const {
+    return edited_ ? voxel::Solids(edited_->grid, edited_->roles) : level_->solids();
+  }
   const smoke::SmokeVolume& volume() const { return volume_; }
   /// The bricks in which the last update may have changed densities, by z, y, x.
   std::span<const brume_voxel> changed_bricks() const { return changed_bricks_; }
@@ -56,8 +59,12 @@ class SmokeField {
   float extinction_;
   sim::State state_;                              // the last one
   std::shared_ptr<const sim::EditBlocks> edits_;  // of it
-  std::optional<voxel::BitGrid> edited_,
-      changed_voxels_;  // the level with them; where it differs; none: no edits yet
+  struct EditedLevel {
+    voxel::BitGrid grid;
+    voxel::RoleGrids roles;
+  };
+  std::optional<EditedLevel> edited_;             // the level with them; none: no edits yet
+  std::optional<voxel::BitGrid> changed_voxels_;  // where it differs for smoke; none: no edits yet
   smoke::SmokeVolume volume_;
   std::vector<shared::Hole> holes_;
   std::vector<std::optional<glm::ivec3>> brick_of_slot_;  // as of the last update

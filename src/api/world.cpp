@@ -43,7 +43,7 @@ void restore(brume_world& of, const sim::State& state) {
   if (state.layout != of.level->grid.layout() || state.ticks_per_second != settings.ticks_per_second ||
       state.masks != settings.masks)
     fail(BRUME_ERROR_MISMATCH, "the state is of another layout, ticks per second or masks than the world");
-  if (of.broken) of.world.emplace(of.level->grid, settings);
+  if (of.broken) of.world.emplace(of.level->solids(), settings);
   unwrap(of.world->restore(state), BRUME_ERROR_DATA);
 }
 

@@ -191,7 +191,7 @@ scene::Scene scene_of(const brume_renderer_params& params) {
   scene.meshes.resize(1);
   add_triangles(params, scene.meshes[0]);
   scene.materials.resize(1);
-  if (!scene.meshes[0].indices.empty()) scene.objects.push_back({"level", 0, 0, glm::mat4(1), true});
+  if (!scene.meshes[0].indices.empty()) scene.objects.push_back({"level", 0, 0, glm::mat4(1)});
   return scene;
 }
 

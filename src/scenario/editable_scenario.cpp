@@ -48,12 +48,17 @@ bool same_carrier(const scene::Carrier& a, const scene::Carrier& b) {
   return a.name == b.name && a.object == b.object;
 }
 
+bool same_role(const scene::RoleOptions& a, const scene::RoleOptions& b) {
+  return a.object == b.object && a.role == b.role;
+}
+
 /// Whether a scenario of one timeline has loaded what the other one refers to, besides its scene.
 bool same_parts(const scene::Timeline& a, const scene::Timeline& b) {
   return std::ranges::equal(a.volumes, b.volumes, {}, &scene::VolumeOptions::file,
                             &scene::VolumeOptions::file) &&
          std::ranges::equal(a.decals, b.decals, same_decal) &&
-         std::ranges::equal(a.carriers, b.carriers, same_carrier);
+         std::ranges::equal(a.carriers, b.carriers, same_carrier) &&
+         std::ranges::equal(a.roles, b.roles, same_role);
 }
 
 bool same_life(const scene::SmokeOptions& a, const scene::SmokeOptions& b) {
@@ -300,9 +305,10 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
     return Failure{ErrorCode::bad_input,
                    "the timeline has another grid than the scenario; load it as a new scenario"};
   if (!same_parts(timeline, scenario_.timeline))
-    return Failure{ErrorCode::bad_input,
-                   "the timeline has other volumes, decals or carriers than the scenario; load it as a new "
-                   "scenario"};
+    return Failure{
+        ErrorCode::bad_input,
+        "the timeline has other volumes, decals, carriers or roles than the scenario; load it as a "
+        "new scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

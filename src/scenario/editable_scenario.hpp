@@ -62,7 +62,7 @@ class EditableScenario {
 
   /// Replaces the timeline by another one of the same scene, with the same grid or none, at the present tick.
   /// Fails with bad_input for another scene or grid, for volumes or decals of other files, for carriers of
-  /// other objects, and as `add` does.
+  /// other objects, for other roles, and as `add` does.
   Result<void> reset(scene::Timeline timeline);
 
  private:

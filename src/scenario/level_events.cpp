@@ -8,7 +8,7 @@
 namespace brume::scenario {
 namespace {
 
-LevelEvent event_of(double time, const voxel::LevelChange& change, const voxel::BitGrid& now) {
+LevelEvent event_of(double time, const voxel::LevelChange& change, const voxel::Solids& now) {
   LevelEvent event;
   event.time = time;
   event.blocks = edit_of(change, now);
@@ -18,7 +18,7 @@ LevelEvent event_of(double time, const voxel::LevelChange& change, const voxel::
 
 LevelEvent apply(const scene::EditEvent& edit, voxel::Level& level) {
   const Box<int> box = voxels_in(level.grid().layout(), edit.low_world, edit.high_world);
-  return event_of(edit.time, level.set_box(box, edit.solid), level.grid());
+  return event_of(edit.time, level.set_box(box, edit.solid), level.solids());
 }
 
 LevelEvent apply(const scene::DoorEvent& door, const scene::Scene& scene, ObjectLevel& objects) {
@@ -29,7 +29,7 @@ LevelEvent apply(const scene::DoorEvent& door, const scene::Scene& scene, Object
     if (objects.part_of[i] != scene::kNone) parts.push_back(objects.part_of[i]);
   }
   const voxel::LevelChange change = objects.level.show(parts, !door.open);
-  LevelEvent event = event_of(door.time, change, objects.level.grid());
+  LevelEvent event = event_of(door.time, change, objects.level.solids());
   event.objects = std::move(named);
   event.hidden = door.open;
   return event;
@@ -40,17 +40,17 @@ LevelEvent apply(const scene::DoorEvent& door, const scene::Scene& scene, Object
 ObjectLevel make_level(const Scenario& scenario) {
   const auto& objects = scenario.scene.objects;
   std::vector<std::uint32_t> part_of(objects.size(), scene::kNone);
-  std::vector<std::vector<voxel::Triangle>> parts;
+  std::vector<voxel::LevelPart> parts;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!objects[i].voxelized) continue;
+    if (objects[i].role == Role::ghost) continue;
     part_of[i] = static_cast<std::uint32_t>(parts.size());
-    parts.push_back(object_triangles(scenario.scene, objects[i]));
+    parts.push_back({object_triangles(scenario.scene, objects[i]), objects[i].role});
   }
-  return {voxel::Level(scenario.voxels.grid, std::move(parts)), std::move(part_of)};
+  return {voxel::Level(scenario.voxels.grid, scenario.voxels.roles, std::move(parts)), std::move(part_of)};
 }
 
-sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& now) {
-  return sim::difference(change.before, now, change.voxels.low, change.voxels.high);
+sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::Solids& now) {
+  return sim::difference({change.before, change.roles_before}, now, change.voxels.low, change.voxels.high);
 }
 
 Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world) {

@@ -21,16 +21,16 @@ struct LevelEvent {
   bool hidden = false;                              ///< Whether they are hidden from now on.
 };
 
-/// The level of a scenario with one part per voxelized object; `part_of[object]` is its part, or scene::kNone
-/// if it is not voxelized.
+/// The level of a scenario with one part per object that stops anything; `part_of[object]` is its part, or
+/// scene::kNone of a ghost.
 struct ObjectLevel {
   voxel::Level level;
   std::vector<std::uint32_t> part_of;
 };
 ObjectLevel make_level(const Scenario& scenario);
 
-/// A change as an edit of the simulation; `now` is the level's grid right after it.
-sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& now);
+/// A change as an edit of the simulation; `now` is the level right after it.
+sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::Solids& now);
 
 /// The voxels with centres inside a box [m].
 Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);

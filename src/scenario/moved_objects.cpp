@@ -33,7 +33,7 @@ std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers,
 
 void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene) {
   for (const MovedObject& moved : moved_objects(timeline.carriers, scene, 0))
-    scene.objects[moved.object].voxelized = false;
+    scene.objects[moved.object].role = Role::ghost;
 }
 
 }  // namespace brume::scenario

@@ -20,7 +20,7 @@ struct MovedObject {
 std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers, const scene::Scene& scene,
                                        double seconds);
 
-/// What moves stops no smoke.
+/// What moves stops nothing.
 void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene);
 
 }  // namespace brume::scenario

@@ -32,6 +32,9 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
                           float aspect, const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
   complete_grenade(timeline, scene);
+  for (const scene::RoleOptions& options : timeline.roles)
+    for (scene::Object& object : scene.objects)
+      if (object.name == options.object) object.role = options.role;
   exclude_moved_objects(timeline, scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();

@@ -18,7 +18,7 @@ std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
 
 Simulation::Simulation(const Scenario& scenario, std::vector<LevelEvent> level_events)
     : level_events_(std::move(level_events)),
-      world_(scenario.voxels.grid, {.masks = scenario.masks.key()}),
+      world_(scenario.voxels.solids(), {.masks = scenario.masks.key()}),
       planes_(scenario.voxels.planes),
       volume_(scenario.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
 

@@ -20,11 +20,15 @@ using voxel::Triangle;
 using voxel::VxlContents;
 
 // A hash of all that the voxels depend on: the triangles in world space, the layout and the format's version.
-std::uint64_t cache_key(std::span<const Triangle> triangles, const GridLayout& layout) {
+std::uint64_t cache_key(const voxel::TrianglesByRole& triangles, const GridLayout& layout) {
   static_assert(sizeof(Triangle) == 36 && sizeof(GridLayout) == 28, "no padding to hash");
   std::uint64_t key = hash_values(std::span(&voxel::kVxlVersion, 1));
   key = hash_bytes(std::as_bytes(std::span(&layout, 1)), key);
-  return hash_bytes(std::as_bytes(triangles), key);
+  key = hash_bytes(std::as_bytes(std::span(triangles.smoke)), key);
+  if (!triangles.walls && triangles.grilles.empty()) return key;
+  for (const auto& list : {triangles.walls.value_or(triangles.smoke), triangles.grilles})
+    key = hash_bytes(std::as_bytes(std::span(list)), key + list.size());
+  return key;
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -49,23 +53,28 @@ std::optional<VxlContents> from_cache(const std::filesystem::path& path, std::ui
 Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridLayout& layout,
                                 const std::filesystem::path& cache_path) {
   if (auto checked = voxel::check_frame(layout); !checked) return checked.failure();
-  const std::vector<Triangle> triangles = world_triangles(scene);
+  const voxel::TrianglesByRole triangles = triangles_by_role(scene);
   const std::uint64_t key = cache_key(triangles, layout);
   if (!cache_path.empty()) {
     if (auto contents = from_cache(cache_path, key))
-      return Voxels{std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles};
+      return Voxels{std::move(contents->grid), std::move(contents->planes), true, 0,
+                    contents->triangles,       std::move(contents->roles)};
   }
 
   const auto start = std::chrono::steady_clock::now();
-  auto grid = voxel::voxelize(triangles, layout);
+  auto grid = voxel::voxelize(triangles.smoke, layout);
   const double milliseconds = milliseconds_since(start);
   if (!grid) return grid.failure();
-  VxlContents contents{std::move(*grid), {}, triangles.size()};
-  contents.planes = SurfacePlanes::build(triangles, contents.grid);
+  VxlContents contents{std::move(*grid), {}, triangles.smoke.size()};
+  contents.planes = SurfacePlanes::build(triangles.smoke, contents.grid);
+  auto roles = voxel::voxelize_roles(triangles, contents.grid);
+  if (!roles) return roles.failure();
+  contents.roles = std::move(*roles);
   if (!cache_path.empty()) {
     if (auto saved = voxel::save_vxl(cache_path, contents, key); !saved) return saved.failure();
   }
-  return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds, triangles.size()};
+  return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds,
+                contents.triangles,       std::move(contents.roles)};
 }
 
 }  // namespace brume::scenario

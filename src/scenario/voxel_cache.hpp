@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "scene/scene.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 #include "voxel/surface_planes.hpp"
 
 namespace brume::scenario {
@@ -14,9 +14,11 @@ namespace brume::scenario {
 struct Voxels {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
-  bool cached = false;      ///< Read from the cache instead of voxelized.
-  double milliseconds = 0;  ///< Time of voxelize() alone, without planes; 0 when cached.
-  std::uint64_t triangles = 0;
+  bool cached = false;          ///< Read from the cache instead of voxelized.
+  double milliseconds = 0;      ///< Time of voxelize() alone, without planes; 0 when cached.
+  std::uint64_t triangles = 0;  ///< Of what stops smoke.
+  voxel::RoleGrids roles = {};
+  voxel::Solids solids() const { return {grid, roles}; }
 };
 
 /// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and

@@ -1,5 +1,7 @@
 #include "scenario/world_triangles.hpp"
 
+#include <algorithm>
+
 #include "core/tasks.hpp"
 
 namespace brume::scenario {
@@ -23,11 +25,11 @@ void place_object(const scene::Object& object, const scene::Mesh& mesh, Triangle
 
 }  // namespace
 
-std::vector<Triangle> world_triangles(const scene::Scene& scene) {
+std::vector<Triangle> world_triangles(const scene::Scene& scene, bool (*stops)(Role)) {
   std::vector<Part> parts;
   std::size_t count = 0;
   for (const scene::Object& object : scene.objects) {
-    if (!object.voxelized || object.mesh == scene::kNone) continue;
+    if (!stops(object.role) || object.mesh == scene::kNone) continue;
     parts.push_back({&object, count});
     count += scene.meshes[object.mesh].indices.size() / 3;
   }
@@ -36,6 +38,17 @@ std::vector<Triangle> world_triangles(const scene::Scene& scene) {
     for (std::size_t i = begin; i < end; ++i)
       place_object(*parts[i].object, scene.meshes[parts[i].object->mesh], triangles.data() + parts[i].first);
   });
+  return triangles;
+}
+
+voxel::TrianglesByRole triangles_by_role(const scene::Scene& scene) {
+  const auto any = [&](Role role) {
+    return std::ranges::find(scene.objects, role, &scene::Object::role) != scene.objects.end();
+  };
+  voxel::TrianglesByRole triangles{world_triangles(scene), {}, {}};
+  if (any(Role::glass)) triangles.walls = world_triangles(scene, stops_sight);
+  if (any(Role::grille))
+    triangles.grilles = world_triangles(scene, [](Role role) { return role == Role::grille; });
   return triangles;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/log.hpp"
 #include "scene/gltf_parts.hpp"
+#include "scene/roles.hpp"
 
 namespace brume::scene {
 namespace {
@@ -67,9 +68,8 @@ std::string ignored_features(const tinygltf::Model& model) {
   add(skins, "skins (meshes are drawn as they are stored)");
   add(morphs, "weights of morph targets");
   add(wraps, "samplers that clamp or mirror (textures repeat)");
-  add(glass, "KHR_materials_transmission (glass is opaque)");
-  add(invisible,
-      "blending (what has an alpha below 0.5 is not drawn, yet stops smoke and sight; the rest is opaque)");
+  add(glass, "KHR_materials_transmission (glass is drawn opaque)");
+  add(invisible, "blending (what has an alpha below 0.5 is not drawn; the rest is opaque)");
   add(unlit, "KHR_materials_unlit (it is lit)");
   return text;
 }
@@ -98,7 +98,8 @@ class GltfLoader {
   struct Visit {
     int node = 0;
     glm::dmat4 world_from_parent{1};
-    bool voxelized = true, is_grenade = false;
+    std::optional<Role> role = {};  ///< Of the nearest node that has one.
+    bool is_grenade = false;
   };
 
   std::vector<Visit> root_nodes() const {
@@ -144,10 +145,7 @@ class GltfLoader {
 
   /// Adds the node's mesh, light and camera, and updates the state for its children.
   void read_node(const tinygltf::Node& node, const std::string& place, Visit& visit) {
-    // Extras may be any value; only objects can contain the flag.
-    const bool marked = node.extras.Has("brume_ignore") && node.extras.Get("brume_ignore").IsBool() &&
-                        node.extras.Get("brume_ignore").Get<bool>();
-    if (marked || node.name.starts_with("IGNORE_")) visit.voxelized = false;
+    if (const auto role = role_of_node(node, place)) visit.role = role;
     visit.is_grenade = visit.is_grenade || node.name == "Grenade";
 
     if (node.mesh >= 0) add_mesh(node, place, visit);
@@ -157,6 +155,21 @@ class GltfLoader {
       add_light(light->second.Get("light").GetNumberAsInt(), place, visit.world_from_parent);
   }
 
+  /// By its extras, which may be any value, or its name.
+  std::optional<Role> role_of_node(const tinygltf::Node& node, const std::string& place) {
+    if (node.extras.Has("brume_role")) {
+      const tinygltf::Value& value = node.extras.Get("brume_role");
+      const auto role = value.IsString() ? role_of_name(value.Get<std::string>()) : std::nullopt;
+      if (role) return role;
+      if (!warned_of_role_)
+        log_warning(place + ".extras.brume_role: is none of \"wall\", \"glass\", \"grille\", \"ghost\"");
+      warned_of_role_ = true;
+    }
+    const bool ignored = node.extras.Has("brume_ignore") && node.extras.Get("brume_ignore").IsBool() &&
+                         node.extras.Get("brume_ignore").Get<bool>();
+    return ignored ? Role::ghost : role_of_prefix(node.name);
+  }
+
   void add_mesh(const tinygltf::Node& node, const std::string& place, const Visit& visit) {
     const auto& parts = meshes_.parts(node.mesh);
     if (parts.empty()) return;
@@ -164,7 +177,7 @@ class GltfLoader {
     Object object;
     object.name = node.name.empty() ? mesh_name : node.name;
     object.world_from_mesh = glm::mat4(visit.world_from_parent);
-    object.voxelized = visit.voxelized && !mesh_name.starts_with("IGNORE_");
+    const std::optional<Role> own = visit.role ? visit.role : role_of_prefix(mesh_name);
     if (visit.is_grenade || mesh_name == "Grenade") {
       set_grenade(place, parts, object);
       return;
@@ -172,6 +185,7 @@ class GltfLoader {
     for (const GltfMeshes::Part& part : parts) {
       object.mesh = part.mesh;
       object.material = part.material;
+      object.role = own.value_or(builder_.scene.materials[part.material].role);
       builder_.add_object(object, place).value_or_throw();
     }
   }
@@ -251,6 +265,7 @@ class GltfLoader {
   SceneBuilder builder_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
+  bool warned_of_role_ = false;
 };
 
 }  // namespace

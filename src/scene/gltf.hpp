@@ -19,8 +19,9 @@ namespace brume::scene {
 /// - A light emits along its node's -z. The camera's target is the point on its axis nearest to the middle of
 /// the
 ///   scene, at least 1 m ahead.
-/// - A node with extras {"brume_ignore": true}, or whose own or mesh's name begins with IGNORE_, is not
-///   voxelized, nor are its children.
+/// - Roles: a node's extras {"brume_role": "glass"} or {"brume_ignore": true}, else its name's prefix
+///   (role_of_prefix), for it and its children; else its mesh's prefix; else its material's: glass by
+///   KHR_materials_transmission of at least 0.5, MASK and BLEND by role_of_alpha.
 /// - The first node or mesh called Grenade becomes Scene::grenade.
 /// - Meshes may be compressed by Draco, meshoptimizer or quantization (KHR_draco_mesh_compression,
 ///   EXT_meshopt_compression, KHR_mesh_quantization), images may be WebP (EXT_texture_webp).

@@ -4,6 +4,7 @@
 #include "core/log.hpp"
 #include "scene/color.hpp"
 #include "scene/gltf_parts.hpp"
+#include "scene/roles.hpp"
 
 namespace brume::scene {
 namespace {
@@ -34,6 +35,13 @@ TextureUse texture_use(const TextureInfo& texture) {
       glm::mat3x2(glm::dmat3x2(scale.x * c, -scale.x * s, scale.y * s, scale.y * c, offset.x, offset.y));
   if (transform.Has("texCoord")) use.uv_set = transform.Get("texCoord").GetNumberAsInt();
   return use;
+}
+
+/// The fraction of light that passes, by KHR_materials_transmission.
+double transmission_of(const tinygltf::Material& material) {
+  const auto found = material.extensions.find("KHR_materials_transmission");
+  if (found == material.extensions.end() || !found->second.Has("transmissionFactor")) return 0;
+  return found->second.Get("transmissionFactor").GetNumberAsDouble();
 }
 
 }  // namespace
@@ -97,7 +105,11 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   if (mode != "OPAQUE") {
     const double cutoff = mode == "MASK" ? source.alphaCutoff : 0.5;
     material.alpha_cutoff = static_cast<float>(cutoff / std::max(pbr.baseColorFactor[3], 1e-6));
+    const std::uint32_t color = numbers(pbr.baseColorTexture);
+    material.role = role_of_alpha(color == kNone ? nullptr : &builder_.scene.images[color].pixels,
+                                  pbr.baseColorFactor[3], cutoff);
   }
+  if (material.role == Role::wall && transmission_of(source) >= 0.5) material.role = Role::glass;
   return material;
 }
 

@@ -53,16 +53,19 @@ struct MtlMaterial {
   std::string folder;  ///< Folder of its MTL file relative to the scene, ending in a slash; may be empty.
   glm::vec3 diffuse{0.8f}, emission{0};
   float roughness = 0.8f, metallic = 0;
-  std::string diffuse_map, normal_map;
+  float opacity = 1;
+  std::string diffuse_map, normal_map, opacity_map;
   std::string diffuse_place, normal_place;  ///< "file:line" of the maps.
 };
 
 /// Reads newmtl, Kd, Ke, Ns (as a roughness: alpha is sqrt(2 / (Ns + 2)), its root the roughness), Pr, Pm,
-/// map_Kd, norm, map_Bump, bump. Other statements are ignored. Same errors as parse_obj.
+/// d, Tr (1 - d), map_Kd, map_d, norm, map_Bump, bump. Other statements are ignored. Same errors as
+/// parse_obj.
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name);
 
 /// A scene from one OBJ file: one object per name (`o`, `g`) and material, called by the name if there is
-/// one.
+/// one. Roles: the prefix of the object's or the material's name (role_of_prefix); else glass for an opacity
+/// below 0.5, a grille for an opacity map, unless it is the colour's image and without holes.
 Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

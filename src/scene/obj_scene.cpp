@@ -6,6 +6,7 @@
 
 #include "core/log.hpp"
 #include "scene/obj.hpp"
+#include "scene/roles.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/text_reader.hpp"
 
@@ -40,6 +41,8 @@ class MtlParser {
       if (auto read = read_number(exponent, 0, 1e6f, "the exponent"); !read) return read;
       material.roughness = std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
     }
+    if (word == "d" || word == "Tr") return read_opacity(word == "Tr", material.opacity);
+    if (std::string ignored; word == "map_d") read_map(material.opacity_map, ignored);
     if (word == "map_Kd") read_map(material.diffuse_map, material.diffuse_place);
     if (word == "norm" || word == "map_Bump" || word == "map_bump" || word == "bump")
       read_map(material.normal_map, material.normal_place);
@@ -65,6 +68,16 @@ class MtlParser {
     const auto number = reader_.number(what);
     if (!number) return number.failure();
     value = std::clamp(*number, least, most);
+    return {};
+  }
+
+  /// The number after "-halo", an option of `d`; what is none counts as opaque, as ever.
+  Result<void> read_opacity(bool is_transparency, float& opacity) {
+    std::string_view word = reader_.next_word();
+    if (word == "-halo") word = reader_.next_word();
+    const auto number = reader_.number_from(word, "the opacity");
+    if (!number) return {};
+    opacity = is_transparency ? 1 - *number : *number;
     return {};
   }
 
@@ -177,6 +190,13 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   material.base_color_image = image(source.diffuse_map, source.diffuse_place, "a magenta checker stands in");
   material.normal_image = image(source.normal_map, source.normal_place, "it is left out");
   if (builder.is_checker(material.normal_image)) material.normal_image = kNone;
+  if (!source.opacity_map.empty()) {
+    const bool is_color =
+        source.opacity_map == source.diffuse_map && !builder.is_checker(material.base_color_image);
+    material.role = is_color ? role_of_alpha(&builder.scene.images[material.base_color_image].pixels, 1, 0.5)
+                             : Role::grille;
+  }
+  if (source.opacity < 0.5f) material.role = Role::glass;
   // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
     material.base_color = glm::vec3(1);
@@ -213,6 +233,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
       if (!part.material.empty() && materials->has_all_files)
         log_warning(part.place + ": no material is called " + in_quotes(part.material) + "; it is grey");
     }
+    const Role by_material = role_of_prefix(part.material).value_or(material.role);
     builder.scene.materials.push_back(std::move(material));
 
     // The object.
@@ -222,7 +243,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     object.name = !part.object.empty() ? part.object : !part.material.empty() ? part.material : "object";
     object.mesh = *mesh;
     object.material = static_cast<std::uint32_t>(builder.scene.materials.size() - 1);
-    object.voxelized = !object.name.starts_with("IGNORE_") && !part.material.starts_with("IGNORE_");
+    object.role = role_of_prefix(object.name).value_or(by_material);
     if (auto added = builder.add_object(std::move(object), part.place); !added) return added.failure();
   }
   return std::move(builder).finish();

@@ -27,7 +27,7 @@ std::optional<glm::vec3> first_hit(const Scene& scene, glm::vec3 origin_world, g
   const glm::dvec3 origin(origin_world), direction(direction_world);
   double nearest = std::numeric_limits<double>::infinity();
   for (const Object& object : scene.objects) {
-    if (!object.voxelized) continue;
+    if (!stops_smoke(object.role)) continue;
     const glm::dmat4 world_from_mesh(object.world_from_mesh);
     const Mesh& mesh = scene.meshes[object.mesh];
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

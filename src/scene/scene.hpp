@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/role.hpp"
 #include "image/image.hpp"
 
 namespace brume::scene {
@@ -49,6 +50,7 @@ struct Material {
   std::uint32_t base_color_image = kNone;  ///< sRGB colour, linear alpha. Index into Scene::images.
   std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
   std::uint32_t roughness_image = kNone;   ///< G: roughness, B: metallic; multiply the factors.
+  Role role = Role::wall;                  ///< Of objects that have none of their own.
 };
 
 struct Object {
@@ -56,8 +58,8 @@ struct Object {
   std::uint32_t mesh = kNone;      ///< Index into Scene::meshes.
   std::uint32_t material = kNone;  ///< Index into Scene::materials.
   glm::mat4 world_from_mesh{1};
-  bool voxelized = true;  ///< False: drawn, but smoke passes through it.
-  bool backdrop = false;  ///< Not part of the scene's bounds: a ground that reaches to the horizon.
+  Role role = Role::wall;  ///< What it stops.
+  bool backdrop = false;   ///< Not part of the scene's bounds: a ground that reaches to the horizon.
 };
 
 enum class LightKind : std::uint32_t { point, spot, directional };

@@ -134,7 +134,7 @@ Result<void> SceneBuilder::set_grenade(const Object& object, const std::string& 
   if (!added) return added.failure();
   scene.grenade = object;
   scene.grenade->mesh = *added;
-  scene.grenade->voxelized = false;
+  scene.grenade->role = Role::ghost;
   scene.grenade->world_from_mesh[3] = glm::vec4(0, 0, 0, 1);
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include "core/log.hpp"
 #include "scene/obj.hpp"
+#include "scene/roles.hpp"
 #include "scene/scene_builder.hpp"
 #include "scene/text_reader.hpp"
 
@@ -107,7 +108,7 @@ class SceneTxtParser {
     object.mesh = *mesh;
     object.material = material_of(material, std::clamp(roughness, kLeastRoughness, 1.0f));
     object.world_from_mesh = world_from_mesh(*position, *rotation, *scale);
-    object.voxelized = !name.starts_with("IGNORE_");
+    object.role = role_of_prefix(name).value_or(Role::wall);
     object.name = std::move(name);
     if (object.name != "Grenade") return builder_.add_object(std::move(object), reader_.line_place());
     if (!builder_.has_grenade()) return builder_.set_grenade(object, reader_.line_place());

@@ -93,7 +93,7 @@ void add_built_in_grenade(Scene& scene) {
   scene.materials.push_back(std::move(metal));
   scene.meshes.push_back(grenade_mesh());
   scene.grenade = Object{"Grenade", static_cast<std::uint32_t>(scene.meshes.size() - 1),
-                         static_cast<std::uint32_t>(scene.materials.size() - 1), glm::mat4(1), false};
+                         static_cast<std::uint32_t>(scene.materials.size() - 1), glm::mat4(1), Role::ghost};
 }
 
 }  // namespace brume::scene

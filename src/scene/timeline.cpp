@@ -39,6 +39,7 @@ class TimelineReader {
     const auto carriers = root.tables("carrier");
     const auto volumes = root.tables("volume");
     const auto decals = root.tables("decal");
+    const auto roles = root.tables("role");
     const auto cameras = root.tables("camera");
     const auto events = root.tables("event");
     if (auto done = root.finish(); !done) return done.failure();
@@ -56,6 +57,7 @@ class TimelineReader {
     read_all(carriers, read_carrier);
     read_all(volumes, read_volume);
     read_all(decals, read_decal);
+    read_all(roles, read_role);
     for (std::size_t i = 0; i < cameras.size() && outcome; ++i)
       outcome = read_camera_key(*cameras[i], path_, timeline_.camera);
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
@@ -254,9 +256,30 @@ Result<void> check_object(const Scene& scene, const std::string& name, const std
 
 }  // namespace
 
+Result<void> read_role(const toml::table& source, const std::filesystem::path& path, Timeline& timeline) {
+  TomlTable table(source, "[[role]]", path.string());
+  RoleOptions options;
+  std::string name;
+  for (const char* key : {"object", "role"}) table.require(key);
+  table.read("object", options.object);
+  table.read("role", name);
+  const auto role = role_of_name(name);
+  if (!role) table.fail("role", "\"role\": expected \"wall\", \"glass\", \"grille\" or \"ghost\"");
+  options.role = role.value_or(options.role);
+  if (options.object.empty()) table.fail("object", "\"object\": expected the name of an object");
+  options.place = table.place("object");
+  for (const RoleOptions& other : timeline.roles)
+    if (other.object == options.object)
+      table.fail("object", "\"object\": there is another [[role]] of " + in_quotes(options.object));
+  timeline.roles.push_back(std::move(options));
+  return table.finish();
+}
+
 Result<void> check_objects(const Timeline& timeline, const Scene& scene) {
   for (const DoorEvent& door : timeline.doors)
     if (auto done = check_object(scene, door.object, door.place); !done) return done;
+  for (const RoleOptions& role : timeline.roles)
+    if (auto done = check_object(scene, role.object, role.place); !done) return done;
   for (const Carrier& carrier : timeline.carriers)
     if (!carrier.object.empty())
       if (auto done = check_object(scene, carrier.object, carrier.place); !done) return done;

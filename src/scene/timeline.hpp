@@ -185,6 +185,13 @@ struct VolumeOptions {
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 
+/// The role of all objects of a name, in the place of what the scene's file gives them.
+struct RoleOptions {
+  std::string object;
+  Role role = Role::wall;
+  std::string place = {};  ///< "file:line:column" for error messages.
+};
+
 struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
@@ -305,6 +312,7 @@ struct Timeline {
   std::vector<Carrier> carriers;
   std::vector<VolumeOptions> volumes;
   std::vector<DecalOptions> decals;
+  std::vector<RoleOptions> roles;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
   // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
   // in for_each_event_kind.
@@ -343,22 +351,22 @@ void sort_events(Timeline& timeline);
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
 /// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
 /// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
-/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], and [[camera]] (time, position, target,
-/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
-/// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
-/// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
-/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high,
-/// solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384,
-/// 16384]. check_objects checks whether the objects of doors and carriers exist. Fails with bad_input and
-/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
-/// the wrong type or out of range.
+/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[role]] (object, role), and [[camera]]
+/// (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time,
+/// from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees,
+/// flash), "text" (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll),
+/// "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to),
+/// "edit" (time, low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those
+/// of events [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers exist.
+/// Fails with bad_input and file:line:column for malformed TOML, an unknown key (suggesting what was probably
+/// meant), and a value of the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
 
-/// Fails with bad_input at the first door or carrier whose object is missing from the scene, suggesting what
-/// was probably meant.
+/// Fails with bad_input at the first door, role or carrier whose object is missing from the scene, suggesting
+/// what was probably meant.
 Result<void> check_objects(const Timeline& timeline, const Scene& scene);
 
 /// The pose of a carrier by its name at a time; the identity without one.

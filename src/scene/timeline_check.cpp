@@ -250,6 +250,16 @@ Result<void> check_decal(const Timeline& timeline, const DecalOptions& decal) {
   return look.done();
 }
 
+Result<void> check_roles(const std::vector<RoleOptions>& roles) {
+  Checker look("[[role]]");
+  for (const RoleOptions& role : roles) {
+    look.text("object", role.object);
+    if (role.object.empty()) look.fail("object", "expected the name of an object");
+  }
+  if (has_twice(roles, &RoleOptions::object)) look.fail("object", "expected one role for each object");
+  return look.done();
+}
+
 Result<void> check_count(const char* table, std::size_t count, std::size_t most) {
   if (count <= most) return {};
   return Failure{ErrorCode::bad_input,
@@ -289,6 +299,7 @@ Result<void> check_settings(const Timeline& timeline) {
     if (auto done = check_volume(timeline, volume); !done) return done;
   for (const DecalOptions& decal : timeline.decals)
     if (auto done = check_decal(timeline, decal); !done) return done;
+  if (auto done = check_roles(timeline.roles); !done) return done;
 
   return check_keys("camera", timeline.camera, [](const CameraKey& key, Checker& of_key) {
     of_key.point("position", key.camera.position_world, kFarthestPoint);

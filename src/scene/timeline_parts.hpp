@@ -45,6 +45,7 @@ Result<void> read_camera_key(const toml::table& source, const std::filesystem::p
 // Each adds one table to a timeline whose file is `path`. Fail as load_timeline.
 Result<void> read_carrier(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 Result<void> read_volume(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
+Result<void> read_role(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 Result<void> read_decal(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 
 }  // namespace brume::scene

@@ -24,6 +24,7 @@ class Writer : private TomlText {
     for (const Carrier& carrier : timeline.carriers) write_carrier(carrier);
     for (const VolumeOptions& volume : timeline.volumes) write_volume(volume);
     for (const DecalOptions& decal : timeline.decals) write_decal(decal);
+    for (const RoleOptions& role : timeline.roles) write_role(role);
     for (const CameraKey& key : timeline.camera) camera(key);
     write_events(timeline);
     return std::move(text_);
@@ -118,6 +119,12 @@ class Writer : private TomlText {
     if (!decal.carrier.empty()) line("carrier", decal.carrier);
     line("position", decal.position_world);
     options(decal, DecalOptions(), "", [](auto& o, auto& v) { visit_decal_options(o, v); });
+  }
+
+  void write_role(const RoleOptions& role) {
+    text_ += "\n[[role]]\n";
+    line("object", role.object);
+    line("role", std::string(name_of(role.role)));
   }
 
   /// Writes all events by time; events of the same time in the order in which they happen.

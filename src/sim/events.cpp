@@ -1,6 +1,7 @@
 #include "sim/events.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 namespace brume::sim {
@@ -94,7 +95,9 @@ Result<void> check(const LevelEdit& e, const voxel::GridLayout& layout) {
       return check.expected("blocks within the grid");
     if (i > 0 && !block_before(e.blocks[i - 1].at, block.at))
       return check.expected("blocks sorted by z, y, x, each once");
-    if ((block.make_solid | block.make_free) == 0 || (block.make_solid & block.make_free) != 0)
+    const int bits = std::popcount(block.make_solid) + std::popcount(block.make_free) +
+                     std::popcount(block.make_glass) + std::popcount(block.make_grille);
+    if (block.all() == 0 || bits != std::popcount(block.all()))
       return check.expected("at least one change per block, and no voxel both solid and free");
   }
   return check.number("a tick", e.tick, 0, kMaxTick);

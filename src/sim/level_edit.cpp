@@ -10,6 +10,7 @@ namespace {
 std::uint64_t bits_within(glm::ivec3 block, glm::ivec3 low, glm::ivec3 high) {
   const glm::ivec3 first = glm::max(low - block * kBlockSize, glm::ivec3(0));
   const glm::ivec3 end = glm::min(high - block * kBlockSize, glm::ivec3(kBlockSize));
+  if (first == glm::ivec3(0) && end == glm::ivec3(kBlockSize)) return ~std::uint64_t{0};
   std::uint64_t bits = 0;
   for (int z = first.z; z < end.z; ++z)
     for (int y = first.y; y < end.y; ++y)
@@ -25,6 +26,21 @@ void for_each_block(glm::ivec3 low, glm::ivec3 high, Visit visit) {
   for (int z = first.z; z <= last.z; ++z)
     for (int y = first.y; y <= last.y; ++y)
       for (int x = first.x; x <= last.x; ++x) visit(glm::ivec3(x, y, z));
+}
+
+/// What of an edit within some bits is not already so.
+EditBlock differing(const EditBlock& edit, const EditBlock& already, std::uint64_t within) {
+  return {edit.at, edit.make_solid & ~already.make_solid & within,
+          edit.make_free & ~already.make_free & within, edit.make_glass & ~already.make_glass & within,
+          edit.make_grille & ~already.make_grille & within};
+}
+
+void apply_to(voxel::BitGrid& grid, const EditBlock& edit) {
+  for (std::uint64_t bits = edit.make_solid | edit.make_free; bits != 0; bits &= bits - 1) {
+    const int bit = std::countr_zero(bits);
+    const glm::ivec3 v = voxel_of_block(glm::ivec3(edit.at), bit);
+    if (grid.contains(v)) grid.set(v, edit.make_solid >> bit & 1);
+  }
 }
 
 }  // namespace
@@ -56,14 +72,14 @@ EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 
   return edits;
 }
 
-EditBlocks difference(const voxel::BitGrid& from, const voxel::BitGrid& to, glm::ivec3 low, glm::ivec3 high) {
+EditBlocks difference(const voxel::Solids& from, const voxel::Solids& to, glm::ivec3 low, glm::ivec3 high) {
   low = glm::max(low, glm::ivec3(0));
-  high = glm::min(high, from.size());
+  high = glm::min(high, from.smoke.size());
   EditBlocks edits;
   for_each_block(low, high, [&](glm::ivec3 block) {
     const std::uint64_t within = bits_within(block, low, high);
-    const std::uint64_t before = solid_bits(from, block) & within, after = solid_bits(to, block) & within;
-    if (before != after) edits.push_back({glm::i16vec3(block), after & ~before, before & ~after});
+    const EditBlock change = differing(content_of(to, block), content_of(from, block), within);
+    if (change.all() != 0) edits.push_back(change);
   });
   return edits;
 }
@@ -77,33 +93,52 @@ EditBlocks merge_edits(std::span<const EditBlock> earlier, std::span<const EditB
       merged.push_back(*a++);
     else if (a == earlier.end() || block_before(b->at, a->at))
       merged.push_back(*b++);
-    else {
-      merged.push_back({a->at, (a->make_solid & ~b->make_free) | b->make_solid,
-                        (a->make_free & ~b->make_solid) | b->make_free});
-      ++a, ++b;
-    }
+    else
+      merged.push_back(merge_edits(*a++, *b++));
   }
   return merged;
 }
 
-EditBlocks effective_edits(const voxel::BitGrid& grid, std::span<const EditBlock> edits) {
+EditBlock merge_edits(const EditBlock& earlier, const EditBlock& later) {
+  const std::uint64_t kept = ~later.all();
+  return {earlier.at, (earlier.make_solid & kept) | later.make_solid,
+          (earlier.make_free & kept) | later.make_free, (earlier.make_glass & kept) | later.make_glass,
+          (earlier.make_grille & kept) | later.make_grille};
+}
+
+EditBlocks effective_edits(const voxel::Solids& level, std::span<const EditBlock> edits) {
   EditBlocks effective;
   for (const EditBlock& edit : edits) {
-    const std::uint64_t solid = solid_bits(grid, glm::ivec3(edit.at));
-    const std::uint64_t within = bits_within(glm::ivec3(edit.at), glm::ivec3(0), grid.size());
-    const EditBlock change{edit.at, edit.make_solid & ~solid & within, edit.make_free & solid};
-    if (change.make_solid | change.make_free) effective.push_back(change);
+    const glm::ivec3 block(edit.at);
+    const std::uint64_t within = bits_within(block, glm::ivec3(0), level.smoke.size());
+    const EditBlock change = differing(edit, content_of(level, block), within);
+    if (change.all() != 0) effective.push_back(change);
   }
   return effective;
 }
 
+EditBlock content_of(const voxel::Solids& level, glm::ivec3 block) {
+  const std::uint64_t smoke = solid_bits(level.smoke, block);
+  const auto bits_of = [&](const voxel::BitGrid& grid) {
+    return &grid == &level.smoke ? smoke : solid_bits(grid, block);
+  };
+  const std::uint64_t walls = bits_of(level.sight), bodies = bits_of(level.bodies);
+  const std::uint64_t within = bits_within(block, glm::ivec3(0), level.smoke.size());
+  return {glm::i16vec3(block), walls, ~bodies & within, smoke & ~walls, bodies & ~smoke};
+}
+
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits) {
-  for (const EditBlock& edit : edits)
-    for (std::uint64_t bits = edit.make_solid | edit.make_free; bits != 0; bits &= bits - 1) {
-      const int bit = std::countr_zero(bits);
-      const glm::ivec3 v = voxel_of_block(glm::ivec3(edit.at), bit);
-      if (grid.contains(v)) grid.set(v, edit.make_solid >> bit & 1);
-    }
+  for (const EditBlock& edit : edits) apply_to(grid, edit.of_smoke());
+}
+
+void apply_edits(voxel::BitGrid& grid, voxel::RoleGrids& roles, std::span<const EditBlock> edits) {
+  for (const EditBlock& edit : edits) {
+    if (edit.make_glass != 0 && !roles.sight) roles.sight = grid;
+    if (edit.make_grille != 0 && !roles.bodies) roles.bodies = grid;
+    apply_to(grid, edit.of_smoke());
+    if (roles.sight) apply_to(*roles.sight, edit.of_sight());
+    if (roles.bodies) apply_to(*roles.bodies, edit.of_bodies());
+  }
 }
 
 }  // namespace brume::sim

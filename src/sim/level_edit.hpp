@@ -1,4 +1,4 @@
-// Edits of the level: which voxels become solid or free.
+// Edits of the level: which voxels become wall, glass, grille or free.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,24 @@
 #include <vector>
 
 #include "sim/block_set.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 
 namespace brume::sim {
 
 /// The changes of an edit within one 4^3 block; a voxel is in at most one of the masks.
 struct EditBlock {
   glm::i16vec3 at{0};            ///< voxel / 4
-  std::uint64_t make_solid = 0;  ///< Bits as in VoxelBlock.
-  std::uint64_t make_free = 0;
+  std::uint64_t make_solid = 0;  ///< A wall. Bits as in VoxelBlock.
+  std::uint64_t make_free = 0;   ///< Of everything.
+  std::uint64_t make_glass = 0, make_grille = 0;
   bool operator==(const EditBlock&) const = default;
+
+  std::uint64_t all() const { return make_solid | make_free | make_glass | make_grille; }
+  bool has_roles() const { return (make_glass | make_grille) != 0; }
+  /// The same for the grid of what stops smoke alone: solid or free.
+  EditBlock of_smoke() const { return {at, make_solid | make_glass, make_free | make_grille}; }
+  EditBlock of_sight() const { return {at, make_solid, make_free | make_glass | make_grille}; }
+  EditBlock of_bodies() const { return {at, make_solid | make_glass | make_grille, make_free}; }
 };
 
 /// Blocks sorted by block_before, all distinct, none without a bit.
@@ -26,18 +34,25 @@ using EditBlocks = std::vector<EditBlock>;
 EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 high, bool solid);
 
 /// The edits that turn `from` into `to` within [low, high) voxels; both of the same layout.
-EditBlocks difference(const voxel::BitGrid& from, const voxel::BitGrid& to, glm::ivec3 low, glm::ivec3 high);
+EditBlocks difference(const voxel::Solids& from, const voxel::Solids& to, glm::ivec3 low, glm::ivec3 high);
 
 /// The combined effect of `earlier` followed by `later`.
 EditBlocks merge_edits(std::span<const EditBlock> earlier, std::span<const EditBlock> later);
 
-/// The part of the edits that changes the grid.
-EditBlocks effective_edits(const voxel::BitGrid& grid, std::span<const EditBlock> edits);
+EditBlock merge_edits(const EditBlock& earlier, const EditBlock& later);
+
+/// The part of the edits that changes the level.
+EditBlocks effective_edits(const voxel::Solids& level, std::span<const EditBlock> edits);
+
+/// The edit that makes a block what it is in a level, whatever it was; without bits outside of the grid.
+EditBlock content_of(const voxel::Solids& level, glm::ivec3 block);
 
 /// The solid voxels of a block; none outside the grid.
 std::uint64_t solid_bits(const voxel::BitGrid& grid, glm::ivec3 block);
 
-/// Applies the edits to the grid; changes outside the grid are ignored.
+/// Applies the edits to a grid of what stops smoke; changes outside the grid are ignored.
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits);
+/// The same for all grids of a level; adds those of the roles that it had none of.
+void apply_edits(voxel::BitGrid& grid, voxel::RoleGrids& roles, std::span<const EditBlock> edits);
 
 }  // namespace brume::sim

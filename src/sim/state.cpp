@@ -100,6 +100,15 @@ std::uint64_t State::hash() const {
     words.add(b.position);
     words.add(b.previous);
   }
+
+  // Edits of other roles than wall: nothing without them.
+  if (edits)
+    for (const EditBlock& edit : *edits) {
+      if (!edit.has_roles()) continue;
+      words.add(edit.at.x, edit.at.y, edit.at.z);
+      words.add(edit.make_glass);
+      words.add(edit.make_grille);
+    }
   return words.hash();
 }
 

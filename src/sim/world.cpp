@@ -82,12 +82,12 @@ void remove_ended(State& state) {
                 [&](const BulletHole& hole) { return end_of(hole, state.ticks_per_second) <= tick; });
 }
 
-World::World(const voxel::BitGrid& level, const WorldSettings& settings)
-    : level_(level), settings_(settings), ruler_(level.layout()) {
+World::World(const voxel::Solids& level, const WorldSettings& settings)
+    : level_(level), settings_(settings), ruler_(level.smoke.layout()) {
   if (settings.ticks_per_second < 1 || settings.ticks_per_second > 1000)
     throw Error(ErrorCode::bad_input,
                 std::to_string(settings.ticks_per_second) + " ticks per second: expected 1 to 1000");
-  state_.layout = level.layout();
+  state_.layout = level.smoke.layout();
   state_.ticks_per_second = settings.ticks_per_second;
   state_.masks = settings.masks;
   first_ = state_;
@@ -135,7 +135,7 @@ void World::set_masks(const MaskKey& masks) {
 /// `first`: the first tick whose events change.
 Result<void> World::check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const {
   for (const Event& event : events) {
-    if (auto ok = check_event(event, level_.layout()); !ok) return ok;
+    if (auto ok = check_event(event, level_.smoke.layout()); !ok) return ok;
     if (auto ok = check_mask(event, masks); !ok) return ok;
   }
   if (first >= first_free_tick_) return {};
@@ -250,21 +250,32 @@ void World::adopt(State target, bool is_first) {
   next_end_ = next_end(state_);
 }
 
-/// Replaces the edits of state_ in the grid by others.
+World::EditedLevel& World::edited_level() {
+  if (!edited_) {
+    edited_.emplace(EditedLevel{level_.smoke, {}});
+    if (&level_.sight != &level_.smoke) edited_->roles.sight = level_.sight;
+    if (&level_.bodies != &level_.smoke) edited_->roles.bodies = level_.bodies;
+  }
+  return *edited_;
+}
+
+/// Replaces the edits of state_ in the level by others.
 void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
   if (edits == state_.edits) return;
-  if (!edited_) edited_.emplace(level_);
+  auto& [grid, roles] = edited_level();
   if (state_.edits)
     for (const EditBlock& edit : *state_.edits) {
-      const std::uint64_t bits = edit.make_solid | edit.make_free,
-                          solid = solid_bits(level_, glm::ivec3(edit.at));
-      apply_edits(*edited_, std::array{EditBlock{edit.at, bits & solid, bits & ~solid}});
+      const EditBlock as_loaded = content_of(level_, glm::ivec3(edit.at));
+      const std::uint64_t bits = edit.all();
+      apply_edits(grid, roles,
+                  std::array{EditBlock{edit.at, as_loaded.make_solid & bits, as_loaded.make_free & bits,
+                                       as_loaded.make_glass & bits, as_loaded.make_grille & bits}});
     }
-  if (edits) apply_edits(*edited_, *edits);
+  if (edits) apply_edits(grid, roles, *edits);
 }
 
 Result<void> World::restore(const State& state) {
-  if (state.layout != level_.layout() || state.ticks_per_second != settings_.ticks_per_second)
+  if (state.layout != level_.smoke.layout() || state.ticks_per_second != settings_.ticks_per_second)
     return Failure{ErrorCode::bad_input,
                    "state: expected the same grid and ticks per second as this world's"};
   if (state.masks != settings_.masks)
@@ -273,7 +284,7 @@ Result<void> World::restore(const State& state) {
   if (next_end(state) <= state.tick)
     return Failure{ErrorCode::bad_input, "state: contains something that ended before its tick"};
   if (state.edits)
-    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.layout()); !ok) return ok;
+    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.smoke.layout()); !ok) return ok;
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
   previous_.reset();
@@ -301,7 +312,7 @@ void World::forget_before(std::uint32_t tick) {
 }
 
 void World::apply(const ThrowSmoke& event) {
-  const auto landing = landing_voxel(grid(), ruler_, event.from, event.at);
+  const auto landing = landing_voxel(solids().bodies, ruler_, event.from, event.at);
   if (!landing) return;
   const std::uint64_t units = ceil_distance(event.from, ruler_.centre(*landing));
   const std::uint64_t speed = std::uint64_t{kGrenadeMetresPerSecond} * kUnitsPerMetre;
@@ -389,16 +400,20 @@ void World::apply(const MoveBody& event) {
 }
 
 void World::apply(const LevelEdit& event) {
-  const EditBlocks changes = effective_edits(grid(), event.blocks);
+  const EditBlocks changes = effective_edits(solids(), event.blocks);
   if (changes.empty()) return;
-  if (!edited_) edited_.emplace(level_);
-  apply_edits(*edited_, changes);
+  // What changes for smoke: a pane that becomes a wall does not.
+  EditBlocks of_smoke;
+  for (const EditBlock& change : changes) of_smoke.push_back(change.of_smoke());
+  of_smoke = effective_edits(grid(), of_smoke);
+  auto& [grid_now, roles] = edited_level();
+  apply_edits(grid_now, roles, changes);
   state_.edits =
       std::make_shared<const EditBlocks>(state_.edits ? merge_edits(*state_.edits, changes) : changes);
   parallel_for(state_.clouds.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;
-      if (cloud->touched_by(changes))
+      if (cloud->touched_by(of_smoke))
         cloud = std::make_shared<const Cloud>(cloud->flowed(grid(), event.tick));
     }
   });

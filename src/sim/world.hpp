@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "sim/events.hpp"
 #include "sim/state.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 
 namespace brume::sim {
 
@@ -33,9 +33,9 @@ void remove_ended(State& state);
 /// everything that has ended. Nothing is computed between ticks at which something starts or ends.
 class World {
  public:
-  /// `level` must outlive the world unchanged. Throws Error(bad_input) for a layout that VoxelRuler rejects
-  /// or ticks_per_second out of range.
-  explicit World(const voxel::BitGrid& level, const WorldSettings& settings = {});
+  /// The grids of `level` must outlive the world unchanged. Throws Error(bad_input) for a layout that
+  /// VoxelRuler rejects or ticks_per_second out of range.
+  explicit World(const voxel::Solids& level, const WorldSettings& settings = {});
 
   /// Adds an event to the log. One at or before the present tick changes the past: the world rolls back and
   /// replays to the present. Fails with bad_input as check_event does, for a shot with a mask that the
@@ -61,8 +61,10 @@ class World {
   const State& state() const { return state_; }
   std::uint64_t state_hash() const { return state_.hash(); }
   const WorldSettings& settings() const { return settings_; }
-  /// The level at the present tick, edits included. Valid until the world changes tick.
-  const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_; }
+  /// What stops smoke and shots at the present tick, edits included. Valid until the world changes tick.
+  const voxel::BitGrid& grid() const { return edited_ ? edited_->grid : level_.smoke; }
+  /// The same for all roles.
+  voxel::Solids solids() const { return edited_ ? voxel::Solids(edited_->grid, edited_->roles) : level_; }
 
   /// Adopts a state, from another world's state() or received. Log events up to the state's tick are dropped,
   /// later ones are retained. Fails with bad_input when the state has another layout, ticks_per_second or
@@ -78,6 +80,11 @@ class World {
   std::span<const Event> log() const { return log_; }
 
  private:
+  struct EditedLevel {
+    voxel::BitGrid grid;
+    voxel::RoleGrids roles;
+  };
+
   Result<void> check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const;
   void replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events);
   void set_masks(const MaskKey& masks);
@@ -85,6 +92,7 @@ class World {
   void go_forward_to(std::uint32_t tick);
   void adopt(State target, bool is_first);
   std::uint64_t events_until(std::uint32_t tick) const;
+  EditedLevel& edited_level();
   void change_edits(const std::shared_ptr<const EditBlocks>& edits);
   void play_tick(std::uint32_t tick);
   void apply(const ThrowSmoke& event);
@@ -95,10 +103,10 @@ class World {
   void detonate();
   std::uint64_t hole_distance(const Shot& shot) const;
 
-  const voxel::BitGrid& level_;
+  const voxel::Solids level_;
   WorldSettings settings_;
   VoxelRuler ruler_;
-  std::optional<voxel::BitGrid> edited_;
+  std::optional<EditedLevel> edited_;
   std::vector<Event> log_;
   std::size_t next_event_ = 0;  // index into the log: the first event not yet in state_
   State first_, state_;

@@ -141,7 +141,8 @@ void SmokeVolume::update_edits(const sim::State& state) {
   while (a != was.end() || b != is.end()) {
     const bool take_a = b == is.end() || (a != was.end() && !sim::block_before(b->at, a->at));
     const bool take_b = a == was.end() || (b != is.end() && !sim::block_before(a->at, b->at));
-    const sim::EditBlock before = take_a ? *a : sim::EditBlock{}, after = take_b ? *b : sim::EditBlock{};
+    const sim::EditBlock before = take_a ? a->of_smoke() : sim::EditBlock{},
+                         after = take_b ? b->of_smoke() : sim::EditBlock{};
     const std::uint64_t mask = (before.make_solid ^ after.make_solid) | (before.make_free ^ after.make_free);
     if (mask != 0) voxels_changed(glm::ivec3(take_a ? a->at : b->at), mask);
     if (take_a) ++a;

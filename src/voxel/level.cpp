@@ -64,12 +64,23 @@ Box<int> joined(const Box<int>& a, const Box<int>& b) {
 
 Level::Level(BitGrid grid, std::vector<std::vector<Triangle>> parts) : grid_(std::move(grid)) {
   parts_.reserve(parts.size());
-  for (auto& triangles : parts) parts_.push_back(make_part(std::move(triangles)));
+  for (auto& triangles : parts) parts_.push_back(make_part(std::move(triangles), Role::wall));
 }
 
-Level::Part Level::make_part(std::vector<Triangle> triangles) {
+Level::Level(BitGrid grid, RoleGrids roles, std::vector<LevelPart> parts)
+    : grid_(std::move(grid)), roles_(std::move(roles)) {
+  parts_.reserve(parts.size());
+  for (LevelPart& part : parts) {
+    BRUME_ASSERT(part.role != Role::glass || roles_.sight, "a level of glass has a grid of what stops sight");
+    BRUME_ASSERT(part.role != Role::grille || roles_.bodies, "one of grilles has one of what stops bodies");
+    parts_.push_back(make_part(std::move(part.triangles), part.role));
+  }
+}
+
+Level::Part Level::make_part(std::vector<Triangle> triangles, Role role) {
   constexpr Run kNothing{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
   Part part;
+  part.role = role;
   part.triangles = std::move(triangles);
   part.bounds = kNothing;
   for (std::size_t i = 0; i < part.triangles.size(); ++i) {
@@ -146,7 +157,7 @@ LevelChange Level::show(std::span<const std::uint32_t> parts, bool shown) {
 
 LevelChange Level::replace(std::uint32_t number, std::vector<Triangle> triangles) {
   BRUME_ASSERT(number < parts_.size(), std::to_string(number));
-  Part part = make_part(std::move(triangles));
+  Part part = make_part(std::move(triangles), parts_[number].role);
   part.shown = parts_[number].shown;
   part.layer = ++last_layer_;
   const Box<int> touched = part.shown ? joined(voxels_of(parts_[number]), voxels_of(part)) : Box<int>{};
@@ -155,7 +166,7 @@ LevelChange Level::replace(std::uint32_t number, std::vector<Triangle> triangles
 }
 
 std::uint32_t Level::add_part() {
-  parts_.push_back(make_part({}));
+  parts_.push_back(make_part({}, Role::wall));
   return part_count() - 1;
 }
 
@@ -184,18 +195,31 @@ void Level::paint(const Box<int>& voxels) {
                    [](const Layer& a, const Layer& b) { return a.order < b.order; });
 
   // Draw them over an empty box.
-  fill_box(grid_, voxels, false);
+  fill_boxes(voxels, false);
   const Reach reach = reach_of(dvec3(voxels.low), dvec3(voxels.high));
   std::vector<Triangle> triangles;
   for (const Layer& layer : layers) {
     if (layer.box) {
-      fill_box(grid_, intersection(layer.box->voxels, voxels), layer.box->solid);
+      fill_boxes(intersection(layer.box->voxels, voxels), layer.box->solid);
       continue;
     }
     triangles.clear();
     gather(*layer.part, reach, triangles);
-    draw_triangles(triangles, voxels, grid_);
+    draw_part(layer.part->role, triangles, voxels);
   }
+}
+
+/// Of all grids.
+void Level::fill_boxes(const Box<int>& voxels, bool solid) {
+  fill_box(grid_, voxels, solid);
+  if (roles_.sight) fill_box(*roles_.sight, voxels, solid);
+  if (roles_.bodies) fill_box(*roles_.bodies, voxels, solid);
+}
+
+void Level::draw_part(Role role, std::span<const Triangle> triangles, const Box<int>& voxels) {
+  if (stops_smoke(role)) draw_triangles(triangles, voxels, grid_);
+  if (roles_.sight && stops_sight(role)) draw_triangles(triangles, voxels, *roles_.sight);
+  if (roles_.bodies && stops_bodies(role)) draw_triangles(triangles, voxels, *roles_.bodies);
 }
 
 LevelChange Level::rebuild(const Box<int>& touched) {
@@ -205,6 +229,8 @@ LevelChange Level::rebuild(const Box<int>& touched) {
                              ? Box<int>{}
                              : intersection<int>({touched.low - 1, touched.high}, {ivec3(-1), grid_.size()});
   LevelChange change{voxels, cells, copy_of(grid_, voxels), {}};
+  if (roles_.sight) change.roles_before.sight = copy_of(*roles_.sight, voxels);
+  if (roles_.bodies) change.roles_before.bodies = copy_of(*roles_.bodies, voxels);
   if (voxels.empty()) change.voxels = {};
   if (cells.empty()) change.cells = {};
   if (!voxels.empty()) paint(voxels);
@@ -232,7 +258,8 @@ void Level::add_faces(const EditedBox& box, std::vector<Triangle>& out) const {
 SurfacePlanes Level::planes_in(const Box<int>& cells) const {
   const Reach reach = reach_of(dvec3(cells.low) + 0.5, dvec3(cells.high) + 0.5);
   std::vector<Triangle> triangles;
-  for (const Part& part : parts_) gather(part, reach, triangles);
+  for (const Part& part : parts_)
+    if (stops_smoke(part.role)) gather(part, reach, triangles);
   std::vector<Box<int>> cleared;
   const Box<int> corners{cells.low, cells.high + 1};
   for (const EditedBox& box : boxes_) {
@@ -247,7 +274,7 @@ SurfacePlanes Level::planes_in(const Box<int>& cells) const {
 }
 
 std::uint64_t Level::bytes() const {
-  std::uint64_t sum = grid_.bytes() + boxes_.size() * sizeof(EditedBox);
+  std::uint64_t sum = grid_.bytes() + roles_.bytes() + boxes_.size() * sizeof(EditedBox);
   for (const Part& part : parts_)
     sum += sizeof(Part) + part.triangles.size() * sizeof(Triangle) + part.runs.size() * sizeof(Run);
   return sum;

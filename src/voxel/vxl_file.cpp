@@ -40,6 +40,17 @@ struct Header {
   std::uint64_t compressed_bytes;
 };
 static_assert(sizeof(Header) == 80 && std::is_trivially_copyable_v<Header>);
+
+/// Follows the header from version 2 on: bricks with glass, and with grilles.
+struct RoleCounts {
+  std::uint32_t glass = 0, grilles = 0;
+};
+static_assert(sizeof(RoleCounts) == 8);
+
+/// The bytes before the payload.
+std::size_t head_bytes(std::uint32_t version) {
+  return sizeof(Header) + (version == kVxlRolesVersion ? sizeof(RoleCounts) : 0);
+}
 static_assert(sizeof(Plane) == 16 && sizeof(BitGrid::Brick) == 64);
 
 constexpr std::uint64_t kBrickBytes = sizeof(std::uint32_t) + sizeof(BitGrid::Brick);
@@ -85,12 +96,16 @@ std::vector<NumberedBrick> numbered_bricks(const BitGrid& grid) {
   return bricks;
 }
 
+void append_bricks(std::vector<std::byte>& payload, const std::vector<NumberedBrick>& bricks) {
+  for (const NumberedBrick& b : bricks) append(payload, std::span(&b.number, 1));
+  for (const NumberedBrick& b : bricks) append(payload, std::span<const std::uint64_t>(*b.brick));
+}
+
 std::vector<std::byte> encode_payload(const std::vector<NumberedBrick>& bricks, const SurfacePlanes& planes) {
   std::vector<std::byte> payload;
   payload.reserve(bricks.size() * kBrickBytes + planes.cell_count() * kCellBytes +
                   planes.plane_count() * sizeof(Plane));
-  for (const NumberedBrick& b : bricks) append(payload, std::span(&b.number, 1));
-  for (const NumberedBrick& b : bricks) append(payload, std::span<const std::uint64_t>(*b.brick));
+  append_bricks(payload, bricks);
   std::uint64_t last = 0;
   for (const std::uint64_t key : planes.keys()) {
     const std::uint64_t difference = key - last;
@@ -133,7 +148,7 @@ Result<void> decode_bricks(std::span<const std::byte>& payload, std::uint32_t co
   return {};
 }
 
-Result<SurfacePlanes> decode_planes(std::span<const std::byte> payload, const Header& header) {
+Result<SurfacePlanes> decode_planes(std::span<const std::byte>& payload, const Header& header) {
   std::vector<std::uint64_t> keys(header.cells);
   take(payload, std::span(keys));
   for (std::size_t i = 1; i < keys.size(); ++i) keys[i] += keys[i - 1];
@@ -146,14 +161,32 @@ Result<SurfacePlanes> decode_planes(std::span<const std::byte> payload, const He
   return std::move(*result);
 }
 
+/// The grids of roles: the payload has the voxels of glass and of grilles.
+Result<RoleGrids> decode_roles(std::span<const std::byte>& payload, const RoleCounts& counts,
+                               const BitGrid& grid) {
+  BitGrid glass(grid.layout()), grilles(grid.layout());
+  if (auto decoded = decode_bricks(payload, counts.glass, glass); !decoded) return decoded.failure();
+  if (auto decoded = decode_bricks(payload, counts.grilles, grilles); !decoded) return decoded.failure();
+  if (without(glass, grid).count_solid() > 0) return damaged("glass lies in a free voxel");
+  if (without(grilles, grid).count_solid() != grilles.count_solid())
+    return damaged("a grille lies in a solid voxel");
+  RoleGrids roles;
+  if (counts.glass > 0) roles.sight = without(grid, glass);
+  if (counts.grilles > 0) roles.bodies = united(grid, grilles);
+  return roles;
+}
+
 // The expected length of the payload; nothing when the counts are impossible for the grid or the file.
-std::optional<std::uint64_t> payload_bytes(const Header& header) {
+std::optional<std::uint64_t> payload_bytes(const Header& header, const RoleCounts& roles) {
   const glm::u64vec3 size(header.size), n(brick_count(header.size));
   const std::uint64_t cells = (size.x + 1) * (size.y + 1) * (size.z + 1);  // At most 4097^3.
-  if (header.bricks > n.x * n.y * n.z || header.cells > cells) return std::nullopt;
+  for (const std::uint32_t bricks : {header.bricks, roles.glass, roles.grilles})
+    if (bricks > n.x * n.y * n.z) return std::nullopt;
+  if (header.cells > cells) return std::nullopt;
   if (header.planes > std::uint64_t{header.cells} * kMaxPlanes) return std::nullopt;
+  const std::uint64_t bricks = std::uint64_t{header.bricks} + roles.glass + roles.grilles;
   const std::uint64_t bytes =
-      header.bricks * kBrickBytes + header.cells * kCellBytes + header.planes * sizeof(Plane);
+      bricks * kBrickBytes + header.cells * kCellBytes + header.planes * sizeof(Plane);
   if (bytes > kMaxPayload || bytes / kMaxGrowth > header.compressed_bytes) return std::nullopt;
   return bytes;
 }
@@ -163,9 +196,18 @@ std::optional<std::uint64_t> payload_bytes(const Header& header) {
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key) {
   const GridLayout& layout = contents.grid.layout();
   const auto bricks = numbered_bricks(contents.grid);
-  const auto payload = encode_payload(bricks, contents.planes);
+  auto payload = encode_payload(bricks, contents.planes);
+  const Solids solids(contents.grid, contents.roles);
+  const BitGrid glass = without(solids.smoke, solids.sight), grilles = without(solids.bodies, solids.smoke);
+  const auto glass_bricks = numbered_bricks(glass), grille_bricks = numbered_bricks(grilles);
+  append_bricks(payload, glass_bricks);
+  append_bricks(payload, grille_bricks);
+  const RoleCounts roles{static_cast<std::uint32_t>(glass_bricks.size()),
+                         static_cast<std::uint32_t>(grille_bricks.size())};
+  const std::uint32_t version = roles.glass + roles.grilles > 0 ? kVxlRolesVersion : kVxlVersion;
+  const std::size_t head = head_bytes(version);
   Header header{kMagic,
-                kVxlVersion,
+                version,
                 static_cast<std::uint32_t>(bricks.size()),
                 key,
                 contents.triangles,
@@ -175,14 +217,15 @@ std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key
                 static_cast<std::uint32_t>(contents.planes.cell_count()),
                 contents.planes.plane_count(),
                 0};
-  std::vector<std::byte> bytes(sizeof(Header) + ZSTD_compressBound(payload.size()));
-  const std::size_t compressed = ZSTD_compress(bytes.data() + sizeof(Header), bytes.size() - sizeof(Header),
-                                               payload.data(), payload.size(), kCompressionLevel);
+  std::vector<std::byte> bytes(head + ZSTD_compressBound(payload.size()));
+  const std::size_t compressed = ZSTD_compress(bytes.data() + head, bytes.size() - head, payload.data(),
+                                               payload.size(), kCompressionLevel);
   if (ZSTD_isError(compressed))
     throw Error(ErrorCode::internal, std::string("zstd: ") + ZSTD_getErrorName(compressed));
   header.compressed_bytes = compressed;
   std::memcpy(bytes.data(), &header, sizeof header);
-  bytes.resize(sizeof(Header) + compressed);
+  if (head > sizeof header) std::memcpy(bytes.data() + sizeof header, &roles, sizeof roles);
+  bytes.resize(head + compressed);
   const std::uint64_t checksum = hash_bytes(bytes);
   append(bytes, std::span(&checksum, 1));
   return bytes;
@@ -195,11 +238,14 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or truncated");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != kMagic) return damaged("not a voxel cache");
-  if (header.version != kVxlVersion)
+  if (header.version != kVxlVersion && header.version != kVxlRolesVersion)
     return damaged("a voxel cache of version " + std::to_string(header.version) + ", not " +
-                   std::to_string(kVxlVersion));
-  if (header.compressed_bytes != bytes.size() - sizeof(Header) - kChecksumBytes)
+                   std::to_string(kVxlVersion) + " or " + std::to_string(kVxlRolesVersion));
+  const std::size_t head = head_bytes(header.version);
+  if (bytes.size() < head + kChecksumBytes || header.compressed_bytes != bytes.size() - head - kChecksumBytes)
     return damaged("a voxel cache that is truncated or too long");
+  RoleCounts role_counts;
+  if (head > sizeof header) std::memcpy(&role_counts, bytes.data() + sizeof header, sizeof role_counts);
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + bytes.size() - kChecksumBytes, kChecksumBytes);
   if (checksum != hash_bytes(bytes.first(bytes.size() - kChecksumBytes)))
@@ -209,20 +255,23 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   // The payload, as long as grid and counts allow.
   const GridLayout layout{header.size, header.voxel_size, header.origin_world};
   if (!check_frame(layout)) return damaged("a voxel cache with an impossible grid");
-  const auto length = payload_bytes(header);
+  const auto length = payload_bytes(header, role_counts);
   if (!length) return damaged("a voxel cache with impossible counts");
   std::vector<std::byte> payload(*length);
   const std::size_t got =
-      ZSTD_decompress(payload.data(), payload.size(), bytes.data() + sizeof(Header), header.compressed_bytes);
+      ZSTD_decompress(payload.data(), payload.size(), bytes.data() + head, header.compressed_bytes);
   if (ZSTD_isError(got) || got != payload.size()) return damaged("a voxel cache that does not unpack");
 
-  // Bricks and planes.
+  // Bricks, planes and roles.
   VxlContents contents{BitGrid(layout), {}, header.triangles};
   std::span<const std::byte> rest(payload);
   if (auto decoded = decode_bricks(rest, header.bricks, contents.grid); !decoded) return decoded.failure();
   auto planes = decode_planes(rest, header);
   if (!planes) return planes.failure();
   contents.planes = std::move(*planes);
+  auto roles = decode_roles(rest, role_counts, contents.grid);
+  if (!roles) return roles.failure();
+  contents.roles = std::move(*roles);
   return std::optional<VxlContents>(std::move(contents));
 }
 

@@ -1,8 +1,9 @@
 // The `.vxl` file: voxels and surface planes on disk, with a key that identifies what they were built from.
 //
 //   header     magic "BRUMEVXL", version, key, layout, counts, lengths (little-endian, see vxl_file.cpp)
-//   payload    zstd: bricks (number, 8 words), cells (key differences, plane counts), planes
-//   checksum   XXH3-64 of all bytes before it
+//   roles      version 2: counts of two more lists of bricks, voxels of glass and of grilles
+//   payload    zstd: bricks (number, 8 words), cells (key differences, plane counts), planes; the lists of
+//   roles checksum   XXH3-64 of all bytes before it
 //
 // Files are untrusted: lengths and counts are checked in 64 bits against the grid and the file before
 // anything is allocated, then bricks, cells and planes one by one.
@@ -17,6 +18,7 @@
 
 #include "core/error.hpp"
 #include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 #include "voxel/surface_planes.hpp"
 
 namespace brume::voxel {
@@ -25,10 +27,11 @@ struct VxlContents {
   BitGrid grid;
   SurfacePlanes planes;
   std::uint64_t triangles = 0;  ///< Number of triangles the grid was voxelized from.
+  RoleGrids roles = {};
 };
 
-/// The version of the format. Files of any other version are rejected.
-constexpr std::uint32_t kVxlVersion = 1;
+/// The version of files without roles, and of those with roles. Files of any other version are rejected.
+constexpr std::uint32_t kVxlVersion = 1, kVxlRolesVersion = 2;
 
 /// The bytes of a `.vxl` file, with a key of the caller's choice. Equal contents and keys give equal bytes.
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key);

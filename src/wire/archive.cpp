@@ -1,5 +1,8 @@
 #include "wire/archive.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace brume::wire {
 
 DeltaContext::DeltaContext(std::uint32_t tick) {
@@ -16,8 +19,56 @@ DeltaContext::DeltaContext(std::uint32_t tick) {
   serialize(*this, smoke);
 }
 
+sim::EditBlocks folded(const sim::EditBlocks& edits) {
+  sim::EditBlocks result = edits;
+  for (sim::EditBlock& edit : result) {
+    const std::uint64_t roles = edit.make_glass | edit.make_grille;
+    edit.make_solid |= roles;
+    edit.make_free |= roles;
+    edit.make_glass = 0;
+  }
+  return result;
+}
+
+std::optional<sim::EditBlocks> unfolded(const sim::EditBlocks& folded) {
+  sim::EditBlocks result = folded;
+  for (sim::EditBlock& edit : result) {
+    const std::uint64_t both = edit.make_solid & edit.make_free;
+    if ((edit.make_grille & ~both) != 0) return std::nullopt;
+    edit.make_glass = both & ~edit.make_grille;
+    edit.make_solid &= ~both;
+    edit.make_free &= ~both;
+  }
+  return result;
+}
+
+sim::EditBlocks flipped(const sim::EditBlocks& a, const sim::EditBlocks& b) {
+  sim::EditBlocks both;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
+             [](const sim::EditBlock& x, const sim::EditBlock& y) { return sim::block_before(x.at, y.at); });
+  sim::EditBlocks result;
+  for (const sim::EditBlock& edit : both) {
+    if (!result.empty() && result.back().at == edit.at) {
+      sim::EditBlock& block = result.back();
+      block.make_solid ^= edit.make_solid;
+      block.make_free ^= edit.make_free;
+      block.make_glass ^= edit.make_glass;
+      block.make_grille ^= edit.make_grille;
+    } else {
+      result.push_back(edit);
+    }
+  }
+  std::erase_if(result, [](const sim::EditBlock& edit) { return edit.all() == 0; });
+  return result;
+}
+
+bool has_roles(const sim::EditBlocks& folded) {
+  return std::ranges::any_of(
+      folded, [](const sim::EditBlock& edit) { return (edit.make_solid & edit.make_free) != 0; });
+}
+
 template <typename Coder>
-void serialize(Archive<Coder>& archive, sim::EditBlocks& edits) {
+void serialize_solid_and_free(Archive<Coder>& archive, sim::EditBlocks& edits) {
   std::vector<sim::VoxelBlock> solid, free;
   for (const sim::EditBlock& edit : edits) {
     if (edit.make_solid != 0) solid.push_back({edit.at, edit.make_solid, 0});
@@ -39,6 +90,35 @@ void serialize(Archive<Coder>& archive, sim::EditBlocks& edits) {
   }
 }
 
+template <typename Coder>
+void serialize_grilles(Archive<Coder>& archive, sim::EditBlocks& edits) {
+  std::vector<sim::VoxelBlock> grilles;
+  for (const sim::EditBlock& edit : edits)
+    if (edit.make_grille != 0) grilles.push_back({edit.at, edit.make_grille, 0});
+  grilles = archive.edit_blocks(std::move(grilles));
+  if constexpr (Coder::kReads) {
+    sim::EditBlocks third;
+    for (const sim::VoxelBlock& block : grilles) third.push_back({block.at, 0, 0, 0, block.mask});
+    edits = flipped(edits, third);
+  }
+}
+
+template <typename Coder>
+void serialize(Archive<Coder>& archive, sim::EditBlocks& edits) {
+  sim::EditBlocks lists = folded(edits);
+  serialize_solid_and_free(archive, lists);
+  if (has_roles(lists)) serialize_grilles(archive, lists);
+  if constexpr (Coder::kReads) {
+    auto read = unfolded(lists);
+    if (!read) archive.fail("an edit makes a voxel a grille and something else");
+    edits = read ? std::move(*read) : sim::EditBlocks();
+  }
+}
+
+template void serialize_solid_and_free(Archive<Encoder>&, sim::EditBlocks&);
+template void serialize_solid_and_free(Archive<Decoder>&, sim::EditBlocks&);
+template void serialize_grilles(Archive<Encoder>&, sim::EditBlocks&);
+template void serialize_grilles(Archive<Decoder>&, sim::EditBlocks&);
 template void serialize(Archive<Encoder>&, sim::EditBlocks&);
 template void serialize(Archive<Decoder>&, sim::EditBlocks&);
 

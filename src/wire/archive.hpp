@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -217,7 +218,27 @@ void serialize(F& archive, sim::Blast& blast) {
   archive.field(Field::refill_middle, blast.refill_middle_ms);
 }
 
-/// Codes an edit as the blocks it makes solid followed by those it makes free; decoded blocks are sorted.
+// Edits are coded as lists of blocks: the voxels that they make solid, those that they make free, and where a
+// voxel is in both, because it becomes glass or a grille, the grilles. So edits of walls alone take no more.
+
+/// Lists as they are coded: make_solid and make_free have the voxels of glass and of grilles, too, make_glass
+/// none.
+sim::EditBlocks folded(const sim::EditBlocks& edits);
+/// The reverse. Nothing where a grille is not among the voxels of both lists.
+std::optional<sim::EditBlocks> unfolded(const sim::EditBlocks& folded);
+/// The bits in exactly one of the two; flipping again restores the original.
+sim::EditBlocks flipped(const sim::EditBlocks& a, const sim::EditBlocks& b);
+/// Whether the list of grilles is coded.
+bool has_roles(const sim::EditBlocks& folded);
+
+/// The first two lists of folded edits; decoded blocks are sorted.
+template <typename Coder>
+void serialize_solid_and_free(Archive<Coder>& archive, sim::EditBlocks& folded);
+/// The third, which is added to the first two.
+template <typename Coder>
+void serialize_grilles(Archive<Coder>& archive, sim::EditBlocks& folded);
+
+/// All lists of an edit.
 template <typename Coder>
 void serialize(Archive<Coder>& archive, sim::EditBlocks& edits);
 

@@ -74,11 +74,31 @@ Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxe
   return level;
 }
 
+/// The voxels of glass and of grilles, where a level has any.
+Result<void> decode_roles(ByteReader& in, Replay& replay) {
+  const auto glass_bytes = in.section(), grille_bytes = in.section();
+  if (!in.ok() || in.remaining().size() != kHashBytes)
+    return damaged("a replay whose length does not match its number of ticks");
+  const auto glass = decode_level(glass_bytes, replay.level.layout());
+  if (!glass) return glass.failure();
+  const auto grilles = decode_level(grille_bytes, replay.level.layout());
+  if (!grilles) return grilles.failure();
+  if (voxel::without(*glass, replay.level).count_solid() > 0 ||
+      voxel::without(*grilles, replay.level).count_solid() != grilles->count_solid())
+    return damaged("a replay whose roles do not fit its level");
+  if (glass->count_solid() > 0) replay.roles.sight = voxel::without(replay.level, *glass);
+  if (grilles->count_solid() > 0) replay.roles.bodies = voxel::united(replay.level, *grilles);
+  return {};
+}
+
 }  // namespace
 
-Replay replay_of(const voxel::BitGrid& level, const sim::WorldSettings& settings,
+Replay replay_of(const voxel::Solids& level, const sim::WorldSettings& settings,
                  std::span<const sim::Event> events) {
-  return {level, settings, {events.begin(), events.end()}, {}};
+  Replay replay{level.smoke, settings, {events.begin(), events.end()}, {}};
+  if (&level.sight != &level.smoke) replay.roles.sight = level.sight;
+  if (&level.bodies != &level.smoke) replay.roles.bodies = level.bodies;
+  return replay;
 }
 
 Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
@@ -92,6 +112,15 @@ Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
   out.section(write_events(replay.events, replay.level.layout()));
   out.varint(replay.checksums.size());
   for (const std::uint32_t checksum : replay.checksums) out.number(checksum);
+  if (!replay.roles.empty()) {
+    const voxel::Solids solids(replay.level, replay.roles);
+    for (const voxel::BitGrid& voxels :
+         {voxel::without(solids.smoke, solids.sight), voxel::without(solids.bodies, solids.smoke)}) {
+      const auto coded = encode_level(voxels);
+      if (!coded) return coded.failure();
+      out.section(*coded);
+    }
+  }
   out.number(hash_bytes(out.bytes()));
   return out.take();
 }
@@ -116,7 +145,7 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   const auto event_bytes = in.section();
   if (!in.ok() || in.remaining().size() < kHashBytes) return damaged("a truncated replay");
   const std::uint64_t ticks = in.varint(in.remaining().size() / sizeof(std::uint32_t));
-  if (!in.ok() || in.remaining().size() != ticks * sizeof(std::uint32_t) + kHashBytes)
+  if (!in.ok() || in.remaining().size() < ticks * sizeof(std::uint32_t) + kHashBytes)
     return damaged("a replay whose length does not match its number of ticks");
   auto level = decode_level(level_bytes, world->layout);
   if (!level) return level.failure();
@@ -124,6 +153,8 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   if (!events) return damaged("replay: " + events.failure().message);
   Replay replay{std::move(*level), {world->ticks_per_second, world->masks}, std::move(*events), {}};
   for (std::uint64_t tick = 0; tick < ticks; ++tick) replay.checksums.push_back(in.number<std::uint32_t>());
+  if (in.remaining().size() > kHashBytes)
+    if (auto done = decode_roles(in, replay); !done) return done.failure();
   return replay;
 }
 
@@ -143,7 +174,7 @@ Result<Replay> load_replay(const std::filesystem::path& path) {
 
 Result<std::optional<Divergence>> play(const Replay& replay,
                                        const std::function<void(const sim::State&)>& visit) {
-  sim::World world(replay.level, replay.settings);
+  sim::World world({replay.level, replay.roles}, replay.settings);
   if (auto appended = world.append(replay.events); !appended) return appended.failure();
   for (std::uint32_t tick = 0; tick < replay.checksums.size(); ++tick) {
     world.advance_to(tick);

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "sim/events.hpp"
 #include "sim/world.hpp"
-#include "voxel/bit_grid.hpp"
+#include "voxel/solids.hpp"
 
 namespace brume::wire {
 
@@ -22,10 +22,11 @@ struct Replay {
   sim::WorldSettings settings;
   std::vector<sim::Event> events;
   std::vector<std::uint32_t> checksums;  ///< checksum_of the states of tick 0, 1, 2, ...
+  voxel::RoleGrids roles = {};           ///< Of the level.
 };
 
 /// A replay of this world from its first tick, still without checksums.
-Replay replay_of(const voxel::BitGrid& level, const sim::WorldSettings& settings,
+Replay replay_of(const voxel::Solids& level, const sim::WorldSettings& settings,
                  std::span<const sim::Event> events);
 
 /// Maximum number of solid voxels in a replay; a 4^3 block counts as at least 16.

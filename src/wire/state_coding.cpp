@@ -12,7 +12,6 @@ namespace {
 
 using sim::Body;
 using sim::BulletHole;
-using sim::EditBlock;
 using sim::EditBlocks;
 using sim::Flight;
 using sim::LiveBlast;
@@ -94,40 +93,25 @@ class StateCoder {
  private:
   // Codes only the bits that differ: an edit present in both states costs nothing.
   void code_edits() {
-    const EditBlocks none;
-    const EditBlocks& before = base_.edits ? *base_.edits : none;
-    EditBlocks changed;
+    EditBlocks before, after, changed;
+    if (base_.edits) before = folded(*base_.edits);
     if constexpr (!kReads)
-      if (base_.edits != now_.edits) changed = flipped(before, now_.edits ? *now_.edits : none);
+      if (base_.edits != now_.edits) {
+        if (now_.edits) after = folded(*now_.edits);
+        changed = flipped(before, after);
+      }
     if (!archive_.flag(Flag::edits, !changed.empty())) {
       if constexpr (kReads) now_.edits = base_.edits;
       return;
     }
-    serialize(archive_, changed);
+    serialize_solid_and_free(archive_, changed);
+    if constexpr (kReads) after = flipped(before, changed);
+    if (has_roles(before) || has_roles(after)) serialize_grilles(archive_, changed);
     if constexpr (kReads) {
-      EditBlocks after = flipped(before, changed);
-      for (const EditBlock& edit : after)
-        if (edit.make_solid & edit.make_free) archive_.fail("an edit makes a voxel both solid and free");
-      now_.edits = after.empty() ? nullptr : std::make_shared<const EditBlocks>(std::move(after));
+      auto edits = unfolded(flipped(before, changed));
+      if (!edits) archive_.fail("an edit makes a voxel a grille and something else");
+      now_.edits = !edits || edits->empty() ? nullptr : std::make_shared<const EditBlocks>(std::move(*edits));
     }
-  }
-
-  // The bits in exactly one of the two; flipping again restores the original.
-  static EditBlocks flipped(const EditBlocks& a, const EditBlocks& b) {
-    EditBlocks both;
-    std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
-               [](const EditBlock& x, const EditBlock& y) { return sim::block_before(x.at, y.at); });
-    EditBlocks result;
-    for (const EditBlock& edit : both) {
-      if (!result.empty() && result.back().at == edit.at) {
-        result.back().make_solid ^= edit.make_solid;
-        result.back().make_free ^= edit.make_free;
-      } else {
-        result.push_back(edit);
-      }
-    }
-    std::erase_if(result, [](const EditBlock& edit) { return (edit.make_solid | edit.make_free) == 0; });
-    return result;
   }
 
   // For each item of the base: whether it remains and whether it changed. Then the new items.

@@ -58,6 +58,8 @@ void Hostile::level_from_voxels() {
   params.byte_count = std::min<std::uint64_t>((voxels + 7) / 8, bits_.size());
   if (chance(0.03)) params.byte_count = count(10);
   params.bits = chance(0.03) ? nullptr : bits_.data();
+  params.glass_bits = chance(0.5) ? nullptr : bits_.data();
+  params.grille_bits = chance(0.5) ? nullptr : bits_.data();
   auto out = output<brume_level*>();
   keep("brume_level_create_from_voxels",
        brume_level_create_from_voxels(handle(contexts_), spoiled(params), out.pointer()), out, levels_,
@@ -81,6 +83,9 @@ void Hostile::level_from_triangles() {
   params.indices = chance(0.02) ? nullptr : indices.data();
   params.index_count = chance(0.02) ? ~std::size_t{0} : indices.size() - below(indices.empty() ? 1 : 2);
   if (params.point_count > points.size()) params.index_count = ~std::size_t{0} - 2;
+  std::vector<std::uint8_t> roles(indices.size() / 3);
+  for (std::uint8_t& role : roles) role = static_cast<std::uint8_t>(chance(0.01) ? below(256) : below(4));
+  params.roles = chance(0.3) ? nullptr : roles.data();
   auto out = output<brume_level*>();
   keep("brume_level_create_from_triangles",
        brume_level_create_from_triangles(handle(contexts_), spoiled(params), out.pointer()), out, levels_,
@@ -96,6 +101,10 @@ void Hostile::level_read() {
   read_box("brume_level_solid",
            [&](brume_voxel low, brume_voxel high, std::uint8_t* out, std::size_t voxels) {
              return brume_level_solid(handle(levels_), low, high, out, voxels);
+           });
+  read_box("brume_level_roles",
+           [&](brume_voxel low, brume_voxel high, std::uint8_t* out, std::size_t voxels) {
+             return brume_level_roles(handle(levels_), low, high, out, voxels);
            });
 }
 

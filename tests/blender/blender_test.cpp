@@ -68,7 +68,7 @@ std::vector<Triangle> brumes_triangles(const scene::Scene& scene) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       t.object = object.name;
-      t.passable = !object.voxelized;
+      t.passable = object.role == Role::ghost;
       for (std::size_t k = 0; k < 3; ++k) {
         const scene::Vertex& v = mesh.vertices[mesh.indices[i + k]];
         t.corners[k] = {glm::dvec3(world * glm::dvec4(glm::dvec3(v.position), 1)),

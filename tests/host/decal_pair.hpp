@@ -67,7 +67,7 @@ class DecalPair : public HostedPair {
     const glm::mat4 placed =
         glm::scale(glm::rotate(glm::translate(glm::mat4(1), at), glm::radians(degrees), glm::normalize(axis)),
                    glm::vec3(4));
-    scene.objects.push_back({"box " + std::to_string(scene.objects.size()), 1, 0, placed, true});
+    scene.objects.push_back({"box " + std::to_string(scene.objects.size()), 1, 0, placed});
   }
 
   std::filesystem::path save(const grids::DenseVolume& volume, const std::string& name) {

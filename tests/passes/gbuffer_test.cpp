@@ -29,7 +29,7 @@ scene::Scene boxes() {
     glm::mat4 world(1);
     world[1] = {0.3f, 0.9f, 0.2f, 0};
     world[3] = {2.2f * std::cos(angle), 1.4f * std::sin(1.7f * angle), -2.5f - depth, 1};
-    scene.objects.push_back({"box", i % 3 == 2 ? 1u : 0u, i % 3, world, true});
+    scene.objects.push_back({"box", i % 3 == 2 ? 1u : 0u, i % 3, world});
   }
   return scene;
 }

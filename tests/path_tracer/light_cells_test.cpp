@@ -33,7 +33,7 @@ scene::Scene room(float slit) {
     }
   scene.materials.resize(1);
   scene.materials[0].base_color = {0.2f, 0.4f, 0.6f};
-  scene.objects = {{"walls", 0, 0, glm::mat4(1), true}};
+  scene.objects = {{"walls", 0, 0, glm::mat4(1)}};
   return scene;
 }
 
@@ -130,7 +130,7 @@ TEST(LightCells, RaysPassWhatIsNotVoxelized) {
   const Made empty = cells_of(room(0));
   scene::Scene scene = room(0);
   render::add_box(scene.meshes.emplace_back(), {-0.51f, -1, -1}, {-0.49f, 1, 1});
-  scene.objects.push_back({"curtain", 1, 0, glm::mat4(1), false});
+  scene.objects.push_back({"curtain", 1, 0, glm::mat4(1), Role::ghost});
   const Made curtain = cells_of(scene);
   EXPECT_EQ(curtain.cells.probes, empty.cells.probes);
   std::size_t differing = 0;

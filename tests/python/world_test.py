@@ -31,6 +31,30 @@ class LevelTest(unittest.TestCase):
         self.assertEqual(around.solid.sum(), expected.sum())
         self.assertEqual(around.size, (6, 3, 6))
 
+    def test_roles(self):
+        def pane(z):
+            return [[[-2, -2, z], [2, -2, z], [2, 2, z]], [[-2, -2, z], [2, 2, z], [-2, 2, z]]]
+
+        place = {"size": (8, 8, 16), "origin": (-2, -2, -4)}
+        triangles = pane(-2.25) + pane(-0.25) + pane(0.75) + pane(1.75)
+        level = brume.Level.from_triangles(triangles, 0.5, roles=[1, 1, 2, 2, 3, 3, 0, 0], **place)
+        expected = np.full((8, 8, 16), 3, np.uint8)
+        expected[:, :, 3], expected[:, :, 7], expected[:, :, 11] = 1, 2, 0
+        np.testing.assert_array_equal(level.roles, expected)
+        np.testing.assert_array_equal(level.solid, expected < 2)
+        with work_folder() as folder:
+            level.save(folder + "/panes.vxl")
+            np.testing.assert_array_equal(brume.Level.load(folder + "/panes.vxl").roles, expected)
+        walls = brume.Level.from_triangles(triangles, 0.5, **place)
+        np.testing.assert_array_equal(walls.roles, np.where(walls.solid, 0, 3))
+        eye, before, behind = (0.1, 0.1, -3.7), (0.1, 0.1, 1), (0.1, 0.1, 3)
+        self.assertTrue(brume.World(level).visible(eye, before))
+        self.assertFalse(brume.World(level).visible(eye, behind))
+        self.assertFalse(brume.World(walls).visible(eye, before))
+        for bad in ([0], [0] * 9, [4] * 8, [0.5] * 8, [-1] * 8, [[0] * 8], [float("nan")] * 8):
+            with self.assertRaises(ValueError):
+                brume.Level.from_triangles(triangles, 0.5, roles=bad, **place)
+
     def test_level_of_a_scene_and_of_its_voxels_is_the_same(self):
         level = brume.Level.load(SOURCE / "scenes" / "demo.glb", 0.5)
         with work_folder() as folder:

@@ -17,8 +17,8 @@ scenario::Scenario wide_stage(bool more_smoke, bool more_lights) {
   add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
   scene.meshes = {ground, ball};
   scene.materials.resize(1);
-  scene.objects.push_back({"ground", 0, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects.push_back({"ground", 0, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   const auto add_light = [&](glm::vec3 place, scene::LightKind kind) {
     scene::Light light;
     light.kind = kind;

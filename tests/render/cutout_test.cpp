@@ -37,8 +37,8 @@ class CutoutTest : public gpu::GpuTest {
     scene.materials[0].roughness = 1;
     scene.materials[1].base_color_image = 0;
     scene.materials[1].alpha_cutoff = alpha_cutoff;
-    scene.objects = {{"floor", 0, 0, glm::mat4(1), true}, {"plate", 1, 1, glm::mat4(1), false}};
-    scene.grenade = {"grenade", 2, 0, glm::mat4(1), false};
+    scene.objects = {{"floor", 0, 0, glm::mat4(1)}, {"plate", 1, 1, glm::mat4(1), Role::ghost}};
+    scene.grenade = {"grenade", 2, 0, glm::mat4(1), Role::ghost};
     scene::Light light;
     light.kind = sun ? scene::LightKind::directional : scene::LightKind::point;
     light.direction_world = {0, -1, 0};

@@ -25,8 +25,8 @@ scenario::Scenario yard() {
   scene.meshes = {mesh, ball};
   scene.materials.resize(1);
   scene.materials[0].base_color = {0.6f, 0.45f, 0.3f};
-  scene.objects.push_back({"yard", 0, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects.push_back({"yard", 0, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene::Light light;
   light.position_world = {-2, 2.2f, 2};
   light.intensity = glm::vec3(6);

@@ -22,11 +22,10 @@ class DecalFramesTest : public VolumeFixture {
     scene.materials.resize(2);
     for (scene::Material& material : scene.materials) material.base_color = glm::vec3(0.5f);
     scene.materials[1].emission = glm::vec3(kEmission);
-    scene.objects.push_back({"left", 0, 0, glm::mat4(1), true});
-    scene.objects.push_back({"right", 1, 1, glm::mat4(1), true});
+    scene.objects.push_back({"left", 0, 0, glm::mat4(1)});
+    scene.objects.push_back({"right", 1, 1, glm::mat4(1)});
     if (with_cube)
-      scene.objects.push_back(
-          {"cube", 2, 0, glm::translate(glm::mat4(1), glm::vec3(-2.5f, 1.2f, 0.5f)), true});
+      scene.objects.push_back({"cube", 2, 0, glm::translate(glm::mat4(1), glm::vec3(-2.5f, 1.2f, 0.5f))});
     scene::Light light;
     light.position_world = {0.3f, 4.5f, 0.2f};
     light.intensity = glm::vec3(20);

@@ -16,7 +16,7 @@ scenario::Scenario motel(const std::filesystem::path& path) {
   scene.materials.push_back({});
   scene.materials.back().emission = glm::vec3(4);
   scene.grenade = {"sign", static_cast<std::uint32_t>(scene.meshes.size() - 1),
-                   static_cast<std::uint32_t>(scene.materials.size() - 1), glm::mat4(1), false};
+                   static_cast<std::uint32_t>(scene.materials.size() - 1), glm::mat4(1), Role::ghost};
   if (!scene.camera) scene.camera = scene::Camera{};
   scene::Timeline timeline;
   timeline.smokes = {{0, {0, 2, -6}, {0, 1.2f, -6}}};

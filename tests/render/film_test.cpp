@@ -21,8 +21,8 @@ class FilmTest : public gpu::GpuTest {
     add_box(scene.meshes[1], glm::vec3(-0.2f), glm::vec3(0.2f));
     scene.materials.resize(1);
     scene.materials[0].emission = glm::vec3(0.6f);
-    scene.objects = {{"room", 0, 0, glm::mat4(1), true}};
-    scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+    scene.objects = {{"room", 0, 0, glm::mat4(1)}};
+    scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
     scene::Light light;
     light.position_world = {-2, 3, 3};
     light.intensity = glm::vec3(10);

@@ -65,7 +65,7 @@ class FrameLayersTest : public gpu::GpuTest {
     add_box(scene.meshes.emplace_back(), {-40, kFloor - 1, -40}, {40, kFloor, 40});
     scene.materials.resize(1);
     scene.materials[0].base_color = glm::vec3(0.5f, 0.25f, 0.125f);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
+    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
     return scene;
   }
 
@@ -275,7 +275,7 @@ scenario::Scenario small_scenario() {
   add_box(scene.meshes.emplace_back(), {-4, -0.4f, -3}, {4, -0.1f, 3});
   add_box(scene.meshes.back(), {-3, -0.1f, -2.2f}, {1, 2, -2});
   scene.materials.resize(1);
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
+  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
   scene::Light sun;
   sun.kind = scene::LightKind::directional;
   sun.direction_world = glm::normalize(glm::vec3(0.4f, -1, -0.5f));

@@ -36,8 +36,8 @@ inline scenario::Scenario hall(const HallSmoke& smoke = {}) {
   scene.materials.resize(2);
   scene.materials[0].base_color = glm::vec3(0.5f);
   scene.materials[1].emission = glm::vec3(4);
-  scene.objects = {{"hall", 0, 0, glm::mat4(1), true}, {"bars", 1, 0, glm::mat4(1), false}};
-  scene.grenade = {"sign", 2, 1, glm::mat4(1), false};
+  scene.objects = {{"hall", 0, 0, glm::mat4(1)}, {"bars", 1, 0, glm::mat4(1), Role::ghost}};
+  scene.grenade = {"sign", 2, 1, glm::mat4(1), Role::ghost};
   for (const glm::vec3 at : {glm::vec3(-4, 3, 4), glm::vec3(3, 2, -4), glm::vec3(0, 3.5f, 0)}) {
     scene::Light light;
     light.position_world = at;

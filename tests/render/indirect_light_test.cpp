@@ -38,8 +38,8 @@ scene::Scene closed_room(float emission, float albedo) {
   scene.materials.resize(1);
   scene.materials[0].base_color = glm::vec3(albedo);
   scene.materials[0].emission = glm::vec3(emission);
-  scene.objects = {{"walls", 0, 0, glm::mat4(1), true}};
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects = {{"walls", 0, 0, glm::mat4(1)}};
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{{1.6f, 0.9f, 1.5f}, {-1.4f, -0.3f, -1}, 1.2f};
   return scene;
 }

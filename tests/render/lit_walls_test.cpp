@@ -124,8 +124,8 @@ scenario::Scenario scenario_of_wall(const Wall& wall, bool has_light) {
   add_box(scene.meshes[1], glm::vec3(-0.1f), glm::vec3(0.1f));
   scene.materials.resize(1);
   scene.materials[0].base_color = glm::vec3(0);
-  scene.objects = {{"wall", 0, 0, glm::mat4(1), true}};
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects = {{"wall", 0, 0, glm::mat4(1)}};
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{};
   if (has_light) {
     scene::Light light;

@@ -25,8 +25,8 @@ scene::Scene small_scene(bool with_screen) {
   add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
   scene.meshes.push_back(ball);
   scene.materials.push_back({});
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene::Light light;
   light.position_world = {-2, 2, 0};
   light.intensity = glm::vec3(20);
@@ -273,7 +273,7 @@ TEST_F(PlaybackTest, TheSunLightsAGroundBeyondTheScene) {
   scene::Mesh ground;
   add_box(ground, {-90, -0.5f, -90}, {90, -0.4f, 90});
   scene.meshes.push_back(ground);
-  scene.objects.push_back({"ground", 2, 0, glm::mat4(1), true});
+  scene.objects.push_back({"ground", 2, 0, glm::mat4(1)});
   scene.objects.back().backdrop = true;
   const scenario::Scenario scenario = small_stage(std::move(scene));
   Playback playback(context(), scenario, kSize);
@@ -294,7 +294,7 @@ TEST_F(PlaybackTest, TheSkyLightsAGroundBeyondTheGrid) {
   scene::Mesh ground;
   add_box(ground, {-90, -0.5f, -90}, {90, -0.4f, 90});
   scene.meshes.push_back(ground);
-  scene.objects.push_back({"ground", 2, 0, glm::mat4(1), true});
+  scene.objects.push_back({"ground", 2, 0, glm::mat4(1)});
   scene.objects.back().backdrop = true;
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.sky.ambient = glm::vec3(0.4f);
@@ -339,8 +339,8 @@ scenario::Scenario stage_with_door(bool with_door = true) {
   add_box(scene.meshes[2], {-6, -0.1f, 0.45f}, {-0.8f, 4, 0.65f});
   add_box(scene.meshes[2], {0.8f, -0.1f, 0.45f}, {6, 4, 0.65f});
   add_box(scene.meshes[3], {-0.8f, -0.1f, 0.5f}, {0.8f, 4, 0.6f});
-  scene.objects.push_back({"screen", 2, 1, glm::mat4(1), true});
-  if (with_door) scene.objects.push_back({"door", 3, 1, glm::mat4(1), true});
+  scene.objects.push_back({"screen", 2, 1, glm::mat4(1)});
+  if (with_door) scene.objects.push_back({"door", 3, 1, glm::mat4(1)});
   scene.lights[0].position_world = {0, 2, 3};
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.smokes.clear();

@@ -56,8 +56,8 @@ class TankInLevelTest : public gpu::GpuTest {
     add_box(scene.meshes.emplace_back(), glm::vec3(-0.01f), glm::vec3(0.01f));
     scene.materials.resize(1);
     scene.materials[0].base_color = glm::vec3(stage.floor);
-    scene.objects = {{"floor", 0, 0, glm::mat4(1), true}};
-    scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+    scene.objects = {{"floor", 0, 0, glm::mat4(1)}};
+    scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
     scene.lights = stage.lights;
     scene.camera = scene::Camera{{0, 1.4f, 6}, kMiddle, 0.4f};
     scene::Timeline timeline;

@@ -35,8 +35,8 @@ scene::Scene room(const std::vector<std::pair<glm::vec3, glm::vec3>>& boxes,
   scene.meshes.push_back(ball);
   scene.materials.push_back({});
   scene.materials[0].base_color = glm::vec3(0.2f);
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene.lights = std::move(lights);
   scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
   return scene;

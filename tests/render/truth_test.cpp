@@ -254,8 +254,8 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
   scene.meshes.resize(1);
   add_box(scene.meshes[0], {-0.1f, 0, 5.6f}, {0.1f, 0.2f, 5.8f});
   scene.materials.push_back({});
-  scene.objects.push_back({"pebble", 0, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 0, 0, glm::mat4(1), false};
+  scene.objects.push_back({"pebble", 0, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 0, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1, 0}, 0.9f};
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(1), glm::vec3(1), glm::vec3(1), 0};
@@ -318,8 +318,8 @@ TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
   scene.materials.resize(2);
   scene.materials[0].base_color = scene.materials[1].base_color = glm::vec3(0);
   scene.materials[1].emission = glm::vec3(1);
-  scene.objects = {{"room", 0, 0, glm::mat4(1), true}, {"light", 1, 1, glm::mat4(1), true}};
-  scene.grenade = {"grenade", 0, 0, glm::mat4(1), false};
+  scene.objects = {{"room", 0, 0, glm::mat4(1)}, {"light", 1, 1, glm::mat4(1)}};
+  scene.grenade = {"grenade", 0, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{{0.3f, 1.4f, 2}, {0.1f, 1.5f, -3}, 0.5f};
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};

@@ -18,9 +18,9 @@ inline scenario::Scenario two_smokes(float noise) {
   add_box(scene.meshes[1], glm::vec3(-0.2f), glm::vec3(0.2f));
   add_box(scene.meshes[2], {-0.1f, -0.1f, -1}, {0.1f, 3, 1});
   scene.materials.resize(1);
-  scene.objects.push_back({"ground", 0, 0, glm::mat4(1), true});
-  scene.objects.push_back({"door", 2, 0, glm::mat4(1), true});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.objects.push_back({"ground", 0, 0, glm::mat4(1)});
+  scene.objects.push_back({"door", 2, 0, glm::mat4(1)});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   for (const glm::vec3 place :
        {glm::vec3(-9, 2, 3), glm::vec3(-3, 1, -3), glm::vec3(8, 2, 2), glm::vec3(3, 2, -2)}) {
     scene::Light light;

@@ -21,8 +21,8 @@ class VertexColorTest : public gpu::GpuTest {
     scene.materials.resize(1);
     scene.materials[0].base_color = {1, 0.5f, 1};
     scene.materials[0].alpha_cutoff = alpha_cutoff;
-    scene.objects.push_back({"wall", 0, 0, glm::mat4(1), true});
-    scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+    scene.objects.push_back({"wall", 0, 0, glm::mat4(1)});
+    scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
     auto voxels =
         scenario::load_or_voxelize(scene, {{40, 40, 12}, 0.5f, {-10, -10, -3}}, {}).value_or_throw();
     return {{}, std::move(scene), {{0.1f, 0.2f, 4}, {0, 0, 0}, 0.9f}, std::move(voxels)};

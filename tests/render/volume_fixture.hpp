@@ -45,7 +45,7 @@ class VolumeFixture : public gpu::GpuTest {
     scene::Scene scene;
     add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
     scene.materials.resize(1);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
+    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
     return scene;
   }
   /// Premultiplied radiance and transmittance of each pixel that a renderer drew.

@@ -19,7 +19,7 @@ class VolumeTransferTest : public VolumeFixture {
     scene::Scene scene;
     add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -4, 40});
     scene.materials.resize(1);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
+    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
     scene.lights.push_back(
         {scene::LightKind::directional, {}, glm::normalize(glm::vec3(0.3f, -1, -0.4f)), glm::vec3(4)});
     return scene;

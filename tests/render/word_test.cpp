@@ -38,7 +38,7 @@ scenario::Scenario smoke_and_word() {
   scene.meshes.resize(1);
   add_box(scene.meshes[0], glm::vec3(-0.2f), glm::vec3(0.2f));
   scene.materials.resize(1);
-  scene.grenade = {"grenade", 0, 0, glm::mat4(1), false};
+  scene.grenade = {"grenade", 0, 0, glm::mat4(1), Role::ghost};
   const voxel::GridLayout frame{{36, 20, 20}, 0.25f, {-4.5f, -0.5f, -2.5f}};
   auto masks = scenario::load_masks(timeline).value_or_throw();
   return {std::move(timeline),         std::move(scene),       {},

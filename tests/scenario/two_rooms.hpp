@@ -48,7 +48,7 @@ inline Scenario two_rooms() {
   add_object(scene, "door", {-0.02f, 0, -0.5f}, {0.02f, 2, 0});
   add_object(scene, "door", {-0.02f, 0, 0}, {0.02f, 2, 0.5f});
   add_object(scene, "poster", {-3, 1, -1.8f}, {-2, 2, -1.75f});
-  scene.objects.back().voxelized = false;
+  scene.objects.back().role = Role::ghost;
   scene::Timeline timeline;
   timeline.smoke.voxels = 6000;
   timeline.smokes = {{0.0, {-3, 1.5f, 0}, {-2, 0, 0}}};

@@ -17,7 +17,7 @@ TEST(WorldTriangles, ContainsVoxelizedObjectsOnly) {
   object.mesh = 0;
   object.world_from_mesh[3] = glm::vec4(5, 6, 7, 1);
   scene.objects.push_back(object);
-  object.voxelized = false;
+  object.role = Role::ghost;
   scene.objects.push_back(object);
   const std::vector<voxel::Triangle> expected{{{5, 6, 7}, {6, 6, 7}, {5, 7, 7}}};
   EXPECT_EQ(world_triangles(scene), expected);

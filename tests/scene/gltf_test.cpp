@@ -248,12 +248,13 @@ TEST(Gltf, SaysWhatIsNotSupported) {
   EXPECT_EQ(warned(R"(, "samplers": [{"wrapS": 10497, "wrapT": 10497}, {}])", ""), "");
   EXPECT_EQ(warned(R"(, "samplers": [{"wrapS": 33071}])", ""),
             begin + "samplers that clamp or mirror (textures repeat)");
-  EXPECT_EQ(warned(R"(, "materials": [{"extensions": {"KHR_materials_transmission": {}}},
+  EXPECT_EQ(
+      warned(R"(, "materials": [{"extensions": {"KHR_materials_transmission": {}}},
                         {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}}])",
-                   ""),
-            begin +
-                "KHR_materials_transmission (glass is opaque); blending (what has an alpha below 0.5 is not "
-                "drawn, yet stops smoke and sight; the rest is opaque)");
+             ""),
+      begin +
+          "KHR_materials_transmission (glass is drawn opaque); blending (what has an alpha below 0.5 is "
+          "not drawn; the rest is opaque)");
   EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND"}])", ""), "") << "opaque all the same";
   EXPECT_EQ(warned("", R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}, "weights": [0, 1]}])"),
             begin + "EXT_mesh_gpu_instancing (one of the instances is drawn); weights of morph targets");
@@ -267,10 +268,10 @@ TEST(Gltf, MarksThatExcludeObjectsFromTheVoxels) {
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
   ASSERT_EQ(scene->objects.size(), 4u);
-  EXPECT_TRUE(scene->objects[0].voxelized);
-  EXPECT_FALSE(scene->objects[1].voxelized);
-  EXPECT_FALSE(scene->objects[2].voxelized) << "handed down";
-  EXPECT_TRUE(scene->objects[3].voxelized);
+  EXPECT_EQ(scene->objects[0].role, Role::wall);
+  EXPECT_EQ(scene->objects[1].role, Role::ghost);
+  EXPECT_EQ(scene->objects[2].role, Role::ghost) << "handed down";
+  EXPECT_EQ(scene->objects[3].role, Role::wall);
   EXPECT_EQ(scene->grenade->name, "Grenade");
   EXPECT_EQ(glm::vec3(scene->grenade->world_from_mesh[3]), glm::vec3(0));
 }

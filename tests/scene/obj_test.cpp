@@ -153,8 +153,8 @@ TEST(ObjScene, OneObjectPerNameAndMaterial) {
   std::vector<std::string> names;
   for (const Object& object : scene.objects) names.push_back(object.name);
   EXPECT_EQ(names, (std::vector<std::string>{"object", "ring", "beam", "beam", "ring", "ring"}));
-  EXPECT_TRUE(scene.objects[4].voxelized);
-  EXPECT_FALSE(scene.objects[5].voxelized) << "by its material";
+  EXPECT_EQ(scene.objects[4].role, Role::wall);
+  EXPECT_EQ(scene.objects[5].role, Role::ghost) << "by its material";
 }
 
 TEST(ObjScene, NamesMakeALimitedNumberOfObjects) {

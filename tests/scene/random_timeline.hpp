@@ -227,6 +227,8 @@ inline Timeline random_timeline(std::uint32_t seed) {
     timeline.carriers.push_back(random_carrier(draw, carriers));
   for (std::uint32_t decals = draw.below(3); decals > 0; --decals)
     timeline.decals.push_back(random_decal(draw, timeline.carriers));
+  for (std::uint32_t roles = draw.below(3); roles > 0; --roles)
+    timeline.roles.push_back({random_name(draw, roles), static_cast<Role>(draw.below(4))});
   for (std::uint32_t volumes = draw.below(3); volumes > 0; --volumes) {
     VolumeOptions& volume = timeline.volumes.emplace_back();
     volume.file = "scenes/" + std::to_string(volumes) + "_%04d.vdb";

@@ -115,8 +115,8 @@ TEST(SceneTxt, AcceptsCommentsBlankLinesAndCarriageReturns) {
 TEST(SceneTxt, IgnoredObjectsAreDrawnButNotVoxelized) {
   const auto scene = parse("IGNORE_Peg 0 0 0 0 0 0 1 1 1\nBox 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
-  EXPECT_FALSE(scene->objects[0].voxelized);
-  EXPECT_TRUE(scene->objects[1].voxelized);
+  EXPECT_EQ(scene->objects[0].role, Role::ghost);
+  EXPECT_EQ(scene->objects[1].role, Role::wall);
 }
 
 TEST(SceneTxt, TheGrenadeIsCentredAndNotAnObject) {

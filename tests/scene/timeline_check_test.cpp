@@ -157,7 +157,7 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
             "camera at 1 s: \"time\": expected a later time than that of the previous key");
 }
 
-/// A timeline with one of each: a carrier, a volume with a mask, a decal.
+/// A timeline with one of each: a carrier, a volume with a mask, a decal, a role.
 Timeline with_effects() {
   Timeline timeline;
   timeline.scene = "a.glb";
@@ -174,6 +174,7 @@ Timeline with_effects() {
   timeline.decals.resize(1);
   timeline.decals[0].file = "ao.vdb";
   timeline.decals[0].carrier = "ship";
+  timeline.roles = {{"fence", Role::grille}};
   return timeline;
 }
 
@@ -219,6 +220,13 @@ TEST(TimelineCheck, NamesCarriersMasksAndDecals) {
          "[[carrier]]: \"name\": expected a name of its own for each");
   expect([](Timeline& t) { t.carriers.push_back(t.carriers[0]), t.carriers[1].name = "tug"; },
          "[[carrier]]: \"object\": expected one carrier for each object");
+  expect([](Timeline& t) { t.roles[0].object.clear(); },
+         "[[role]]: \"object\": expected the name of an object");
+  expect(
+      [](Timeline& t) {
+        t.roles.push_back({"fence", Role::wall});
+      },
+      "[[role]]: \"object\": expected one role for each object");
 }
 
 }  // namespace

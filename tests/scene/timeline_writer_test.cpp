@@ -138,6 +138,9 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   }
   add_carriers(b, timeline.carriers);
   add_decals(b, timeline.decals);
+  b.add(static_cast<std::uint32_t>(timeline.roles.size()));
+  for (const RoleOptions& role : timeline.roles)
+    b.add(role.object), b.add(static_cast<std::uint32_t>(role.role));
   const auto add_all = [&](const auto& list) {
     b.add(static_cast<std::uint32_t>(list.size()));
     for (const auto& event : list) b.add(event.time), add_event(b, event);

@@ -68,6 +68,9 @@ struct Slow {
   GridLayout layout;
   std::vector<Triangles> parts;
   std::vector<Layer> layers;
+  std::vector<Role> roles = {};  // of the parts; those beyond its end are walls
+
+  Role role(std::uint32_t part) const { return part < roles.size() ? roles[part] : Role::wall; }
 
   void hide(std::uint32_t part) {
     std::erase_if(layers, [&](const Layer& l) { return l.part == part; });
@@ -79,7 +82,8 @@ struct Slow {
     hide(part);
     layers.push_back({part, {}, false});
   }
-  BitGrid grid() const {
+  /// Of parts with roles that stop something.
+  BitGrid grid(bool (*stops)(Role) = stops_smoke) const {
     BitGrid grid(layout);
     for (const Layer& layer : layers) {
       if (layer.part == kNone) {
@@ -87,6 +91,7 @@ struct Slow {
                     [&](ivec3 v) { grid.set(v, layer.solid); });
         continue;
       }
+      if (!stops(role(layer.part))) continue;
       const BitGrid drawn = voxelize(parts[layer.part], layout).value_or_throw();
       for_each_in({ivec3(0), layout.size}, [&](ivec3 v) {
         if (drawn.solid(v)) grid.set(v, true);
@@ -98,7 +103,7 @@ struct Slow {
   SurfacePlanes planes(const BitGrid& solid) const {
     Triangles all;
     for (std::uint32_t i = 0; i < parts.size(); ++i)
-      if (shown(i)) all.insert(all.end(), parts[i].begin(), parts[i].end());
+      if (shown(i) && stops_smoke(role(i))) all.insert(all.end(), parts[i].begin(), parts[i].end());
     return SurfacePlanes::build(all, solid);
   }
 };
@@ -121,61 +126,92 @@ void take_change(const LevelChange& change, const BitGrid& old, const BitGrid& n
   planes.add(std::make_shared<const PlanePatch>(PlanePatch{change.cells, change.planes}));
 }
 
+/// What a change reports of the other grids.
+void expect_same_before(const LevelChange& change, const BitGrid& sight, const BitGrid& bodies) {
+  const Solids before(change.before, change.roles_before);
+  for_each_in(change.voxels, [&](ivec3 v) {
+    ASSERT_EQ(before.sight.solid(v), sight.solid(v));
+    ASSERT_EQ(before.bodies.solid(v), bodies.solid(v));
+  });
+}
+
+/// A level of random roles, or of walls.
+Level level_of(const Slow& slow) {
+  TrianglesByRole triangles;
+  std::vector<LevelPart> parts;
+  for (std::uint32_t i = 0; i < slow.parts.size(); ++i) {
+    triangles.add(slow.role(i), slow.parts[i]);
+    parts.push_back({slow.parts[i], slow.role(i)});
+  }
+  BitGrid grid = voxelize(triangles.smoke, slow.layout).value_or_throw();
+  if (slow.roles.empty()) return {std::move(grid), slow.parts};
+  RoleGrids roles = voxelize_roles(triangles, grid).value_or_throw();
+  return {std::move(grid), std::move(roles), std::move(parts)};
+}
+
+void expect_same_solids(const Solids& solids, const Slow& slow) {
+  expect_same_voxels(solids.smoke, slow.grid(), "smoke");
+  expect_same_voxels(solids.sight, slow.grid(stops_sight), "sight");
+  expect_same_voxels(solids.bodies, slow.grid(stops_bodies), "bodies");
+}
+
+/// Changes a level and its definition alike.
+LevelChange random_change(Random& random, bool with_boxes, Level& level, Slow& slow) {
+  const auto part = static_cast<std::uint32_t>(random() % slow.parts.size());
+  const bool was_shown = slow.shown(part);
+  switch (random() % (with_boxes ? 5 : 3)) {
+    case 0: {
+      was_shown ? slow.hide(part) : slow.put(part);
+      return level.show({&part, 1}, !was_shown);
+    }
+    case 1: {
+      slow.parts[part] = random_part(random, slow.layout);
+      if (was_shown) slow.put(part);
+      return level.replace(part, slow.parts[part]);
+    }
+    case 2: {
+      const std::uint32_t added = level.add_part();
+      slow.parts.push_back(random_part(random, slow.layout));
+      slow.put(added);
+      return level.replace(added, slow.parts.back());
+    }
+    default: {
+      const ivec3 size = slow.layout.size;
+      const ivec3 low(whole(random, -3, size.x), whole(random, -3, size.y), whole(random, -3, size.z));
+      const Box<int> box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
+      const bool solid = random() % 2 == 0;
+      if (!box.empty()) slow.layers.push_back({Slow::kNone, box, solid});
+      return level.set_box(box, solid);
+    }
+  }
+}
+
 class RandomLevels : public testing::TestWithParam<ivec3> {};
 
 TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
-  for (const bool with_boxes : {false, true}) {
+  for (const auto& [with_boxes, with_roles] :
+       {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
     Random random(with_boxes ? 5 : 4);
     const GridLayout layout{GetParam(), 0.25f, vec3(-1.5f, 0.5f, 0)};
     Slow slow{layout, {}, {}};
+    if (with_roles)
+      slow.roles = {Role::glass, Role::wall, Role::grille, Role::ghost, Role::glass, Role::grille};
     for (std::uint32_t i = 0; i < 6; ++i) {
       slow.parts.push_back(random_part(random, layout));
       slow.put(i);
     }
-    Level level(voxelize(joined(slow.parts), layout).value_or_throw(), slow.parts);
+    Level level = level_of(slow);
+    expect_same_solids(level.solids(), slow);
     const SurfacePlanes first = slow.planes(level.grid());
     PatchedPlanes patched(first);
     for (int step = 0; step < 40; ++step) {
-      const BitGrid old = level.grid();
-      const auto part = static_cast<std::uint32_t>(random() % slow.parts.size());
-      switch (random() % (with_boxes ? 5 : 3)) {
-        case 0: {
-          const bool show = !slow.shown(part);
-          take_change(level.show({&part, 1}, show), old, level.grid(), patched);
-          if (show) {
-            slow.put(part);
-          } else {
-            slow.hide(part);
-          }
-          break;
-        }
-        case 1: {
-          const bool was_shown = slow.shown(part);
-          slow.parts[part] = random_part(random, layout);
-          take_change(level.replace(part, slow.parts[part]), old, level.grid(), patched);
-          if (was_shown) slow.put(part);
-          break;
-        }
-        case 2: {
-          const std::uint32_t added = level.add_part();
-          slow.parts.push_back(random_part(random, layout));
-          slow.put(added);
-          take_change(level.replace(added, slow.parts.back()), old, level.grid(), patched);
-          break;
-        }
-        default: {
-          const ivec3 low(whole(random, -3, layout.size.x), whole(random, -3, layout.size.y),
-                          whole(random, -3, layout.size.z));
-          const Box<int> box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
-          const bool solid = random() % 2 == 0;
-          take_change(level.set_box(box, solid), old, level.grid(), patched);
-          if (!box.empty()) slow.layers.push_back({Slow::kNone, box, solid});
-        }
-      }
-      const BitGrid expected = slow.grid();
-      expect_same_voxels(level.grid(), expected, "after a change");
+      const BitGrid old = level.grid(), sight = level.solids().sight, bodies = level.solids().bodies;
+      const LevelChange change = random_change(random, with_boxes, level, slow);
+      take_change(change, old, level.grid(), patched);
+      expect_same_before(change, sight, bodies);
+      expect_same_solids(level.solids(), slow);
       expect_same_planes(patched, level.planes_in({ivec3(-1), layout.size}), layout.size);
-      if (!with_boxes) expect_same_planes(patched, slow.planes(expected), layout.size);
+      if (!with_boxes) expect_same_planes(patched, slow.planes(slow.grid()), layout.size);
       if (HasFatalFailure()) return;
     }
   }

@@ -50,6 +50,54 @@ TEST(VxlCodec, RoundTrips) {
   EXPECT_TRUE(*decode_vxl(bytes, std::nullopt));
 }
 
+/// The same with a pane of glass across it, and a grille above.
+VxlContents contents_with_roles(bool glass, bool grille) {
+  const vec3 a(0.5f, -1, -1), b(0.5f, 2, -1), c(0.5f, 2, 2), d(-1, 1.9f, -1), e(-1, 1.9f, 2);
+  VxlContents contents = small_contents();
+  TrianglesByRole triangles;
+  if (glass) triangles.add(Role::glass, std::vector<Triangle>{{a, b, c}});
+  if (glass) contents.grid = united(contents.grid, *voxelize(triangles.smoke, contents.grid.layout()));
+  if (glass) contents.roles.sight = small_contents().grid;
+  if (grille)
+    contents.roles.bodies =
+        united(contents.grid, *voxelize(std::vector<Triangle>{{b, d, e}}, contents.grid.layout()));
+  return contents;
+}
+
+TEST(VxlCodec, RoundTripsRoles) {
+  for (const auto& [glass, grille] : {std::pair(true, false), {false, true}, {true, true}}) {
+    const VxlContents contents = contents_with_roles(glass, grille);
+    const auto bytes = encode_vxl(contents, kKey);
+    const auto decoded = decode_vxl(bytes, kKey);
+    ASSERT_TRUE(decoded) << decoded.failure().message;
+    const VxlContents& back = **decoded;
+    EXPECT_EQ(encode_vxl(back, kKey), bytes);
+    EXPECT_EQ(back.roles.sight.has_value(), glass);
+    EXPECT_EQ(back.roles.bodies.has_value(), grille);
+    const Solids expected(contents.grid, contents.roles), got(back.grid, back.roles);
+    int glasses = 0, grilles = 0;
+    for_each_in(Box<int>{ivec3(0), contents.grid.size()}, [&](ivec3 v) {
+      ASSERT_EQ(got.role(v), expected.role(v));
+      glasses += got.role(v) == Role::glass;
+      grilles += got.role(v) == Role::grille;
+    });
+    EXPECT_EQ(glasses > 0, glass);
+    EXPECT_EQ(grilles > 0, grille);
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+      ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
+  }
+}
+
+TEST(VxlCodec, WallsAloneAreAFileOfTheFirstVersion) {
+  VxlContents contents = small_contents();
+  const auto bytes = encode_vxl(contents, kKey);
+  std::uint32_t version = 0;
+  std::memcpy(&version, bytes.data() + 8, sizeof version);
+  EXPECT_EQ(version, kVxlVersion);
+  contents.roles = {contents.grid, contents.grid};  // as if glass and grilles lay in walls
+  EXPECT_EQ(encode_vxl(contents, kKey), bytes);
+}
+
 TEST(VxlCodec, RoundTripsAnEmptyGrid) {
   const auto bytes = encode_vxl({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
   const auto decoded = decode_vxl(bytes, kKey);
@@ -73,9 +121,12 @@ TEST(VxlCodec, RejectsEveryFlippedBit) {
   }
 }
 
-TEST(VxlCodec, SurvivesFlippedBitsWithAMatchingChecksum) {
+class VxlDamage : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Roles, VxlDamage, testing::Bool());
+
+TEST_P(VxlDamage, SurvivesFlippedBitsWithAMatchingChecksum) {
   // Damage with a matching checksum: either rejected or another valid grid.
-  auto bytes = encode_vxl(small_contents(), kKey);
+  auto bytes = encode_vxl(GetParam() ? contents_with_roles(true, true) : small_contents(), kKey);
   int refused = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() - 8); ++bit) {
     auto damaged = bytes;

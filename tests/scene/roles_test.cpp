@@ -1,0 +1,167 @@
+// Roles that files give to surfaces.
+#include "scene/roles.hpp"
+
+#include "scene/obj.hpp"
+#include "scene/scene_txt.hpp"
+#include "scene/timeline.hpp"
+#include "tests/scene/gltf_maker.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::vector<Role> roles_of(const Scene& scene) {
+  std::vector<Role> roles;
+  for (const Object& object : scene.objects) roles.push_back(object.role);
+  return roles;
+}
+
+/// An image with these alphas.
+image::Image8 image_of(std::initializer_list<int> alphas) {
+  image::Image8 image{static_cast<std::uint32_t>(alphas.size()), 1, {}};
+  for (const int alpha : alphas)
+    image.rgba.insert(image.rgba.end(), {200, 100, 50, static_cast<std::uint8_t>(alpha)});
+  return image;
+}
+
+TEST(Roles, HaveNamesAndPrefixes) {
+  for (const Role role : {Role::wall, Role::glass, Role::grille, Role::ghost})
+    EXPECT_EQ(role_of_name(name_of(role)), role);
+  EXPECT_FALSE(role_of_name("Glass"));
+  EXPECT_EQ(role_of_prefix("IGNORE_cable"), Role::ghost);
+  EXPECT_EQ(role_of_prefix("GLASS_pane"), Role::glass);
+  EXPECT_EQ(role_of_prefix("GRILLE_fence"), Role::grille);
+  EXPECT_FALSE(role_of_prefix("glass_pane"));
+  EXPECT_FALSE(role_of_prefix("MY_GLASS_"));
+}
+
+TEST(Roles, OfAlpha) {
+  // Without an image: by the factor.
+  EXPECT_EQ(role_of_alpha(nullptr, 1, 0.5), Role::wall);
+  EXPECT_EQ(role_of_alpha(nullptr, 0.5, 0.5), Role::wall);
+  EXPECT_EQ(role_of_alpha(nullptr, 0.49, 0.5), Role::glass);
+  EXPECT_EQ(role_of_alpha(nullptr, 0.3, 0.1), Role::glass) << "drawn, and below a half";
+  EXPECT_EQ(role_of_alpha(nullptr, 0.8, 0.9), Role::glass) << "all of it cut out";
+  // With one: all, some or none of it.
+  const image::Image8 solid = image_of({255, 255, 255}), holes = image_of({255, 0, 255}),
+                      thin = image_of({100, 20, 127}), soft = image_of({255, 140});
+  EXPECT_EQ(role_of_alpha(&solid, 1, 0.5), Role::wall);
+  EXPECT_EQ(role_of_alpha(&holes, 1, 0.5), Role::grille);
+  EXPECT_EQ(role_of_alpha(&thin, 1, 0.5), Role::glass);
+  EXPECT_EQ(role_of_alpha(&soft, 1, 0.5), Role::wall);
+  EXPECT_EQ(role_of_alpha(&soft, 1, 0.6), Role::grille);
+  EXPECT_EQ(role_of_alpha(&holes, 0.4, 0.5), Role::glass);
+  EXPECT_EQ(role_of_alpha(&holes, 1, 0), Role::wall) << "nothing is below 0";
+}
+
+TEST(Roles, OfNodesReachTheirChildren) {
+  Document document;
+  document.nodes = R"([{"mesh": 0, "extras": {"brume_role": "glass"}, "children": [1, 2, 3, 4]},
+    {"mesh": 0}, {"mesh": 0, "name": "GRILLE_x"}, {"mesh": 0, "extras": {"brume_ignore": true}},
+    {"mesh": 0, "name": "IGNORE_y", "extras": {"brume_role": "wall"}}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(roles_of(*scene),
+            (std::vector<Role>{Role::glass, Role::glass, Role::grille, Role::ghost, Role::wall}));
+}
+
+TEST(Roles, AnUnknownOneIsOneWarning) {
+  Document document;
+  document.nodes =
+      R"([{"mesh": 0, "extras": {"brume_role": "fence"}}, {"mesh": 0, "extras": {"brume_role": 3}}])";
+  const Warnings warnings;
+  const auto scene = document.load();
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(roles_of(*scene), (std::vector<Role>{Role::wall, Role::wall}));
+  ASSERT_EQ(warnings.lines.size(), 1u);
+  EXPECT_EQ(warnings.lines[0],
+            "a.gltf: nodes[0].extras.brume_role: is none of \"wall\", \"glass\", \"grille\", \"ghost\"");
+}
+
+TEST(Roles, OfMaterials) {
+  const auto role = [](const std::string& material, const std::string& node = "") {
+    Document document;
+    document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
+    document.more = ", \"materials\": [" + material + "]";
+    document.nodes = "[{\"mesh\": 0" + node + "}]";
+    return document.load().value_or_throw().objects.at(0).role;
+  };
+  const auto with_alpha = [](const char* mode, const char* alpha) {
+    return std::string(R"({"alphaMode": ")") + mode +
+           R"(", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + alpha + "]}}";
+  };
+  EXPECT_EQ(role(with_alpha("OPAQUE", "0.1")), Role::wall);
+  EXPECT_EQ(role(with_alpha("BLEND", "0.1")), Role::glass);
+  EXPECT_EQ(role(with_alpha("MASK", "0.1")), Role::glass);
+  EXPECT_EQ(role(with_alpha("BLEND", "0.6")), Role::wall);
+  EXPECT_EQ(role(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}})"),
+            Role::glass);
+  EXPECT_EQ(role(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.4}}})"),
+            Role::wall);
+  EXPECT_EQ(role(R"({"extensions": {"KHR_materials_transmission": {}}})"), Role::wall);
+  EXPECT_EQ(role(with_alpha("BLEND", "0.1"), R"(, "extras": {"brume_role": "wall"})"), Role::wall);
+  EXPECT_EQ(role(with_alpha("BLEND", "0.1"), R"(, "name": "IGNORE_x")"), Role::ghost);
+}
+
+TEST(Roles, OfObjFiles) {
+  MemoryFiles files;
+  files.add_text("a.mtl",
+                 "newmtl clear\nd 0.2\nnewmtl halo\nd -halo 0.2\nnewmtl see\nTr 0.8\nnewmtl full\nd 1\nTr 0\n"
+                 "newmtl odd\nd none\nnewmtl leaf\nmap_d -imfchan m leaf.png\nnewmtl GLASS_x\n");
+  std::string text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* material : {"clear", "halo", "see", "full", "odd", "leaf", "GLASS_x"})
+    text += std::string("usemtl ") + material + "\nf 1 2 3\n";
+  text += "o GRILLE_gate\nusemtl clear\nf 1 2 3\n";
+  const Scene scene = parse_obj_scene(text, "a.obj", files).value_or_throw();
+  EXPECT_EQ(roles_of(scene), (std::vector<Role>{Role::glass, Role::glass, Role::glass, Role::wall, Role::wall,
+                                                Role::grille, Role::glass, Role::grille}));
+}
+
+/// The failure of a timeline with these lines.
+std::string timeline_error(const std::string& lines) {
+  const auto read = parse_timeline("version = 1\nscene = \"a.glb\"\n" + lines, "t.toml");
+  return read ? "no error" : read.failure().message;
+}
+
+TEST(Roles, OfTimelines) {
+  const auto timeline = parse_timeline(
+      "version = 1\nscene = \"a.glb\"\n[[role]]\nobject = \"fence\"\nrole = \"grille\"\n"
+      "[[role]]\nobject = \"pane\"\nrole = \"glass\"\n",
+      "t.toml");
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  ASSERT_EQ(timeline->roles.size(), 2u);
+  EXPECT_EQ(timeline->roles[0].object, "fence");
+  EXPECT_EQ(timeline->roles[0].role, Role::grille);
+  EXPECT_EQ(timeline->roles[1].role, Role::glass);
+  EXPECT_HAS(timeline_error("[[role]]\nobject = \"a\"\nrole = \"fence\"\n"),
+             "t.toml:5:8: \"role\": expected \"wall\", \"glass\", \"grille\" or \"ghost\"");
+  EXPECT_HAS(timeline_error("[[role]]\nobject = \"a\"\n"), "role");
+  EXPECT_HAS(timeline_error("[[role]]\nrole = \"wall\"\n"), "object");
+  EXPECT_HAS(timeline_error("[[role]]\nobject = \"\"\nrole = \"wall\"\n"), "expected the name of an object");
+  EXPECT_HAS(timeline_error(
+                 "[[role]]\nobject = \"a\"\nrole = \"wall\"\n[[role]]\nobject = \"a\"\nrole = \"glass\"\n"),
+             "t.toml:7:10: \"object\": there is another [[role]] of \"a\"");
+
+  // The scene has these objects.
+  Scene scene;
+  scene.objects.resize(2);
+  scene.objects[0].name = "fence";
+  EXPECT_HAS(check_objects(*timeline, scene).failure().message,
+             "t.toml:7:10: the scene has no object \"pane\"");
+  scene.objects[1].name = "pane";
+  EXPECT_TRUE(check_objects(*timeline, scene));
+}
+
+TEST(Roles, OfSceneTxt) {
+  MemoryFiles files;
+  const char* const names[] = {"IGNORE_a", "GLASS_a", "GRILLE_a", "a"};
+  std::string text;
+  for (const char* name : names) {
+    files.add_text(std::string("Meshes/") + name + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    text += std::string(name) + " 0 0 0 0 0 0 1 1 1\n";
+  }
+  EXPECT_EQ(roles_of(parse_scene_txt(text, "Scene.txt", files).value_or_throw()),
+            (std::vector<Role>{Role::ghost, Role::glass, Role::grille, Role::wall}));
+}
+
+}  // namespace
+}  // namespace brume::scene
