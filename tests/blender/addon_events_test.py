@@ -163,6 +163,7 @@ class Checks(AddonCase):
     def test_hidden_and_passable_things_are_as_in_the_level(self):
         box("hidden_wall", (1, -3, 0), (1.2, 3, 3)).hide_set(True)
         box("bush", (-1, -3, 0), (-0.8, 3, 3)).brume.role = "PASSABLE"
+        box("fence", (-0.6, -3, 0), (-0.4, 3, 3)).brume.role = "GRILLE"
         self.event("SMOKE", (-2, 0, 1))
         self.event("SHOT", (-3, 0, 1), frame=48, aim=level_parts.add("aim", None, location=(8, 0, 1)))
         self.checked()

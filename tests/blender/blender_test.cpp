@@ -32,7 +32,8 @@ struct Corner {
 struct Triangle {
   std::array<Corner, 3> corners;
   std::string object;  // Blender's name, or Brume's.
-  bool passable = false, has_uv = false;
+  std::string role;    // Brume's name of it.
+  bool has_uv = false;
 };
 
 // Blender is Z up: its x, z and -y are x, y and z here.
@@ -46,7 +47,7 @@ std::vector<Triangle> blenders_triangles(const Json& expected) {
   for (const Json& entry : expected["triangles"]) {
     Triangle t;
     t.object = entry["object"];
-    t.passable = entry["passable"];
+    t.role = entry["role"];
     for (std::size_t i = 0; i < 3; ++i) {
       const Json& corner = entry["corners"][i];
       t.corners[i] = {turned(corner["point"]) * metres, turned(corner["normal"]), {}};
@@ -68,7 +69,7 @@ std::vector<Triangle> brumes_triangles(const scene::Scene& scene) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       t.object = object.name;
-      t.passable = object.role == Role::ghost;
+      t.role = name_of(object.role);
       for (std::size_t k = 0; k < 3; ++k) {
         const scene::Vertex& v = mesh.vertices[mesh.indices[i + k]];
         t.corners[k] = {glm::dvec3(world * glm::dvec4(glm::dvec3(v.position), 1)),
@@ -92,7 +93,7 @@ int same_points(const Triangle& a, const Triangle& b) {
 }
 
 void expect_same_look(const Triangle& blender, const Triangle& brume, std::size_t turn, bool with_uv) {
-  EXPECT_EQ(blender.passable, brume.passable) << blender.object << " as " << brume.object;
+  EXPECT_EQ(blender.role, brume.role) << blender.object << " as " << brume.object;
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner &a = blender.corners[k], &b = brume.corners[(k + turn) % 3];
     // Blender's exporter and its 16-bit storage of custom normals round to four decimals.
@@ -138,7 +139,7 @@ std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::
                            double more) {
   std::set<std::array<int, 3>> touched;
   for (const Triangle& t : triangles) {
-    if (t.passable) continue;
+    if (!stops_smoke(role_of_name(t.role).value())) continue;
     std::array<glm::dvec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
       p[k] = (t.corners[k].point - glm::dvec3(frame.origin_world)) / double{frame.voxel_size};

@@ -144,12 +144,14 @@ def add_blocks(look, crate):
     add("Crate tipped", crate, location=(3.55, -1.13, 0.55), rotation=(0.5, 0.3, 1.1), scale=(0.9, 0.6, 0.7))
     ramp = wedge_mesh("ramp", look.metal)
     add("Ramp", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(0.5, 1.3, 0.5))
-    add("Ramp mirrored", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(-0.5, 1.3, 0.5))
+    mirrored = add("Ramp mirrored", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(-0.5, 1.3, 0.5))
+    mirrored.brume.role = "GLASS"
     turned = add("turned", None, location=(4.63, 1.02, 0.3), rotation=(0.2, 0.1, 0.7), scale=(1.2, -0.5, 0.8))
     inner = add("inner", None, turned, rotation=(0.3, 0.6, 0.2))
     add("Ramp sheared", ramp, inner, location=(-0.4, 0.2, 0), rotation=(0.1, 0.4, 0.9), scale=(0.7, 0.6, 1))
     add("Ball sheared", ball_mesh("ball", look.metal), inner, location=(0.9, 1.2, 0.3), scale=(0.5, 0.3, 0.4))
-    add("Ramp upside down", ramp, location=(-0.83, 1.99, 2.73), rotation=(math.pi, 0, 0), scale=(0.82, 0.7, 0.2))
+    turned = add("Ramp upside down", ramp, location=(-0.83, 1.99, 2.73), rotation=(math.pi, 0, 0))
+    turned.scale, turned.brume.role = (0.82, 0.7, 0.2), "WALL"
 
 
 def add_shapes(look):
@@ -166,7 +168,7 @@ def add_shapes(look):
     for point, place in zip(spline.bezier_points, ((-4.5, 1.85, 0.05), (-4.4, 1.8, 2.6), (-2.2, 1.85, 2.9))):
         point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
     pipe.materials.append(look.metal)
-    add("Pipe", pipe)
+    add("Pipe", pipe).brume.role = "GRILLE"
     sign = bpy.data.curves.new("sign", "FONT")
     sign.body, sign.size, sign.extrude, sign.resolution_u = "BRUME", 0.7, 0.05, 2
     sign.materials.append(look.paint)

@@ -48,6 +48,8 @@ def corners_of(mesh, world, mirrored):
 
 def expected_triangles():
     """The triangles of everything that renders and is exported, with the names of Blender's objects."""
+    from brume_blender.properties import BRUME_ROLES  # Installed by now.
+
     found = []
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for instance in depsgraph.object_instances:
@@ -59,9 +61,9 @@ def expected_triangles():
             if source.hide_render or source.name in ("Rail", "Bollard"):
                 continue
         world = instance.matrix_world.copy()
-        passable = source.brume.role == "PASSABLE"
+        role = BRUME_ROLES.get(source.brume.role, "wall")
         for corners in corners_of(instance.object.data, world, world.determinant() < 0):
-            found.append({"object": source.name, "passable": passable, "corners": corners})
+            found.append({"object": source.name, "role": role, "corners": corners})
     return found
 
 

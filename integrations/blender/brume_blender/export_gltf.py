@@ -12,6 +12,7 @@ from mathutils import Matrix
 from . import conversion, files, meshes
 from .level import WIDEST_SPOT, spot_for_area
 from .messages import BrumeError
+from .properties import BRUME_ROLES
 
 # All settings that affect the result; some versions of the exporter lack or rename some of them.
 _SETTINGS = {
@@ -60,7 +61,7 @@ class _TemporaryScene:
     def __init__(self, scene):
         self._made = []
         self.scene = bpy.data.scenes.new("brume export")
-        self.names, self.passable = {}, set()
+        self.names, self.roles = {}, {}
         render, own = self.scene.render, scene.render
         for setting in ("resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y"):
             setattr(render, setting, getattr(own, setting))
@@ -94,8 +95,8 @@ class _TemporaryScene:
             if slot.material != material:
                 slot.link = "OBJECT"
                 slot.material = material
-        if thing.role == "PASSABLE":
-            self.passable.add(made.name)
+        if thing.role in BRUME_ROLES:
+            self.roles[made.name] = BRUME_ROLES[thing.role]
 
     def add_light(self, light):
         data = light.data.copy()
@@ -155,17 +156,17 @@ def _glb(document, rest):
 
 
 def _name_nodes(document, temporary):
-    """Sets Brume's object names, and marks objects that smoke passes through."""
+    """Sets Brume's object names and roles."""
     shapes = document.get("meshes", [])
     for node in document.get("nodes", []):
         made = node.get("name", "")
         if made not in temporary.names:
             continue
         node["name"] = temporary.names[made]
-        if made in temporary.passable:
-            node["extras"] = {"brume_ignore": True}
+        if made in temporary.roles:
+            node["extras"] = {"brume_role": temporary.roles[made]}
         if "mesh" in node:
-            # The original mesh name could mark it as passable or as the grenade for all objects that share it.
+            # The original mesh name could give a role or make it the grenade for all objects that share it.
             shapes[node["mesh"]]["name"] = "mesh of " + temporary.names[made]
 
 

@@ -100,6 +100,10 @@ def _obj_text(part):
     return "\n".join(lines) + "\n"
 
 
+# How names begin that give their objects a role.
+_PREFIXES = {"PASSABLE": "IGNORE_", "GLASS": "GLASS_", "GRILLE": "GRILLE_"}
+
+
 class _Writer:
     def __init__(self, folder, level, warnings):
         self._folder, self._level, self._warnings = folder, level, warnings
@@ -119,8 +123,9 @@ class _Writer:
             if len(parts) > 1:
                 name = f"{thing.name}.{names.safe(part.material.name if part.material else 'plain')}"
                 name = self._part_names.take(name)
-            if thing.role == "PASSABLE" and not name.startswith("IGNORE_"):
-                name = "IGNORE_" + name
+            prefix = _PREFIXES.get(thing.role, "")
+            if not name.startswith(prefix):
+                name = prefix + name
             self._place(part, thing.pieces[0].world_from_mesh, name, shared=True)
 
     def _parts(self, piece):
@@ -162,7 +167,7 @@ class _Writer:
         if scale_and_angles is None:
             part, scale_and_angles = part.turned(linear), (np.ones(3), np.zeros(3))
         if shared:
-            key = (part.key(), name.startswith("IGNORE_"))
+            key = (part.key(), next((prefix for prefix in _PREFIXES.values() if name.startswith(prefix)), ""))
             name = self._mesh_names.setdefault(key, name)
         if name not in self._written:
             self._written[name] = True

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import conversion, names
 from .clock import moves
+from .properties import BRUME_ROLES
 from .visibility import AsRendered
 
 
@@ -89,7 +90,7 @@ def _role(instance):
     roles = [instance.object.original.brume.role]
     if instance.is_instance and instance.parent:
         roles.append(instance.parent.original.brume.role)
-    for role in ("LEFT_OUT", "PASSABLE"):
+    for role in ("LEFT_OUT", *BRUME_ROLES):
         if role in roles:
             return role
     return roles[0]

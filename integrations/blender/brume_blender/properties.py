@@ -21,12 +21,18 @@ from .conversion import metres_per_unit, radius_of_voxels, voxels_of_radius
 
 HOLE_TIMES = ("reach", "expand", "stay", "fade")
 
+# Identifier, name, description, number in .blend files.
 ROLES = (
-    ("SOLID", "Solid", "Rendered and blocks smoke"),
-    ("PASSABLE", "Ignored by smoke", "Rendered, but smoke passes through it"),
-    ("DOOR", "Door", "Opens and closes together with its children"),
-    ("LEFT_OUT", "Not exported", "Ignored by Brume"),
+    ("SOLID", "Solid", "Stops what its material does not let pass", 0),
+    ("WALL", "Wall", "Stops everything, whatever its material", 4),
+    ("GLASS", "Glass", "Stops smoke, shots and bodies; sight passes", 5),
+    ("GRILLE", "Grille", "Stops only bodies and thrown grenades: a fence, leaves", 6),
+    ("PASSABLE", "Ghost", "Rendered, but stops nothing", 1),
+    ("DOOR", "Door", "Opens and closes together with its children", 2),
+    ("LEFT_OUT", "Not exported", "Ignored by Brume", 3),
 )
+# What Brume calls those that decide for their objects, the one that stops least first.
+BRUME_ROLES = {"PASSABLE": "ghost", "GRILLE": "grille", "GLASS": "glass", "WALL": "wall"}
 
 EVENTS = (
     ("NONE", "None", "An ordinary empty"),

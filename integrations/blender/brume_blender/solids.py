@@ -86,7 +86,7 @@ class Solids:
                     corners[piece.mesh] = _corners(piece.mesh)
                 solid = _Solid(thing, piece, corners[piece.mesh])
                 low, high = np.minimum(low, solid.low), np.maximum(high, solid.high)
-                if thing.role != "PASSABLE":
+                if thing.role not in {"PASSABLE", "GRILLE"}:
                     self._solids.append(solid)
         # Without a thing the level is the origin.
         self.low, self.high = (low, high) if level.things else (np.zeros(3), np.zeros(3))
