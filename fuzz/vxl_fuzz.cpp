@@ -12,10 +12,15 @@
 
 namespace {
 
-constexpr std::size_t kHeaderBytes = 80, kLengthAt = 72, kChecksumBytes = 8;
+constexpr std::size_t kVersionAt = 8, kLengthAt = 72, kChecksumBytes = 8;
 
-void read(std::vector<std::byte> bytes) {
-  const std::uint64_t length = bytes.size() - kHeaderBytes;
+/// The bytes before the payload: files with roles have counts of them.
+std::size_t head_bytes(const std::uint8_t* bytes, std::size_t size) {
+  return size > kVersionAt && bytes[kVersionAt] == brume::voxel::kVxlRolesVersion ? 88 : 80;
+}
+
+void read(std::vector<std::byte> bytes, std::size_t head) {
+  const std::uint64_t length = bytes.size() - head;
   std::memcpy(bytes.data() + kLengthAt, &length, sizeof length);
   const std::uint64_t checksum = brume::hash_bytes(bytes);
   const auto* raw = reinterpret_cast<const std::byte*>(&checksum);
@@ -25,6 +30,11 @@ void read(std::vector<std::byte> bytes) {
   // Accepted contents must be consistent: written again they are read again.
   const auto again = brume::voxel::decode_vxl(brume::voxel::encode_vxl(**contents, 1), 1);
   if (!again || !*again || !((*again)->planes == (*contents)->planes)) std::abort();
+  const brume::voxel::Solids before((*contents)->grid, (*contents)->roles),
+      after((*again)->grid, (*again)->roles);
+  if (before.sight.count_solid() != after.sight.count_solid() ||
+      before.bodies.count_solid() != after.bodies.count_solid())
+    std::abort();
 }
 
 }  // namespace
@@ -32,15 +42,16 @@ void read(std::vector<std::byte> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* bytes = reinterpret_cast<const std::byte*>(data);
   static_cast<void>(brume::voxel::decode_vxl({bytes, size}, std::nullopt));
-  if (size < kHeaderBytes) return 0;
-  read({bytes, bytes + size});
+  const std::size_t head = head_bytes(data, size);
+  if (size < head) return 0;
+  read({bytes, bytes + size}, head);
 
-  std::vector<std::byte> packed(bytes, bytes + kHeaderBytes);
-  packed.resize(kHeaderBytes + ZSTD_compressBound(size - kHeaderBytes));
-  const std::size_t got = ZSTD_compress(packed.data() + kHeaderBytes, packed.size() - kHeaderBytes,
-                                        bytes + kHeaderBytes, size - kHeaderBytes, 1);
+  std::vector<std::byte> packed(bytes, bytes + head);
+  packed.resize(head + ZSTD_compressBound(size - head));
+  const std::size_t got =
+      ZSTD_compress(packed.data() + head, packed.size() - head, bytes + head, size - head, 1);
   if (ZSTD_isError(got)) std::abort();
-  packed.resize(kHeaderBytes + got);
-  read(std::move(packed));
+  packed.resize(head + got);
+  read(std::move(packed), head);
   return 0;
 }

@@ -185,7 +185,7 @@ class GltfLoader {
     for (const GltfMeshes::Part& part : parts) {
       object.mesh = part.mesh;
       object.material = part.material;
-      object.role = own.value_or(builder_.scene.materials[part.material].role);
+      object.role = own.value_or(part.role);
       builder_.add_object(object, place).value_or_throw();
     }
   }

@@ -20,8 +20,8 @@ namespace brume::scene {
 /// the
 ///   scene, at least 1 m ahead.
 /// - Roles: a node's extras {"brume_role": "glass"} or {"brume_ignore": true}, else its name's prefix
-///   (role_of_prefix), for it and its children; else its mesh's prefix; else its material's: glass by
-///   KHR_materials_transmission of at least 0.5, MASK and BLEND by role_of_alpha.
+///   (role_of_prefix), for it and its children; else its mesh's prefix; else its material's: MASK and BLEND
+///   by role_of_alpha, else glass by KHR_materials_transmission of at least 0.5.
 /// - The first node or mesh called Grenade becomes Scene::grenade.
 /// - Meshes may be compressed by Draco, meshoptimizer or quantization (KHR_draco_mesh_compression,
 ///   EXT_meshopt_compression, KHR_mesh_quantization), images may be WebP (EXT_texture_webp).

@@ -107,6 +107,7 @@ constexpr Rule kRules[] = {
     {"materials[].alphaMode", Kind::text},
     {"materials[].alphaCutoff", Kind::number, 0, 1e6},
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number, 0, 1e6},
+    {"materials[].extensions.KHR_materials_transmission.transmissionFactor", Kind::number, 0, 1e6},
     {"textures[].source", Kind::index, 0, 0, 0, "/images"},
     {"textures[].extensions.EXT_texture_webp.source", Kind::index, 0, 0, 0, "/images", true},
     {"images[].bufferView", Kind::index, 0, 0, 0, "/bufferViews"},

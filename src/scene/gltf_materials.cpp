@@ -68,6 +68,16 @@ GltfMaterials::Converted GltfMaterials::material(int index) {
   return materials_[index] = converted;
 }
 
+Role GltfMaterials::role(std::uint32_t index, const Mesh& mesh) const {
+  const Role by_light = builder_.scene.materials[index].role;
+  const auto found = alphas_.find(index);
+  if (found == alphas_.end()) return by_light;
+  const AlphaSource& source = found->second;
+  const image::Image8* image = source.image == kNone ? nullptr : &builder_.scene.images[source.image].pixels;
+  const Role by_alpha = role_of_alpha(mesh, {image, source.factor, source.cutoff});
+  return by_alpha == Role::wall ? by_light : by_alpha;
+}
+
 Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place) {
   const auto image = [&](const auto& texture) {
     return texture.index < 0 ? kNone : image_of_texture(texture.index);
@@ -105,11 +115,10 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   if (mode != "OPAQUE") {
     const double cutoff = mode == "MASK" ? source.alphaCutoff : 0.5;
     material.alpha_cutoff = static_cast<float>(cutoff / std::max(pbr.baseColorFactor[3], 1e-6));
-    const std::uint32_t color = numbers(pbr.baseColorTexture);
-    material.role = role_of_alpha(color == kNone ? nullptr : &builder_.scene.images[color].pixels,
-                                  pbr.baseColorFactor[3], cutoff);
+    const auto index = static_cast<std::uint32_t>(builder_.scene.materials.size());
+    alphas_[index] = {numbers(pbr.baseColorTexture), pbr.baseColorFactor[3], cutoff};
   }
-  if (material.role == Role::wall && transmission_of(source) >= 0.5) material.role = Role::glass;
+  if (transmission_of(source) >= 0.5) material.role = Role::glass;
   return material;
 }
 

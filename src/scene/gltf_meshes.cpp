@@ -80,7 +80,8 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
     const auto material = materials_.material(source.primitives[i].material);
     Mesh mesh = convert(source.primitives[i], material, place);
     mesh.name = source.name.empty() ? "mesh " + std::to_string(index) : source.name;
-    parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index});
+    const Role role = materials_.role(material.index, mesh);
+    parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index, role});
   }
   return parts_[index] = std::move(parts);
 }

@@ -21,6 +21,8 @@ class GltfMaterials {
   };
   /// The material with the document's index, or the default one for -1.
   Converted material(int index);
+  /// What a mesh of a material stops; `index` as of Converted.
+  Role role(std::uint32_t index, const Mesh& mesh) const;
 
  private:
   Material convert(const tinygltf::Material& source, const std::string& place);
@@ -31,6 +33,11 @@ class GltfMaterials {
   const GltfDocument& document_;
   SceneBuilder& builder_;
   std::map<int, Converted> materials_;
+  struct AlphaSource {
+    std::uint32_t image = kNone;
+    double factor = 1, cutoff = 0.5;
+  };
+  std::map<std::uint32_t, AlphaSource> alphas_;  // of materials that are not opaque
   std::map<int, std::uint32_t> images_;
 };
 
@@ -40,6 +47,7 @@ class GltfMeshes {
 
   struct Part {
     std::uint32_t mesh = kNone, material = kNone;
+    Role role = Role::wall;  ///< By its material.
   };
   /// The triangle primitives of meshes[index].
   const std::vector<Part>& parts(int index);

@@ -190,17 +190,20 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   material.base_color_image = image(source.diffuse_map, source.diffuse_place, "a magenta checker stands in");
   material.normal_image = image(source.normal_map, source.normal_place, "it is left out");
   if (builder.is_checker(material.normal_image)) material.normal_image = kNone;
-  if (!source.opacity_map.empty()) {
-    const bool is_color =
-        source.opacity_map == source.diffuse_map && !builder.is_checker(material.base_color_image);
-    material.role = is_color ? role_of_alpha(&builder.scene.images[material.base_color_image].pixels, 1, 0.5)
-                             : Role::grille;
-  }
-  if (source.opacity < 0.5f) material.role = Role::glass;
   // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
     material.base_color = glm::vec3(1);
   return material;
+}
+
+/// What a mesh of a material stops. An opacity map is read only where it is the image of the colour.
+Role role_of(const MtlMaterial& source, const Material& material, const SceneBuilder& builder,
+             const Mesh& mesh) {
+  if (source.opacity < 0.5f) return Role::glass;
+  if (source.opacity_map.empty()) return Role::wall;
+  if (source.opacity_map != source.diffuse_map || builder.is_checker(material.base_color_image))
+    return Role::grille;
+  return role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
 }
 
 }  // namespace
@@ -233,7 +236,11 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
       if (!part.material.empty() && materials->has_all_files)
         log_warning(part.place + ": no material is called " + in_quotes(part.material) + "; it is grey");
     }
-    const Role by_material = role_of_prefix(part.material).value_or(material.role);
+    if (const auto role = role_of_prefix(part.material))
+      material.role = *role;
+    else if (source != materials->by_name.end())
+      material.role = role_of(source->second, material, builder, meshes[i]);
+    const Role by_material = material.role;
     builder.scene.materials.push_back(std::move(material));
 
     // The object.

@@ -5,16 +5,26 @@
 #include <string_view>
 
 #include "core/role.hpp"
-#include "image/image.hpp"
+#include "scene/scene.hpp"
 
 namespace brume::scene {
 
 /// By how a name begins: IGNORE_ is a ghost, GLASS_ glass, GRILLE_ a grille.
 std::optional<Role> role_of_prefix(std::string_view name);
 
-/// Of a material whose alpha is `factor` times that of an image (null: 1), and which is cut out below
-/// `cutoff`: glass where all of it is cut out or below an alpha of 0.5, a grille where some of it is cut out,
-/// else a wall.
-Role role_of_alpha(const image::Image8* image, double factor, double cutoff);
+/// The alpha of a material: that of the image at a place, times that of the vertices, times a factor.
+struct Alpha {
+  const image::Image8* image = nullptr;  ///< Null: 1.
+  double factor = 1;
+  double cutoff = 0.5;  ///< What is below is not drawn.
+};
+
+/// What a mesh of such a material stops, by its alpha at 36 places of each triangle:
+/// - a wall where fewer than 1/64 of them are cut out;
+/// - glass where all are cut out, or none has an alpha of 0.5 or more, or fewer than 1/64 are holes, which
+/// are cut
+///   out with an alpha below 1/16;
+/// - a grille otherwise.
+Role role_of_alpha(const Mesh& mesh, const Alpha& alpha);
 
 }  // namespace brume::scene

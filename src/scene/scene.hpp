@@ -50,7 +50,7 @@ struct Material {
   std::uint32_t base_color_image = kNone;  ///< sRGB colour, linear alpha. Index into Scene::images.
   std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
   std::uint32_t roughness_image = kNone;   ///< G: roughness, B: metallic; multiply the factors.
-  Role role = Role::wall;                  ///< Of objects that have none of their own.
+  Role role = Role::wall;                  ///< Of all that it covers, as far as it is not cut out.
 };
 
 struct Object {

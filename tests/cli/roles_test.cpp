@@ -50,32 +50,35 @@ class Level {
     Json nodes = nodes_, meshes = Json::array();
     for (int i = 0; i < 3; ++i)
       meshes.push_back(
-          {{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", i}}}}});
-    const Json file{
-        {"asset", {{"version", "2.0"}}},
-        {"nodes", nodes},
-        {"meshes", meshes},
-        {"materials",
-         {{{"name", "brick"}},
-          {{"name", "pane"},
-           {"alphaMode", "BLEND"},
-           {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.1}}}}},
-          {{"name", "leaves"},
-           {"alphaMode", "MASK"},
-           {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}},
-        {"textures", {{{"source", 0}}}},
-        {"images", {{{"uri", "leaves.png"}}}},
-        {"buffers", {{{"uri", "cube.bin"}, {"byteLength", 168}}}},
-        {"bufferViews",
-         {{{"buffer", 0}, {"byteLength", 96}}, {{"buffer", 0}, {"byteOffset", 96}, {"byteLength", 72}}}},
-        {"accessors",
-         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 8}, {"type", "VEC3"}},
-          {{"bufferView", 1}, {"componentType", 5123}, {"count", 36}, {"type", "SCALAR"}}}}};
+          {{"primitives",
+            {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 2}}}, {"indices", 1}, {"material", i}}}}});
+    const Json file{{"asset", {{"version", "2.0"}}},
+                    {"nodes", nodes},
+                    {"meshes", meshes},
+                    {"materials",
+                     {{{"name", "brick"}},
+                      {{"name", "pane"},
+                       {"alphaMode", "BLEND"},
+                       {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.1}}}}},
+                      {{"name", "leaves"},
+                       {"alphaMode", "MASK"},
+                       {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}},
+                    {"textures", {{{"source", 0}}}},
+                    {"images", {{{"uri", "leaves.png"}}}},
+                    {"buffers", {{{"uri", "cube.bin"}, {"byteLength", 232}}}},
+                    {"bufferViews",
+                     {{{"buffer", 0}, {"byteLength", 96}},
+                      {{"buffer", 0}, {"byteOffset", 96}, {"byteLength", 72}},
+                      {{"buffer", 0}, {"byteOffset", 168}, {"byteLength", 64}}}},
+                    {"accessors",
+                     {{{"bufferView", 0}, {"componentType", 5126}, {"count", 8}, {"type", "VEC3"}},
+                      {{"bufferView", 1}, {"componentType", 5123}, {"count", 36}, {"type", "SCALAR"}},
+                      {{"bufferView", 2}, {"componentType", 5126}, {"count", 8}, {"type", "VEC2"}}}}};
     folder.write("level.gltf", file.dump());
   }
 
  private:
-  /// Corners at +-0.5, then indices.
+  /// Corners at +-0.5, indices, and texture coordinates by which each face shows the whole image.
   static std::string cube() {
     std::string bytes;
     const auto append = [&](const auto& value) {
@@ -86,6 +89,8 @@ class Level {
     for (const int i : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
       append(static_cast<std::uint16_t>(i));
+    for (int i = 0; i < 8; ++i)
+      for (const int axis : {0, 1}) append(static_cast<float>((i >> axis & 1) + (i >> 2 & 1)));
     return bytes;
   }
   std::vector<Json> nodes_;

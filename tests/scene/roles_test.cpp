@@ -34,23 +34,62 @@ TEST(Roles, HaveNamesAndPrefixes) {
   EXPECT_FALSE(role_of_prefix("MY_GLASS_"));
 }
 
-TEST(Roles, OfAlpha) {
-  // Without an image: by the factor.
-  EXPECT_EQ(role_of_alpha(nullptr, 1, 0.5), Role::wall);
-  EXPECT_EQ(role_of_alpha(nullptr, 0.5, 0.5), Role::wall);
-  EXPECT_EQ(role_of_alpha(nullptr, 0.49, 0.5), Role::glass);
-  EXPECT_EQ(role_of_alpha(nullptr, 0.3, 0.1), Role::glass) << "drawn, and below a half";
-  EXPECT_EQ(role_of_alpha(nullptr, 0.8, 0.9), Role::glass) << "all of it cut out";
-  // With one: all, some or none of it.
-  const image::Image8 solid = image_of({255, 255, 255}), holes = image_of({255, 0, 255}),
-                      thin = image_of({100, 20, 127}), soft = image_of({255, 140});
-  EXPECT_EQ(role_of_alpha(&solid, 1, 0.5), Role::wall);
-  EXPECT_EQ(role_of_alpha(&holes, 1, 0.5), Role::grille);
-  EXPECT_EQ(role_of_alpha(&thin, 1, 0.5), Role::glass);
-  EXPECT_EQ(role_of_alpha(&soft, 1, 0.5), Role::wall);
-  EXPECT_EQ(role_of_alpha(&soft, 1, 0.6), Role::grille);
-  EXPECT_EQ(role_of_alpha(&holes, 0.4, 0.5), Role::glass);
-  EXPECT_EQ(role_of_alpha(&holes, 1, 0), Role::wall) << "nothing is below 0";
+/// A square of two triangles that shows a part of an image, of vertices with an alpha.
+Mesh square(glm::vec2 low = glm::vec2(0), glm::vec2 high = glm::vec2(1), float alpha = 1) {
+  Mesh mesh;
+  for (const glm::vec2 at : {glm::vec2(0), glm::vec2(1, 0), glm::vec2(1), glm::vec2(0, 1)}) {
+    Vertex& vertex = mesh.vertices.emplace_back();
+    vertex.uv = glm::mix(low, high, at);
+    vertex.color.a = alpha;
+  }
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+TEST(Roles, OfAlphaWithoutAnImage) {
+  const auto role = [](double factor, double cutoff, float vertices = 1) {
+    return role_of_alpha(square({}, glm::vec2(1), vertices), {nullptr, factor, cutoff});
+  };
+  EXPECT_EQ(role(1, 0.5), Role::wall);
+  EXPECT_EQ(role(0.5, 0.5), Role::wall);
+  EXPECT_EQ(role(0.49, 0.5), Role::glass);
+  EXPECT_EQ(role(0, 0.5), Role::glass);
+  EXPECT_EQ(role(0.3, 0.1), Role::glass) << "drawn, and below a half";
+  EXPECT_EQ(role(0.8, 0.9), Role::glass) << "all of it cut out";
+  EXPECT_EQ(role(1, 0.5, 0.25f), Role::glass) << "by its vertices";
+  EXPECT_EQ(role(1, 0.5, 0.5f), Role::wall);
+  EXPECT_EQ(role_of_alpha(Mesh(), {nullptr, 0.1, 0.5}), Role::wall) << "no triangle";
+}
+
+TEST(Roles, OfAlphaWithAnImage) {
+  // Eight texels in a row: opaque, a hole, a pane.
+  const image::Image8 image = image_of({255, 255, 255, 255, 0, 0, 100, 100});
+  const auto role = [&](float from, float to, double factor = 1, double cutoff = 0.5) {
+    return role_of_alpha(square({from / 8, 0}, {to / 8, 1}), {&image, factor, cutoff});
+  };
+  EXPECT_EQ(role(0, 4), Role::wall) << "what no triangle shows does not count";
+  EXPECT_EQ(role(0, 6), Role::grille) << "opaque with holes";
+  EXPECT_EQ(role(4, 6), Role::glass) << "all of it cut out";
+  EXPECT_EQ(role(6, 8), Role::glass);
+  EXPECT_EQ(role(8, 12), Role::wall) << "images repeat";
+  EXPECT_EQ(role(-8, -4), Role::wall);
+  EXPECT_EQ(role(0, 8), Role::grille);
+  EXPECT_EQ(role(0, 8, 0.4), Role::glass) << "nothing above a half";
+  EXPECT_EQ(role(0, 4, 0.6), Role::wall);
+  // A frame around panes is no hole.
+  const image::Image8 window = image_of({255, 100, 100, 255});
+  EXPECT_EQ(role_of_alpha(square(), {&window}), Role::glass);
+  EXPECT_EQ(role_of_alpha(square(), {&window, 1, 0.2}), Role::wall) << "all of it is drawn";
+  // Fewer than 1/64 of all places: one of 256 texels.
+  image::Image8 speck{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 255)};
+  speck.rgba[3] = 0;
+  EXPECT_EQ(role_of_alpha(square(), {&speck}), Role::wall);
+}
+
+TEST(Roles, OfAlphaAtPlacesThatAreNoNumbers) {
+  const image::Image8 image = image_of({255, 0});
+  for (const float bad : {INFINITY, -INFINITY, NAN, 1e38f, -1e38f})
+    role_of_alpha(square({bad, bad}, {1, bad}), {&image});
 }
 
 TEST(Roles, OfNodesReachTheirChildren) {
