@@ -230,8 +230,11 @@ Returns float32, shape (...); a float for two points of the shape (3,).
 Holes and blasts are part of it. The same bits for one line or among many, on
 every machine. Uses all cores and runs without the interpreter lock; Ctrl-C ends it. Raises ValueError for
 another shape or a point out of range, TypeError for what is no array of numbers.)")
-      .def("visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,
-           R"(Whether b is visible from a: no solid voxel between them, and not too much smoke.
+      .def(
+          "visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,
+          R"(Whether b is visible from a: no wall between them, and not too much smoke.
+
+Glass and grilles are no walls.
 
 a, b: as for optical_depth. The voxels that a and b lie in do not hide them.
 threshold: largest optical depth through which b is visible, at least 0; 3 lets 5 % of the light through,
@@ -244,7 +247,7 @@ Returns bool, shape (...); a bool for two points of the shape (3,). Faster than 
 origins: points [m], shape (..., 3) or (3,), as for optical_depth.
 directions: shape (..., 3) or (3,), any length but 0.
 max_distance: [m], above 0, at most 32768.
-Returns (distance, optical_depth), float32 of the shape (...): how far the first solid voxel is [m], infinity
+Returns (distance, optical_depth), float32 of the shape (...): how far the first wall is [m], infinity
 where none is within max_distance, and the optical depth up to there. The voxel of the origin does not count.)")
       .def("_density", &density_array, "low"_a, "high"_a, "as_steps"_a,
            "Densities of the voxels [low, high) as uint8 steps or float32: Smoke.density is its wrapper.")

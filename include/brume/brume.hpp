@@ -386,7 +386,7 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
     check(brume_field_drawn_visible(get(), &params, segments.data(), segments.size(), threshold, out.data()));
     return out;
   }
-  /// The first solid voxel along a segment.
+  /// The first voxel of a wall along a segment.
   std::optional<brume_wall> first_wall(const brume_segment& segment) const {
     const auto wall = detail::value_of<brume_wall>(
         [&](brume_wall* out) { return brume_field_first_walls(get(), &segment, 1, out); });
