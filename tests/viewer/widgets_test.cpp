@@ -139,7 +139,7 @@ TEST_F(WidgetsTest, EveryWidgetOfEveryPanelTakesAClick) {
   use_all();
 
   // The log misses no kind of widget that the panels have.
-  EXPECT_EQ(kinds_["open"].size(), 17u);  // 11 sections, 6 names of parts of them
+  EXPECT_EQ(kinds_["open"].size(), 18u);  // 11 sections, 7 names of parts of them
   EXPECT_EQ(kinds_["text"].size(), 2u);
   EXPECT_TRUE(kinds_["choice"].contains("../"));
   EXPECT_TRUE(kinds_["choice"].contains("walls_diffuse.png"));
