@@ -35,6 +35,10 @@ EditBlock differing(const EditBlock& edit, const EditBlock& already, std::uint64
           edit.make_grille & ~already.make_grille & within};
 }
 
+bool has_only_walls(const voxel::Solids& level) {
+  return &level.sight == &level.smoke && &level.bodies == &level.smoke;
+}
+
 void apply_to(voxel::BitGrid& grid, const EditBlock& edit) {
   for (std::uint64_t bits = edit.make_solid | edit.make_free; bits != 0; bits &= bits - 1) {
     const int bit = std::countr_zero(bits);
@@ -75,10 +79,17 @@ EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 
 EditBlocks difference(const voxel::Solids& from, const voxel::Solids& to, glm::ivec3 low, glm::ivec3 high) {
   low = glm::max(low, glm::ivec3(0));
   high = glm::min(high, from.smoke.size());
+  const bool of_walls = has_only_walls(from) && has_only_walls(to);
   EditBlocks edits;
   for_each_block(low, high, [&](glm::ivec3 block) {
     const std::uint64_t within = bits_within(block, low, high);
-    const EditBlock change = differing(content_of(to, block), content_of(from, block), within);
+    EditBlock change;
+    if (of_walls) {
+      const std::uint64_t before = solid_bits(from.smoke, block), after = solid_bits(to.smoke, block);
+      change = {glm::i16vec3(block), after & ~before & within, before & ~after & within};
+    } else {
+      change = differing(content_of(to, block), content_of(from, block), within);
+    }
     if (change.all() != 0) edits.push_back(change);
   });
   return edits;
