@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gpu/context.hpp"
+#include "image/background.hpp"
 #include "image/png.hpp"
 #include "python/scenario.hpp"
 #include "render/playback.hpp"
