@@ -9,6 +9,7 @@
 #include "apps/cli/targets.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/tasks.hpp"
 #include "image/optical_flow.hpp"
 #include "planning/device_camera.hpp"
 
@@ -117,6 +118,19 @@ Texels motion_between(const Texels& from, const Texels& to) {
   return motion;
 }
 
+/// From each tile to the next one.
+Texels motion_of(const image::FlipbookLayout& layout, const Texels& color) {
+  Texels motion = image::empty_sheet(layout);
+  parallel_for(layout.tiles() - 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto tile = static_cast<std::uint32_t>(i);
+      const Texels from = image::tile_of(layout, tile, color), to = image::tile_of(layout, tile + 1, color);
+      image::set_tile(layout, tile, motion_between(from, to), motion);
+    }
+  });
+  return motion;
+}
+
 /// Its right, up and backward directions in the world.
 glm::mat3 camera_axes(const scene::Camera& camera) {
   const shared::Camera axes = planning::device_camera(camera, glm::uvec2(1));
@@ -135,22 +149,19 @@ Json draw_colors(const FlipbookJob& job, const std::vector<TileTime>& times, Pro
   const image::FlipbookLayout& layout = job.plan.layout;
   const auto frames = frames_under(job, {});
   sheets.color = image::empty_sheet(layout);
-  if (job.plan.has_motion) sheets.motion = image::empty_sheet(layout);
   Texels before;
   bool alike = true;
   for (std::uint32_t tile = 0; tile < layout.tiles(); ++tile) {
     const Texels now = drawn(*frames, times[tile], layout.gutter);
     image::set_tile(layout, tile, now, sheets.color);
     alike = alike && (tile == 0 || are_alike(before, now));
-    if (job.plan.has_motion && tile > 0) {
-      image::set_tile(layout, tile - 1, motion_between(before, now), sheets.motion);
-    }
     before = now;
     progress.advance();
   }
   if (alike && layout.tiles() > 1)
     log_warning(job.plan.output.string() +
                 ": all tiles are alike; a flipbook is of a sequence or a timeline, or has --orbit 360");
+  if (job.plan.has_motion) sheets.motion = motion_of(layout, sheets.color);
   sheets.display = frames->display();
   return frames->statistics();
 }
