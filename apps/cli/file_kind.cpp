@@ -90,6 +90,8 @@ const char* name_of(FileKind kind) {
       return "Godot import file";
     case FileKind::slice_atlas:
       return "description of a slice atlas";
+    case FileKind::flipbook:
+      return "description of a flipbook";
     case FileKind::checkpoint:
       return "checkpoint";
     case FileKind::unit_key:
@@ -150,6 +152,9 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
     case FileKind::slice_atlas:
       return is_json(start, file) && (start.find_first_not_of(kBlanks) == std::string_view::npos ||
                                       start.find("brume slice atlas") != std::string_view::npos);
+    case FileKind::flipbook:
+      return is_json(start, file) && (start.find_first_not_of(kBlanks) == std::string_view::npos ||
+                                      start.find("brume flipbook") != std::string_view::npos);
     case FileKind::checkpoint:
       return begins_with(start, "BRUMEREF");
     case FileKind::unit_key:

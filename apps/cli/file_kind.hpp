@@ -25,6 +25,7 @@ enum class FileKind {
   frame_log,
   godot_import,
   slice_atlas,  ///< The description of one.
+  flipbook,     ///< Likewise.
   checkpoint,   ///< Of a reference rendering.
   unit_key      ///< What a unit of many was made from.
 };

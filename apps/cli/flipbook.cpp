@@ -32,7 +32,10 @@ std::vector<TileTime> times_of(const FlipbookJob& job) {
   const double first = job.rate.time_of(job.range.first), last = job.rate.time_of(job.range.last);
   std::vector<TileTime> times(tiles);
   for (std::uint32_t tile = 0; tile < tiles; ++tile) {
-    const double part = tiles > 1 ? static_cast<double>(tile) / (tiles - 1) : 0;
+    // After the last tile of a turn comes the first one again.
+    const double part = job.is_turn ? static_cast<double>(tile) * count / (tiles * std::max(count - 1.0, 1.0))
+                        : tiles > 1 ? static_cast<double>(tile) / (tiles - 1)
+                                    : 0;
     const auto frame = job.range.first + static_cast<std::uint32_t>(std::lround(part * (count - 1)));
     const bool is_between = count < tiles && !job.is_sequence;
     times[tile] = {frame, is_between ? first + part * (last - first) : job.rate.time_of(frame)};
@@ -44,18 +47,6 @@ Texels drawn(FrameSource& frames, const TileTime& at, std::uint32_t gutter) {
   stop_if_interrupted();
   return image::with_gutter(
       image::texels_of(std::get<image::LayeredImage>(frames.draw(at.seconds, at.frame))), gutter);
-}
-
-/// Whether two pictures differ by no more than the noise of their samples.
-bool are_alike(const Texels& a, const Texels& b) {
-  constexpr double kNoise = 0.02;
-  double sum = 0, weight = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
-    const glm::vec4 d = a.rgba[i] - b.rgba[i], both = a.rgba[i] + b.rgba[i];
-    sum += double{glm::dot(d, d)};
-    weight += double{glm::dot(both, both)};
-  }
-  return !(sum > kNoise * kNoise * weight);
 }
 
 /// Where something is seen of a picture: from the low to the high corner, in parts of it from -1 to 1, x
@@ -149,18 +140,11 @@ Json draw_colors(const FlipbookJob& job, const std::vector<TileTime>& times, Pro
   const image::FlipbookLayout& layout = job.plan.layout;
   const auto frames = frames_under(job, {});
   sheets.color = image::empty_sheet(layout);
-  Texels before;
-  bool alike = true;
   for (std::uint32_t tile = 0; tile < layout.tiles(); ++tile) {
     const Texels now = drawn(*frames, times[tile], layout.gutter);
     image::set_tile(layout, tile, now, sheets.color);
-    alike = alike && (tile == 0 || are_alike(before, now));
-    before = now;
     progress.advance();
   }
-  if (alike && layout.tiles() > 1)
-    log_warning(job.plan.output.string() +
-                ": all tiles are alike; a flipbook is of a sequence or a timeline, or has --orbit 360");
   if (job.plan.has_motion) sheets.motion = motion_of(layout, sheets.color);
   sheets.display = frames->display();
   return frames->statistics();
@@ -256,6 +240,9 @@ void set_light(const FlipbookLight& light, scenario::Scenario& scenario) {
 Json write_flipbook(FlipbookJob job) {
   const FlipbookPlan& plan = job.plan;
   const std::vector<TileTime> times = times_of(job);
+  if (job.is_still && plan.layout.tiles() > 1)
+    log_warning(plan.output.string() +
+                ": all tiles are alike; a flipbook is of a sequence or a timeline, or has --orbit 360");
   if (job.fits_camera) job.camera = fitted_camera(job, times);
   const bool is_dark = is_lit_by_sides(plan) || plan.has_emission;
   const std::uint32_t passes =

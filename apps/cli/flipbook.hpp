@@ -27,6 +27,8 @@ struct FlipbookJob {
   FrameRange range;  ///< Its first frame is the first tile, its last one the last.
   FrameRate rate;
   scene::Camera camera;      ///< At the first frame.
+  bool is_still = false;     ///< Whether all frames show the same.
+  bool is_turn = false;      ///< Whether the camera turns: the last tile comes before the first one.
   bool is_sequence = false;  ///< Whether frames are those of files, with nothing between two of them.
   bool fits_camera =
       false;  ///< Whether the camera may be turned and zoomed so that what is seen fills the tiles.

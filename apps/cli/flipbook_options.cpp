@@ -22,7 +22,8 @@ constexpr std::array kFlipbookPresets{FlipbookPreset{"unity", true, true},
 glm::uvec2 parse_grid(const std::string& text) {
   glm::uvec2 grid(0);
   int read = 0;
-  if (std::sscanf(text.c_str(), "%5ux%5u%n", &grid.x, &grid.y, &read) != 2 ||
+  const bool is_plain = text.find_first_not_of("0123456789x") == std::string::npos;
+  if (!is_plain || std::sscanf(text.c_str(), "%5ux%5u%n", &grid.x, &grid.y, &read) != 2 ||
       static_cast<std::size_t>(read) != text.size() || grid.x == 0 || grid.y == 0)
     throw Error(ErrorCode::usage, "--flipbook '" + text + "': expected columns and rows, such as 8x8");
   return grid;
@@ -139,7 +140,7 @@ FlipbookPlan parse_flipbook(const FlipbookOptions& options, glm::uvec2 tile_px,
 void declare_flipbook_files(const FlipbookPlan& plan, Outputs& outputs) {
   const FileKind kind = target_file_kind(plan.output);
   outputs.writes("-o", plan.output, kind);
-  outputs.writes("-o", description_file(plan), FileKind::json);
+  outputs.writes("-o", description_file(plan), FileKind::flipbook);
   for (const std::string& name : map_names(plan))
     outputs.writes("--flipbook-maps", map_file(plan, name), kind);
 }

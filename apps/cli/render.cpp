@@ -226,14 +226,20 @@ Json write_frames(const RenderOptions& options, const Plan& plan, CommonOptions&
   // What no one has chosen may be chosen better.
   const bool fits_camera =
       scenario.camera_is_fitted && scenario.timeline.camera.empty() && !plan.camera && !loaded.orbit;
-  return write_flipbook({*plan.flipbook, range, plan.rate,
-                         still ? still(begin) : scene::camera_at(scenario.timeline, scenario.camera, begin),
-                         is_sequence, fits_camera, [&](const FlipbookLight& light) {
-                           set_light(light, scenario);
-                           if (!loaded.simulation)
-                             loaded.simulation = scenario::Simulation::create(scenario).value_or_throw();
-                           return make();
-                         }});
+  return write_flipbook(
+      {.plan = *plan.flipbook,
+       .range = range,
+       .rate = plan.rate,
+       .camera = still ? still(begin) : scene::camera_at(scenario.timeline, scenario.camera, begin),
+       .is_still = !plays(scenario) && scenario.timeline.camera.size() < 2 && !loaded.orbit,
+       .is_turn = loaded.orbit.has_value(),
+       .is_sequence = is_sequence,
+       .fits_camera = fits_camera,
+       .frames_under = [&](const FlipbookLight& light) {
+         set_light(light, scenario);
+         if (!loaded.simulation) loaded.simulation = scenario::Simulation::create(scenario).value_or_throw();
+         return make();
+       }});
 }
 
 Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
@@ -290,8 +296,8 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
                       : is_reference(options)                ? render_reference(options, plan, common, loaded)
                                                              : render_realtime(options, plan, common, loaded);
   if (options.json.empty()) return;
-  Json statistics{{"output", options.output},
-                  {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})}};
+  const glm::uvec2 size_px = plan.flipbook ? plan.flipbook->layout.sheet_px() : plan.renderer.size_px;
+  Json statistics{{"output", options.output}, {"size", Json::list({size_px.x, size_px.y})}};
   statistics.update(frames);
   statistics.set("seconds", watch.seconds());
   statistics.set("smokes", loaded.smokes);

@@ -58,6 +58,14 @@ void warn_of_units(const std::string& file, const Box<float>& bounds) {
   log_warning(file + message);
 }
 
+/// Why no voxel stops smoke.
+std::string why_empty(const scene::Scene& scene) {
+  const bool any_solid = std::ranges::any_of(
+      scene.objects, [](const scene::Object& object) { return stops_smoke(object.role); });
+  return any_solid ? "no voxel is solid: the scene lies outside the grid; move it with --origin"
+                   : "no voxel is solid: smoke passes all objects, which are grilles or ghosts";
+}
+
 void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   check_options(options);
   const Stopwatch watch;
@@ -82,7 +90,7 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
 
   const std::uint64_t solid = voxels.grid.count_solid();
-  if (solid == 0) log_warning("no voxel is solid: the scene lies outside the grid; move it with --origin");
+  if (solid == 0) log_warning(why_empty(scene));
   const double seconds = watch.seconds();
   const voxel::Solids solids = voxels.solids();
   const std::uint64_t glass = solid - (voxels.roles.sight ? solids.sight.count_solid() : solid),

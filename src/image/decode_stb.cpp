@@ -1,6 +1,7 @@
 // TGA and BMP by stb_image, which reads on as zeros, or as what memory held, where a file ends early: what a
 // file must hold is checked before.
-#include <cstring>
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "image/formats.hpp"
@@ -61,6 +62,15 @@ std::uint64_t length_of_bmp(const Bytes& bytes) {
   return bytes.at(10, 4) + (bytes.at(18, 4) * bytes.at(28, 2) + 31) / 32 * 4 * rows;
 }
 
+void mirror(Image8& image) {
+  const std::size_t width = image.width;
+  for (std::size_t row = 0; row < image.height; ++row)
+    for (std::size_t x = 0; x < width / 2; ++x) {
+      std::uint8_t* const texels = image.rgba.data() + 4 * width * row;
+      std::swap_ranges(texels + 4 * x, texels + 4 * x + 4, texels + 4 * (width - 1 - x));
+    }
+}
+
 Result<Image8> decode(std::span<const std::byte> bytes, const std::string& name, std::uint64_t needed) {
   const auto failed = [&](const char* what) { return Failure{ErrorCode::bad_input, name + ": " + what}; };
   if (bytes.size() > std::size_t{1} << 31) return failed("larger than 2 GiB");
@@ -69,6 +79,8 @@ Result<Image8> decode(std::span<const std::byte> bytes, const std::string& name,
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
     return failed(stbi_failure_reason());
+  // A BMP whose rows run down has a height below 0.
+  height = std::abs(height);
   if (auto fault = check_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), name);
       !fault)
     return fault.failure();
@@ -84,7 +96,14 @@ Result<Image8> decode(std::span<const std::byte> bytes, const std::string& name,
 }  // namespace
 
 Result<Image8> decode_tga(std::span<const std::byte> bytes, const std::string& name) {
-  return decode(bytes, name, length_of_tga({bytes}));
+  const Bytes header{bytes};
+  if (header.at(1) == 1 && header.at(3, 2) != 0)
+    return Failure{ErrorCode::bad_input, name + ": its colour map begins at entry " +
+                                             std::to_string(header.at(3, 2)) + ", expected 0"};
+  auto image = decode(bytes, name, length_of_tga(header));
+  // Rows that run to the left, which stb_image takes for others.
+  if (image && (header.at(17) & 0x10) != 0) mirror(*image);
+  return image;
 }
 
 Result<Image8> decode_bmp(std::span<const std::byte> bytes, const std::string& name) {

@@ -96,12 +96,18 @@ void make_straight(Texels& picture) {
 }
 
 void fill_transparent(Texels& straight) {
+  // The colour of what is next to transparent is a quotient of two roundings: it counts as transparent, too.
+  constexpr float kLeastKnown = 3.5f / 255;
   Texels filled = straight;
-  for (glm::vec4& texel : filled.rgba) texel = glm::vec4(glm::vec3(texel) * texel.a, texel.a);
+  for (glm::vec4& texel : filled.rgba) {
+    const float known = texel.a < kLeastKnown ? 0 : texel.a;
+    texel = glm::vec4(glm::vec3(texel) * known, known);
+  }
   fill_from_coarser(filled);
   for (std::size_t i = 0; i < straight.rgba.size(); ++i) {
     const glm::vec4 from = filled.rgba[i];
-    if (straight.rgba[i].a <= 0 && from.a > 0) straight.rgba[i] = glm::vec4(glm::vec3(from) / from.a, 0);
+    const float alpha = straight.rgba[i].a;
+    if (alpha < kLeastKnown && from.a > 0) straight.rgba[i] = glm::vec4(glm::vec3(from) / from.a, alpha);
   }
 }
 

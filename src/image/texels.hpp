@@ -34,7 +34,8 @@ Texels displayed_straight(const Texels& picture, const Display& display);
 
 /// Divides colours by alpha; 0 where it is 0.
 void make_straight(Texels& picture);
-/// Continues straight colours into what is transparent, so that filtering shows no dark rim.
+/// Continues straight colours into what is transparent, or nearly so, so that filtering shows no dark rim.
+/// Alpha stays.
 void fill_transparent(Texels& straight);
 
 /// Linear colours as 8 bits of sRGB, and alpha.

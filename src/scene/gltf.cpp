@@ -14,6 +14,13 @@
 namespace brume::scene {
 namespace {
 
+/// Of extras: true, or 1, as which some exporters write it.
+bool is_true(const tinygltf::Value& extras, const char* key) {
+  if (!extras.Has(key)) return false;
+  const tinygltf::Value& value = extras.Get(key);
+  return value.IsBool() ? value.Get<bool>() : value.IsNumber() && value.GetNumberAsDouble() == 1;
+}
+
 /// Converts candela and lux, in which glTF stores lights, to watts. KHR_lights_punctual names no spectrum;
 /// this is the luminous efficacy at 555 nm, which Blender and most engines use.
 constexpr double kLumensPerWatt = 683;
@@ -165,9 +172,7 @@ class GltfLoader {
         log_warning(place + ".extras.brume_role: is none of \"wall\", \"glass\", \"grille\", \"ghost\"");
       warned_of_role_ = true;
     }
-    const bool ignored = node.extras.Has("brume_ignore") && node.extras.Get("brume_ignore").IsBool() &&
-                         node.extras.Get("brume_ignore").Get<bool>();
-    return ignored ? Role::ghost : role_of_prefix(node.name);
+    return is_true(node.extras, "brume_ignore") ? Role::ghost : role_of_prefix(node.name);
   }
 
   void add_mesh(const tinygltf::Node& node, const std::string& place, const Visit& visit) {

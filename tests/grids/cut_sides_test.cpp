@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -41,6 +42,16 @@ float ball(glm::ivec3 p, glm::vec3 middle, float radius) {
   return glm::distance(glm::vec3(p), middle) < radius ? 1.0f : 0.0f;
 }
 
+// As bakes make them: within two voxels from 0 to 1.
+TEST(CutSides, AFlatShapeThatFadesIsNotCut) {
+  const Grid slab = grid_of({-12, -12, -12}, {13, 13, 13}, [](glm::ivec3 p) {
+    return glm::clamp(
+        0.5f * (9.5f - static_cast<float>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}))), 0.0f,
+        1.0f);
+  });
+  EXPECT_EQ(cut_sides(slab), Sides{});
+}
+
 TEST(CutSides, ABallIsNotCut) {
   for (const float radius : {8.0f, 13.5f}) {
     const Grid grid = grid_of(glm::ivec3(-15), glm::ivec3(16), [&](glm::ivec3 p) {
@@ -51,7 +62,8 @@ TEST(CutSides, ABallIsNotCut) {
   // One that fades is even less so.
   const Grid soft = grid_of(glm::ivec3(-17), glm::ivec3(18),
                             [](glm::ivec3 p) { return std::max(1 - glm::length(glm::vec3(p)) / 16, 0.0f); });
-  // The outermost layer of a ball of radius R is at R - 1 or beyond: less than 2 / R of its largest, here of R > 14.
+  // The outermost layer of a ball of radius R is at R - 1 or beyond: less than 2 / R of its largest, here of
+  // R > 14.
   for (const double side : cut_sides(soft)) EXPECT_LT(side, 2.0 / 14);
 }
 
@@ -63,7 +75,7 @@ TEST(CutSides, AHalfBallIsCutWhereItEnds) {
 }
 
 TEST(CutSides, ABoxIsCutOnAllSides) {
-  for (const double side : cut_sides(grid_of({-3, 2, 0}, {4, 9, 1}, [](glm::ivec3) { return 2.0f; })))
+  for (const double side : cut_sides(grid_of({-3, 2, 0}, {4, 9, 7}, [](glm::ivec3) { return 2.0f; })))
     EXPECT_EQ(side, 1);
 }
 

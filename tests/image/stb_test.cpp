@@ -1,6 +1,7 @@
 // TGA and BMP.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -71,6 +72,12 @@ TEST(Tga, AlphaAndRunLengths) {
             (Bytes{9, 8, 7, 128, 9, 8, 7, 128, 9, 8, 7, 128, 3, 2, 1, 4, 7, 6, 5, 8, 11, 10, 9, 12}));
 }
 
+TEST(Tga, RowsMayRunToTheLeft) {
+  Bytes bytes = tga(2, 24, true, {3, 0, 0, 2, 0, 0, 1, 0, 0, 6, 0, 0, 5, 0, 0, 4, 0, 0});
+  bytes[17] |= 0x10;
+  expect_counts(decode_image(span_of(bytes), "a.tga"));
+}
+
 TEST(Tga, AFooterSaysWhatItIs) {
   Bytes bytes = tga(2, 24, true, kFromTop);
   EXPECT_FALSE(decode_image(span_of(bytes), "a.img"));
@@ -81,6 +88,14 @@ TEST(Tga, AFooterSaysWhatItIs) {
 
 TEST(Bmp, RowsAreFromTheBottom) {
   expect_counts(decode_image(span_of(bmp()), "a.bmp"));
+}
+
+TEST(Bmp, RowsAreFromTheTopWhereItsHeightIsNegative) {
+  Bytes bytes = bmp();
+  const std::int32_t height = -2;
+  std::memcpy(bytes.data() + 22, &height, sizeof height);
+  std::swap_ranges(bytes.begin() + 54, bytes.begin() + 66, bytes.begin() + 66);
+  expect_counts(decode_image(span_of(bytes), "a.bmp"));
 }
 
 // Of either, each shorter file is refused: none reads on as zeros.

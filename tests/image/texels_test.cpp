@@ -69,6 +69,10 @@ TEST(Texels, TransparentTexelsContinueThoseAroundThem) {
   for (const glm::vec4& texel : row.rgba) expect_near(glm::vec4(glm::vec3(texel), 1), {1, 0, 0, 1});
   EXPECT_EQ(row.rgba[0].a, 0);
   EXPECT_EQ(row.rgba[1].a, 1);
+  // What is all but transparent takes their colour, and keeps its alpha.
+  Texels rim{2, 1, {{1, 0.5f, 0, 1}, {0.1f, 0, 0.3f, 0.004f}}};
+  fill_transparent(rim);
+  expect_near(rim.rgba[1], {1, 0.5f, 0, 0.004f});
   Texels nothing{3, 7, std::vector<glm::vec4>(21, glm::vec4(0))};
   fill_transparent(nothing);
   EXPECT_EQ(nothing.rgba, std::vector<glm::vec4>(21, glm::vec4(0)));

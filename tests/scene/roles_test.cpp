@@ -95,7 +95,7 @@ TEST(Roles, OfAlphaAtPlacesThatAreNoNumbers) {
 TEST(Roles, OfNodesReachTheirChildren) {
   Document document;
   document.nodes = R"([{"mesh": 0, "extras": {"brume_role": "glass"}, "children": [1, 2, 3, 4]},
-    {"mesh": 0}, {"mesh": 0, "name": "GRILLE_x"}, {"mesh": 0, "extras": {"brume_ignore": true}},
+    {"mesh": 0}, {"mesh": 0, "name": "GRILLE_x"}, {"mesh": 0, "extras": {"brume_ignore": 1}},
     {"mesh": 0, "name": "IGNORE_y", "extras": {"brume_role": "wall"}}])";
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
