@@ -164,14 +164,7 @@ class GltfLoader {
 
   /// By its extras, which may be any value, or its name.
   std::optional<Role> role_of_node(const tinygltf::Node& node, const std::string& place) {
-    if (node.extras.Has("brume_role")) {
-      const tinygltf::Value& value = node.extras.Get("brume_role");
-      const auto role = value.IsString() ? role_of_name(value.Get<std::string>()) : std::nullopt;
-      if (role) return role;
-      if (!warned_of_role_)
-        log_warning(place + ".extras.brume_role: is none of \"wall\", \"glass\", \"grille\", \"ghost\"");
-      warned_of_role_ = true;
-    }
+    if (const auto role = materials_.role_of_extras(node.extras, place)) return role;
     return is_true(node.extras, "brume_ignore") ? Role::ghost : role_of_prefix(node.name);
   }
 
@@ -270,7 +263,6 @@ class GltfLoader {
   SceneBuilder builder_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
-  bool warned_of_role_ = false;
 };
 
 }  // namespace

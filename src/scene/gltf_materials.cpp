@@ -78,6 +78,17 @@ Role GltfMaterials::role(std::uint32_t index, const Mesh& mesh) const {
   return by_alpha == Role::wall ? by_light : by_alpha;
 }
 
+std::optional<Role> GltfMaterials::role_of_extras(const tinygltf::Value& extras, const std::string& place) {
+  if (!extras.Has("brume_role")) return std::nullopt;
+  const tinygltf::Value& value = extras.Get("brume_role");
+  const auto role = value.IsString() ? role_of_name(value.Get<std::string>()) : std::nullopt;
+  if (!role && !warned_of_role_) {
+    log_warning(place + ".extras.brume_role: is none of \"wall\", \"glass\", \"grille\", \"ghost\"");
+    warned_of_role_ = true;
+  }
+  return role;
+}
+
 Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place) {
   const auto image = [&](const auto& texture) {
     return texture.index < 0 ? kNone : image_of_texture(texture.index);
@@ -108,6 +119,9 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0))
     material.emission *= mean_color(image(source.emissiveTexture));
 
+  // What it stops, unless its alpha decides.
+  const std::optional<Role> chosen = role_of_extras(source.extras, place);
+
   // Alpha cutoff: the renderer compares it with the texel only, so divide it by the factor.
   const std::string& mode = source.alphaMode;
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
@@ -116,9 +130,9 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
     const double cutoff = mode == "MASK" ? source.alphaCutoff : 0.5;
     material.alpha_cutoff = static_cast<float>(cutoff / std::max(pbr.baseColorFactor[3], 1e-6));
     const auto index = static_cast<std::uint32_t>(builder_.scene.materials.size());
-    alphas_[index] = {numbers(pbr.baseColorTexture), pbr.baseColorFactor[3], cutoff};
+    if (!chosen) alphas_[index] = {numbers(pbr.baseColorTexture), pbr.baseColorFactor[3], cutoff};
   }
-  if (transmission_of(source) >= 0.5) material.role = Role::glass;
+  material.role = chosen.value_or(transmission_of(source) >= 0.5 ? Role::glass : Role::wall);
   return material;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "scene/gltf_document.hpp"
@@ -23,6 +24,8 @@ class GltfMaterials {
   Converted material(int index);
   /// What a mesh of a material stops; `index` as of Converted.
   Role role(std::uint32_t index, const Mesh& mesh) const;
+  /// That of `extras`, which may be any value; a warning for the first one of the file that is none.
+  std::optional<Role> role_of_extras(const tinygltf::Value& extras, const std::string& place);
 
  private:
   Material convert(const tinygltf::Material& source, const std::string& place);
@@ -39,6 +42,7 @@ class GltfMaterials {
   };
   std::map<std::uint32_t, AlphaSource> alphas_;  // of materials that are not opaque
   std::map<int, std::uint32_t> images_;
+  bool warned_of_role_ = false;
 };
 
 class GltfMeshes {

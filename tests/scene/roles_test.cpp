@@ -138,6 +138,8 @@ TEST(Roles, OfMaterials) {
             Role::wall);
   EXPECT_EQ(role(R"({"extensions": {"KHR_materials_transmission": {}}})"), Role::wall);
   EXPECT_EQ(role(with_alpha("BLEND", "0.1"), R"(, "extras": {"brume_role": "wall"})"), Role::wall);
+  EXPECT_EQ(role(R"({"alphaMode": "BLEND", "extras": {"brume_role": "grille"}})"), Role::grille);
+  EXPECT_EQ(role(R"({"extras": {"brume_role": "ghost"}})", R"(, "name": "GLASS_x")"), Role::glass);
   EXPECT_EQ(role(with_alpha("BLEND", "0.1"), R"(, "name": "IGNORE_x")"), Role::ghost);
 }
 
