@@ -180,8 +180,11 @@ void draw_light(const FlipbookJob& job, const std::vector<TileTime>& times, Prog
     light.resize(lit.rgba.size());
     // Relative to a white surface that faces the light, whose radiance is irradiance / pi.
     constexpr float kPerWhite = std::numbers::pi_v<float> / kSideIrradiance;
-    for (std::size_t i = 0; i < light.size(); ++i)
-      light[i] = std::max(kPerWhite * luminance(lit.rgba[i] - sheets.emission.rgba[i]), 0.0f);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const float added = kPerWhite * luminance(lit.rgba[i] - sheets.emission.rgba[i]);
+      // What glows may be infinite.
+      light[i] = std::isfinite(added) ? std::max(added, 0.0f) : 0;
+    }
   }
 }
 
