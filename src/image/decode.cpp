@@ -57,8 +57,9 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string&
   if (starts_with(bytes, kRiffSignature) &&
       starts_with(bytes.subspan(std::min<std::size_t>(bytes.size(), 8)), kWebpForm))
     return decode_webp(bytes, name);
-  if (is_tga(bytes, name)) return decode_tga(bytes, name);
+  // No TGA begins so, whatever its name: its second byte is 0 or 1.
   if (starts_with(bytes, kBmpSignature)) return decode_bmp(bytes, name);
+  if (is_tga(bytes, name)) return decode_tga(bytes, name);
   return Failure{ErrorCode::bad_input,
                  name + ": none of PNG, JPEG, WebP, TGA and BMP; convert it to one of these"};
 }

@@ -98,6 +98,18 @@ TEST(Bmp, RowsAreFromTheTopWhereItsHeightIsNegative) {
   expect_counts(decode_image(span_of(bytes), "a.bmp"));
 }
 
+// A large picture of a few bytes is refused before it is made, also where its name says another format.
+TEST(Bmp, IsOneByItsBeginning) {
+  expect_counts(decode_image(span_of(bmp()), "a.tga"));
+  Bytes large = bmp();
+  const std::uint32_t width = 10000, height = 16000;
+  std::memcpy(large.data() + 18, &width, sizeof width);
+  std::memcpy(large.data() + 22, &height, sizeof height);
+  const auto image = decode_image(span_of(large), "a.tga");
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.failure().message.find("truncated"), std::string::npos);
+}
+
 // Of either, each shorter file is refused: none reads on as zeros.
 TEST(TgaAndBmp, EveryTruncationIsAnError) {
   const Bytes packets{0x82, 7, 8, 9, 128, 0x02, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
