@@ -68,7 +68,9 @@ std::uint32_t SceneBuilder::image_of_bytes(std::span<const std::byte> bytes, con
 std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::string& name,
                                       const std::string& place) {
   if (!pixels) {
-    log_warning(place + ": " + pixels.failure().message + "; a magenta checker stands in");
+    // An embedded image has no name but its place.
+    const std::string& what = pixels.failure().message;
+    log_warning((what.starts_with(place) ? what : place + ": " + what) + "; a magenta checker stands in");
     return checker_image();
   }
   if (image_bytes_ + pixels->rgba.size() > kMostImageBytes) {
