@@ -9,6 +9,7 @@
 #include "apps/cli/targets.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 #include "image/optical_flow.hpp"
 #include "planning/device_camera.hpp"
