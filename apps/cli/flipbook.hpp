@@ -29,7 +29,7 @@ struct FlipbookJob {
   scene::Camera camera;      ///< At the first frame.
   bool is_still = false;     ///< Whether all frames show the same.
   bool is_turn = false;      ///< Whether the camera turns: the last tile comes before the first one.
-  bool is_sequence = false;  ///< Whether frames are those of files, with nothing between two of them.
+  bool is_sequence = false;  ///< Whether each frame is a file, so that there is nothing to show between two.
   bool fits_camera =
       false;  ///< Whether the camera may be turned and zoomed so that what is seen fills the tiles.
   /// Frames under a light. The result must be destroyed before the next call.

@@ -14,7 +14,7 @@ struct FlipbookSheets {
   image::Display display;
 };
 
-/// Of a linear colour (ITU-R BT.709).
+/// The luminance of a linear colour, by the weights of ITU-R BT.709.
 float luminance(glm::vec4 texel);
 
 /// Writes the colours, and the maps that the plan asks for; returns what 1 stands for in them. Throws Error.

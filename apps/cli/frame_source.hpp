@@ -19,7 +19,7 @@ class FrameSource {
   virtual void set_camera(const scene::Camera& camera) = 0;
   /// How the last frame became colours, or would.
   virtual image::Display display() const = 0;
-  /// Of all frames so far.
+  /// The statistics of all frames so far, for --json.
   virtual Json statistics() const = 0;
 };
 

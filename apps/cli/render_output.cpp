@@ -14,7 +14,7 @@
 namespace brume::cli {
 
 FrameRange frames_of(const Plan& plan, double duration) {
-  // A duration of a whole number of frames must not become one more by rounding, which is that of a float.
+  // The duration is a float: rounding must not turn a whole number of frames into one more.
   constexpr double kRounding = 1e-3;
   const double frames = duration * plan.rate.per_second();
   const auto all = static_cast<std::uint32_t>(std::ceil(frames - kRounding));

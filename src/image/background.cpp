@@ -4,6 +4,8 @@
 #include <array>
 #include <glm/gtc/packing.hpp>
 
+#include "image/texels.hpp"
+
 namespace brume::image {
 namespace {
 
@@ -12,15 +14,6 @@ constexpr std::array kColors{"R", "G", "B"};
 Layer* find(LayeredImage& image, const std::string& name) {
   const auto found = std::ranges::find(image.layers, name, &Layer::name);
   return found == image.layers.end() ? nullptr : &*found;
-}
-
-std::vector<float> floats_of(const Layer& layer) {
-  if (const auto* floats = std::get_if<std::vector<float>>(&layer.values)) return *floats;
-  const auto& halves = std::get<std::vector<std::uint16_t>>(layer.values);
-  std::vector<float> values(halves.size());
-  std::ranges::transform(halves, values.begin(),
-                         [](std::uint16_t half) { return glm::unpackHalf1x16(half); });
-  return values;
 }
 
 void set_values(const std::vector<float>& values, Layer& layer) {

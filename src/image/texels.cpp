@@ -53,6 +53,15 @@ glm::vec3 shown_of(glm::vec3 color, const Display& display) {
 
 }  // namespace
 
+std::vector<float> floats_of(const Layer& layer) {
+  if (const auto* floats = std::get_if<std::vector<float>>(&layer.values)) return *floats;
+  const auto& halves = std::get<std::vector<std::uint16_t>>(layer.values);
+  std::vector<float> values(halves.size());
+  std::ranges::transform(halves, values.begin(),
+                         [](std::uint16_t half) { return glm::unpackHalf1x16(half); });
+  return values;
+}
+
 Texels texels_of(const LayeredImage& picture) {
   Texels texels{picture.width, picture.height, {}};
   texels.rgba.resize(std::size_t{picture.width} * picture.height, glm::vec4(0));
@@ -61,13 +70,8 @@ Texels texels_of(const LayeredImage& picture) {
     const auto layer = std::ranges::find(
         picture.layers, std::string(kNames[static_cast<std::size_t>(channel)]), &Layer::name);
     if (layer == picture.layers.end()) continue;
-    if (const auto* floats = std::get_if<std::vector<float>>(&layer->values)) {
-      for (std::size_t i = 0; i < texels.rgba.size(); ++i) texels.rgba[i][channel] = (*floats)[i];
-    } else {
-      const auto& halves = std::get<std::vector<std::uint16_t>>(layer->values);
-      for (std::size_t i = 0; i < texels.rgba.size(); ++i)
-        texels.rgba[i][channel] = glm::unpackHalf1x16(halves[i]);
-    }
+    const std::vector<float> values = floats_of(*layer);
+    for (std::size_t i = 0; i < texels.rgba.size(); ++i) texels.rgba[i][channel] = values[i];
   }
   return texels;
 }

@@ -16,6 +16,9 @@ struct Texels {
   std::vector<glm::vec4> rgba;
 };
 
+/// The values of a layer, half floats or not.
+std::vector<float> floats_of(const Layer& layer);
+
 /// R, G, B and A of a picture that is Background::none.
 Texels texels_of(const LayeredImage& picture);
 
