@@ -38,8 +38,8 @@ layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
 #include "lib/light_rows.glsl"
 #include "lib/smoke_transmittance.glsl"
 #include "lib/indirect_light.glsl"
-#include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
+#include "lib/surface_lights.glsl"
 
 /// Bounds of the surfaces of a tile. A tile is a subgroup: each thread tests one light, without barriers.
 struct TileSurfaces {
@@ -89,29 +89,20 @@ void add_lights(uint first, uint lights, bool lit, Surface surface, vec3 view, i
   const vec2 texel_uv = 1.0 / vec2(textureSize(smoke_shadows, 0));
   do {
     uint index;
-    vec3 intensity, to_light;
-    vec4 on_face;
-    float received;  // by the surface, per intensity
+    vec3 intensity;
+    LightOnSurface on;
+    float received;  // past surfaces
     do {
       index = first + uint(findLSB(lights));
       lights &= lights - 1u;
       const Light light = light_from_rows(index);
-      const Incident incident = light_at(light, surface.position_world);
       intensity = light.intensity;
-      to_light = incident.to_light;
-      // Against self-shadowing the lookup is one texel of the shadow off the surface.
-      const bool by_voxels = kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels;
-      const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
-      const vec3 off_world = surface.position_world + off * surface.normal;
-      // The smoke's shadow has no surfaces of its own: off the surface, a light close to it would be on the other side.
-      on_face = face_coordinates(light, sun.clip_from_world, by_voxels ? surface.position_world : off_world);
-      const float visibility = by_voxels ? segment_visibility(off_world, light.position_world)
-                                         : shadow_at(shadow_maps, light, on_face);
-      received = max(dot(surface.normal, to_light), 0.0) * incident.falloff * visibility;
+      on = light_on_surface(light, surface.position_world, surface.normal);
+      received = on.received * visibility_on_surface(light, on);
     } while (lights != 0u && !subgroupAny(lit && received > 0.0));
     if (received > 0.0)
-      radiance += reflectance(surface, view, to_light) * intensity *
-                  (received * smoke_transmittance(index, on_face, texel_uv));
+      radiance += reflectance(surface, view, on.to_light) * intensity *
+                  (received * smoke_transmittance(index, on.on_face, texel_uv));
   } while (lights != 0u);
 }
 

@@ -1,6 +1,7 @@
 // Inputs of draws into the G-buffer and into shadow maps.
 #ifndef BRUME_GBUFFER_H
 #define BRUME_GBUFFER_H
+#include "shared/pane.h"
 #include "shared/shim.h"
 SHARED_BEGIN
 
@@ -30,8 +31,9 @@ struct MaterialConstants {
   vec3 emission;
   float metallic;
   float alpha_cutoff;
+  PaneMaterial pane;
 };
-SHARED_SIZE(MaterialConstants, 36);
+SHARED_SIZE(MaterialConstants, 48);
 
 /// The fourth channel of the normals: the metallic factor, and whether the surface moves over the level, by its sign.
 SHARED_FUNCTION float metallic_and_moves(float metallic, float moves) {
@@ -46,7 +48,7 @@ struct DrawConstants {
   MaterialConstants material;
   float moves;  // 1: it moves over the level, and decals do not darken it
 };
-SHARED_SIZE(DrawConstants, 88);
+SHARED_SIZE(DrawConstants, 100);
 
 /// A draw into a shadow layer.
 struct ShadowDraw {

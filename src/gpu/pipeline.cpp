@@ -34,6 +34,20 @@ class Module {
   VkShaderModule handle_ = VK_NULL_HANDLE;
 };
 
+/// Values of the specialization constants 0, 1..., which must outlive it.
+struct Specialization {
+  explicit Specialization(std::span<const std::uint32_t> constants) {
+    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * 4, 4});
+    info = {static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(),
+            constants.data()};
+  }
+  Specialization(const Specialization&) = delete;
+  Specialization& operator=(const Specialization&) = delete;
+
+  std::vector<VkSpecializationMapEntry> entries;
+  VkSpecializationInfo info{};
+};
+
 VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) {
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
@@ -60,16 +74,29 @@ VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
   VkPipelineColorBlendAttachmentState colour{};
   colour.colorWriteMask = 0xf;
   colour.blendEnable = blend != Blend::none ? VK_TRUE : VK_FALSE;
-  if (blend == Blend::medium) {
-    colour.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    colour.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-    colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-    colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-  } else {
-    colour.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-    colour.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  const auto set = [&](VkBlendFactor source, VkBlendFactor behind, VkBlendFactor source_alpha,
+                       VkBlendFactor behind_alpha) {
+    colour.srcColorBlendFactor = source;
+    colour.dstColorBlendFactor = behind;
+    colour.srcAlphaBlendFactor = source_alpha;
+    colour.dstAlphaBlendFactor = behind_alpha;
+  };
+  switch (blend) {
+    case Blend::none:
+      break;
+    case Blend::alpha:
+      set(VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_FACTOR_ONE,
+          VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA);
+      break;
+    case Blend::medium:
+      set(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_ALPHA);
+      break;
+    case Blend::filter:
+      set(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_ALPHA);
+      break;
+    case Blend::add:
+      set(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_ONE);
+      break;
   }
   return colour;
 }
@@ -161,14 +188,11 @@ ComputePipeline::ComputePipeline(Context& context, const ShaderCode& shader,
 }
 
 VkResult ComputePipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
-  std::vector<VkSpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < constants_.size(); ++i) entries.push_back({i, i * 4, 4});
-  const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                            constants_.size() * 4, constants_.data()};
+  const Specialization specialization(constants_);
   const Module module(context_, shaders[0]);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization);
+  info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization.info);
   info.layout = layout();
   return context_.vk().CreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, made);
 }
@@ -185,9 +209,10 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   const Module vertex(context_, shaders[0]);
   std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, nullptr)};
   std::optional<Module> fragment;
+  const Specialization specialization(info_.constants);
   if (shaders.size() > 1) {
     fragment.emplace(context_, shaders[1]);
-    stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, nullptr));
+    stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, &specialization.info));
   }
 
   // Fixed-function state.

@@ -79,6 +79,8 @@ enum class Blend {
   none,
   alpha,   ///< Alpha of the fragment: its opacity.
   medium,  ///< Premultiplied radiance and, in alpha, transmittance, in both.
+  filter,  ///< Multiplies what is behind.
+  add,     ///< Adds to its colour; the alpha stays.
 };
 
 struct GraphicsInfo {
@@ -89,7 +91,8 @@ struct GraphicsInfo {
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
   Blend blend = Blend::none;
-  bool writes_depth = true;  ///< Where there is a depth.
+  bool writes_depth = true;                   ///< Where there is a depth.
+  std::vector<std::uint32_t> constants = {};  ///< Of the fragment shader: specialization constants 0, 1...
 };
 
 /// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from

@@ -130,7 +130,7 @@ void show_smoke(const brume_frame_params& params, const api::SmokeField& field, 
   require(is_within(params.less_detail, 0, 1), "`less_detail` must be from 0 to 1");
   scene::SmokeOptions options = options_of(params.look, field.extinction());
   options.detail = 1 - params.less_detail;
-  input.level.voxels = {&field.grid(), field.state().edits};
+  input.level.voxels = {&field.grid(), field.state().edits, &field.solids().sight};
   input.smoke.volume = &field.volume();
   input.smoke.state = &field.state();
   input.smoke.holes = field.holes();

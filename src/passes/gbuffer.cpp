@@ -26,11 +26,6 @@ float anisotropy_on(const gpu::Context& context) {
   return context.info().kind == "cpu" ? 1 : 8;
 }
 
-shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConstants& material, bool moves) {
-  const glm::mat4 rows = glm::transpose(draw.world_from_mesh);
-  return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
-}
-
 /// Writes depth and, with a fragment shader, all targets.
 gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::ShaderCode* fragment) {
   gpu::GraphicsInfo info{&vertex, fragment, {}};
@@ -58,7 +53,7 @@ bool is_dull(const shared::MaterialConstants& material) {
 void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const SceneResources& scene,
               const GBufferPass::VisibleDraw& visible) {
   const Draw& draw = *visible.draw;
-  const auto constants = constants_of(draw, scene.materials[draw.material].constants, visible.moves);
+  const auto constants = draw_constants(draw, scene.materials[draw.material].constants, visible.moves);
   recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
   recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
 }
@@ -129,6 +124,7 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
     if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden))
       draws.push_back({&draw, false});
   for (const Draw& draw : moving) draws.push_back({&draw, true});
+  std::erase_if(draws, [](const VisibleDraw& visible) { return visible.draw->is_pane; });
   // In an order that every form has, for surfaces in the same place.
   const auto first_other = std::stable_partition(draws.begin(), draws.end(), [&](const VisibleDraw& visible) {
     return is_dull(scene.materials[visible.draw->material].constants);

@@ -78,6 +78,7 @@ Geometry gather_geometry(const scene::Scene& scene) {
 Draw place(const Geometry& geometry, const scene::Object& object) {
   Draw draw = geometry.ranges[object.mesh];
   draw.material = object.material;
+  draw.is_pane = scene::is_pane(object);
   draw.world_from_mesh = object.world_from_mesh;
   draw.centre_world = glm::vec3(object.world_from_mesh * glm::vec4(draw.centre_world, 1));
   float scale = 0;
@@ -121,8 +122,10 @@ void upload_images(gpu::Context& context, gpu::CommandStream& stream, const scen
 
 MaterialImages device_material(const scene::Material& material) {
   MaterialImages out;
-  out.constants = {material.base_color, material.roughness, material.emission, material.metallic,
-                   material.alpha_cutoff};
+  out.constants = {
+      material.base_color,   material.roughness,
+      material.emission,     material.metallic,
+      material.alpha_cutoff, {material.opacity, material.transmission, material.blended ? 1.0f : 0.0f}};
   constexpr std::uint32_t kStandIns = 3;
   const auto index = [](std::uint32_t image, std::uint32_t stand_in) {
     return image == scene::kNone ? stand_in : image + kStandIns;
@@ -134,6 +137,12 @@ MaterialImages device_material(const scene::Material& material) {
 }
 
 }  // namespace
+
+shared::DrawConstants draw_constants(const Draw& draw, const shared::MaterialConstants& material,
+                                     bool moves) {
+  const glm::mat4 rows = glm::transpose(draw.world_from_mesh);
+  return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
+}
 
 SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene) {
   SceneResources out;
@@ -153,6 +162,7 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, c
     out.draws.emplace_back(place(geometry, scene.objects[i])).object = i;
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
+  out.has_panes = std::ranges::any_of(out.draws, &Draw::is_pane);
   if (scene.grenade) out.grenade = place(geometry, *scene.grenade);
   const Box<float> bounds = scene::world_bounds(scene);
   out.bounds_min = bounds.low;

@@ -22,7 +22,11 @@ struct Draw {
   glm::mat4 world_from_mesh{1};
   glm::vec3 centre_world{0};  ///< Bounding sphere.
   float radius = 0;
+  bool is_pane = false;  ///< Of PanePass: neither in the G-buffer nor in shadow maps.
 };
+
+/// `moves`: over the level.
+shared::DrawConstants draw_constants(const Draw& draw, const shared::MaterialConstants& material, bool moves);
 
 /// Objects that are not drawn, in ascending order.
 using HiddenObjects = std::span<const std::uint32_t>;
@@ -45,6 +49,7 @@ struct SceneResources {
   std::vector<Draw> draws;                ///< In order of material.
   Draw grenade;                           ///< Draws nothing where the scene has none.
   std::vector<shared::Light> light_list;  ///< The first ones in `lights`; temporary lights follow.
+  bool has_panes = false;                 ///< Whether any of `draws` is one.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 

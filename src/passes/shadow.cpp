@@ -108,7 +108,7 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
   const auto record_one = [&](std::uint32_t layer, const glm::mat4& clip_from_world, const Sees& sees) {
     if (!accepts(sees)) return;
     record_layer(context, stream, scene, maps, layer, clip_from_world,
-                 [&](const Draw& draw) { return !is_hidden(draw, hidden) && sees(draw); });
+                 [&](const Draw& draw) { return !draw.is_pane && !is_hidden(draw, hidden) && sees(draw); });
   };
   for (const shared::Light& light : scene.light_list) {
     if (light.shadow_layer == shared::kNoShadow) continue;

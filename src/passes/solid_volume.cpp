@@ -83,7 +83,7 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
         changed, {voxels.low / voxels_per_texel_, voxel::coarse_size(voxels.high, voxels_per_texel_)});
   }
   if (level.grid)
-    fill_bits(*level.grid, changed);
+    fill_bits(*level.light_grid(), changed);
   else
     std::ranges::fill(bits_, 0u);
   upload(recorder, changed);

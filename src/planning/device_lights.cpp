@@ -33,4 +33,9 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
   return out;
 }
 
+bool has_voxel_shadows(std::span<const shared::Light> lights) {
+  return std::ranges::any_of(
+      lights, [](const shared::Light& light) { return light.shadow_layer == shared::kShadowByVoxels; });
+}
+
 }  // namespace brume::planning

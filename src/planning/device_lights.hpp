@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -12,5 +13,8 @@ namespace brume::planning {
 /// Lights for the device: ranges cut off less than 1/100 of unit irradiance; shadow layers are assigned in
 /// order, up to `max_layers`.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
+
+/// Whether any of them is shadowed by voxels.
+bool has_voxel_shadows(std::span<const shared::Light> lights);
 
 }  // namespace brume::planning

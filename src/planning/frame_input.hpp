@@ -28,6 +28,9 @@ constexpr std::size_t kMaxFlashes = 64;
 struct LevelView {
   const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: nothing is solid anywhere.
   std::shared_ptr<const sim::EditBlocks> edits;
+  /// What stops light, where that is less: of the same layout, edits included.
+  const voxel::BitGrid* opaque = nullptr;
+  const voxel::BitGrid* light_grid() const { return opaque ? opaque : grid; }
   bool operator==(const LevelView&) const = default;
 };
 

@@ -78,7 +78,8 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.view.exposure = std::exp2(timeline.exposure);
   input.view.tone = timeline.tone;
   input.smoke.time = static_cast<float>(seconds);
-  input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits};
+  input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits,
+                        &simulation.world().solids().sight};
   input.smoke.volume = &simulation.volume();
   holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
   input.smoke.holes = holes;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -18,8 +17,6 @@ constexpr float kAlwaysWithin = 4;
 
 /// Distances in densities are at least so long that the inverse of their square is finite [m^2].
 constexpr float kLeastSquare = 1e-12f;
-
-constexpr float kNoEnd = std::numeric_limits<float>::infinity();
 
 float brightest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
@@ -104,7 +101,7 @@ void LightPath::scatter_from(const Scene& scene, const NearLight& near, float ti
   Ray ray{light.position_world, direction_of(light, near.solid_angle, sampler), 0, time};
   // Surfaces around the light do not hide it (distance_to_housing).
   const float housing = shared::kShadowNear / brightest(glm::abs(ray.direction));
-  ray.end = housing + scene.surfaces.distance({ray.at(housing), ray.direction, kNoEnd, time});
+  ray.end = housing + scene.surfaces.distance({ray.at(housing), ray.direction, Ray::kNoEnd, time});
   glm::vec3 flux(0);
   while (true) {
     glm::vec3 emitted(0);
@@ -114,8 +111,10 @@ void LightPath::scatter_from(const Scene& scene, const NearLight& near, float ti
     const glm::vec3 p = ray.at(collision->t), p_rest = medium.at_rest(ray).at(collision->t);
     const float d2 = std::max(collision->t * collision->t, kLeastSquare);
     if (vertices_.empty()) flux = light_at(light, p).irradiance * d2 / first_density_;
+    Ray up_to_here = ray;
+    up_to_here.end = collision->t;
     const glm::vec3 albedo = medium.albedo(p_rest);
-    flux *= albedo;
+    flux *= albedo * scene.surfaces.through_panes(up_to_here);
     if (!(brightest(flux) > 0)) return;
     vertices_.push_back({p, -ray.direction, &medium, flux});
     links_.push_back({true, 1 / d2, 0});
@@ -126,7 +125,7 @@ void LightPath::scatter_from(const Scene& scene, const NearLight& near, float ti
     flux /= survive;
     const glm::vec3 direction = sample_phase(medium.phase(), ray.direction, sampler);
     links_.back().density = shared::phase_value(medium.phase(), glm::dot(ray.direction, direction));
-    ray = {p, direction, kNoEnd, time};
+    ray = {p, direction, Ray::kNoEnd, time};
     ray.end = scene.surfaces.distance(ray);
   }
 }

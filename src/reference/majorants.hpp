@@ -15,12 +15,13 @@ namespace brume::reference {
 constexpr float kBoundSlack = 1.0001f;
 
 struct Ray {
+  static constexpr float kNoEnd = std::numeric_limits<float>::infinity();
   glm::vec3 origin{0};
-  glm::vec3 direction{0, 0, 1};                        ///< Unit.
-  float end = std::numeric_limits<float>::infinity();  ///< [m]
-  float time = 0;                                      ///< While the shutter is open, [0, 1].
+  glm::vec3 direction{0, 0, 1};  ///< Unit.
+  float end = kNoEnd;            ///< [m]
+  float time = 0;                ///< While the shutter is open, [0, 1].
   glm::vec3 at(float t) const { return origin + t * direction; }
-  Ray without_end() const { return {origin, direction, std::numeric_limits<float>::infinity(), time}; }
+  Ray without_end() const { return {origin, direction, kNoEnd, time}; }
 };
 
 /// Cells of equal size under an affine transform, each with an upper bound of the extinction in it [1/m].

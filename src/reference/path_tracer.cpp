@@ -10,6 +10,7 @@
 #include "reference/light_path.hpp"
 #include "reference/near_lights.hpp"
 #include "reference/phase.hpp"
+#include "shared/pane.h"
 
 namespace brume::reference {
 namespace {
@@ -33,7 +34,8 @@ struct Vertex {
   glm::vec3 position{0};
   glm::vec3 arriving{0};  ///< Direction of the path before, unit.
   glm::vec3 albedo{1};    ///< Of a medium.
-  float t = 0;            ///< Along the ray that leads there [m].
+  float t = 0;            ///< Along the ray that leads there, from the last pane on [m].
+  float distance = 0;     ///< From the vertex before [m].
   float time = 0;         ///< Of the shutter.
 
   /// Radiance back along the path for unit irradiance from a direction, with the cosine of a surface.
@@ -51,8 +53,7 @@ struct Vertex {
     return shared::phase_value(medium->phase(), glm::dot(arriving, to_light));
   }
   Ray leaving(const glm::vec3& direction) const {
-    return {surface ? Surfaces::off_surface(*surface, direction) : position, direction,
-            std::numeric_limits<float>::infinity(), time};
+    return {surface ? Surfaces::off_surface(*surface, direction) : position, direction, Ray::kNoEnd, time};
   }
 };
 
@@ -90,7 +91,10 @@ class Path {
   void add_found_emitter(const SurfaceHit& hit, const Ray& ray);
   bool scatter(const Vertex& vertex, Ray& ray);
   bool roulette();
-  float visible(Ray ray, float distance, float distance_of_surfaces);
+  glm::vec3 visible(Ray ray, float distance, float distance_of_surfaces);
+  glm::vec3 emitted_along(Ray ray);
+  bool pass_pane(const SurfaceHit& hit, Ray& ray);
+  void note_surface(const std::optional<SurfaceHit>& nearest, const Ray& ray);
   float density_of_emitter(const Emitter& emitter) const;
 
   const Scene& scene_;
@@ -100,6 +104,8 @@ class Path {
   glm::vec3 throughput_{1};
   std::uint32_t bounces_ = 0;
   float last_density_ = 0;  // of the direction of the path; 0: the eye's
+  Ray from_last_;           // the ray from the last vertex, whatever panes it passes
+  float passed_m_ = 0;      // of it, up to the last pane
   NearLightsOfPath& near_;
 };
 
@@ -122,11 +128,12 @@ float distance_to_housing(const Incident& incident) {
 }
 
 /// Fraction of light that reaches a ray's origin from so far away, past surfaces up to a distance.
-float Path::visible(Ray ray, float distance, float distance_of_surfaces) {
+glm::vec3 Path::visible(Ray ray, float distance, float distance_of_surfaces) {
   ray.end = distance_of_surfaces;
-  if (ray.end > 0 && scene_.surfaces.occluded(ray)) return 0;
+  if (ray.end > 0 && scene_.surfaces.occluded(ray)) return glm::vec3(0);
+  const glm::vec3 passed = ray.end > 0 ? scene_.surfaces.through_panes(ray) : glm::vec3(1);
   ray.end = distance;
-  return scene_.media.transmittance(ray, sampler_);
+  return passed * scene_.media.transmittance(ray, sampler_);
 }
 
 /// What media scatter along the eye's ray near lights: at one place, beside collisions. These lie as densely
@@ -156,9 +163,9 @@ void Path::add_near_lights(const Ray& ray) {
   if (!(largest(value) > 0)) return;
 
   // To the light, and to the eye.
-  float passed = visible({ray.at(point.t), incident.to_light, 0, ray.time}, incident.distance,
-                         distance_to_housing(incident));
-  if (!(passed > 0)) return;
+  glm::vec3 passed = visible({ray.at(point.t), incident.to_light, 0, ray.time}, incident.distance,
+                             distance_to_housing(incident));
+  if (!(largest(passed) > 0)) return;
   Ray before = ray;
   before.end = point.t;
   passed *= scene_.media.transmittance(before, sampler_);
@@ -211,9 +218,9 @@ void Path::add_lights(const Vertex& vertex) {
   while (i > 0 && largest(values[i]) <= 0) --i;
   if (largest(values[i]) <= 0) return;
   const Incident incident = light_at(scene_.lights[i], vertex.position);
-  const float passed =
+  const glm::vec3 passed =
       visible(vertex.leaving(incident.to_light), incident.distance, distance_to_housing(incident));
-  if (passed > 0) add(values[i] * (passed * sum / largest(values[i])));
+  if (largest(passed) > 0) add(values[i] * (passed * (sum / largest(values[i]))));
 }
 
 /// Radiance of a vertex by light that comes through vertex i of the light's path if nothing is in between.
@@ -254,11 +261,11 @@ void Path::add_light_path(const Vertex& vertex) {
   // Past what is in between.
   const glm::vec3 apart = near_.light_path.vertices()[i].position - vertex.position;
   const float distance = glm::length(apart);
-  const float passed = visible(vertex.leaving(apart / distance), distance, distance);
-  if (!(passed > 0)) return;
+  const glm::vec3 passed = visible(vertex.leaving(apart / distance), distance, distance);
+  if (!(largest(passed) > 0)) return;
   const std::uint32_t scattered = static_cast<std::uint32_t>(i) + 1;
   bounces_ += scattered;
-  add(joined(vertex, i) * (passed * sum / estimates[i]));
+  add(joined(vertex, i) * (passed * (sum / estimates[i])));
   bounces_ -= scattered;
 }
 
@@ -290,8 +297,24 @@ void Path::add_emitters(const Vertex& vertex) {
   if (!(largest(value) > 0)) return;
   // Not as far as the emitter itself.
   const float end = distance * (1 - 1e-4f);
-  const float passed = visible(vertex.leaving(direction), end, end);
-  if (passed > 0) add(value * (passed * power_heuristic(density, vertex.density(direction)) / density));
+  const glm::vec3 passed = visible(vertex.leaving(direction), end, end);
+  if (largest(passed) > 0)
+    add(value * (passed * (power_heuristic(density, vertex.density(direction)) / density)));
+}
+
+/// What the media emit along a ray, through panes, up to a surface.
+glm::vec3 Path::emitted_along(Ray ray) {
+  glm::vec3 sum(0), passed(1);
+  while (true) {
+    const std::optional<SurfaceHit> hit = scene_.surfaces.hit(ray);
+    if (hit) ray.end = hit->t;
+    glm::vec3 emitted(0);
+    const bool collides = scene_.media.collide(ray, sampler_, emitted).has_value();
+    sum += passed * emitted;
+    if (collides || !hit || hit->passes == glm::vec3(0)) return sum;
+    passed *= hit->passes;
+    ray = Ray{Surfaces::off_surface(*hit, ray.direction), ray.direction, Ray::kNoEnd, ray.time};
+  }
 }
 
 /// What the media emit along a ray to a point of them.
@@ -305,20 +328,18 @@ void Path::add_glow(const Vertex& vertex) {
   Ray ray = vertex.leaving(direction);
   const float density = cells.direction_density(ray);
   if (!(density > 0)) return;
-  ray.end = scene_.surfaces.distance(ray);
-  glm::vec3 emitted(0);
-  scene_.media.collide(ray, sampler_, emitted);
-  add(value * emitted * (power_heuristic(density, vertex.density(direction)) / density));
+  add(value * emitted_along(ray) * (power_heuristic(density, vertex.density(direction)) / density));
 }
 
 /// An emitter that the path itself found.
 void Path::add_found_emitter(const SurfaceHit& hit, const Ray& ray) {
+  const float distance = passed_m_ + hit.t;
   if (hit.emission == glm::vec3(0)) return;
   const std::optional<std::uint32_t> i = scene_.surfaces.emitter_of(hit);
   if (bounces_ == 0 || !i) return add(hit.emission);
   const float cosine = std::abs(glm::dot(hit.geometric_normal, ray.direction));
   const float by_light =
-      density_of_emitter(scene_.surfaces.emitters()[*i]) * hit.t * hit.t / std::max(cosine, 1e-6f);
+      density_of_emitter(scene_.surfaces.emitters()[*i]) * distance * distance / std::max(cosine, 1e-6f);
   add(hit.emission * power_heuristic(last_density_, by_light));
 }
 
@@ -329,7 +350,8 @@ bool Path::scatter(const Vertex& vertex, Ray& ray) {
   if (bounces_ == 0 && limits_.max_bounces > 1)
     near_.light_path.trace(scene_, vertex.position, vertex.time, kOfLightPath, sampler_);
   if (!near_.light_path.first_densities().empty())
-    near_.links.push_back({vertex.medium != nullptr, 1 / std::max(vertex.t * vertex.t, 1e-12f), 0});
+    near_.links.push_back(
+        {vertex.medium != nullptr, 1 / std::max(vertex.distance * vertex.distance, 1e-12f), 0});
   sampler_.set_dimension(kOfEye + kOfBounce * bounces_);
   ++bounces_;
   add_lights(vertex);
@@ -352,7 +374,8 @@ bool Path::scatter(const Vertex& vertex, Ray& ray) {
     last_density_ = vertex.density(direction);
   }
   if (!near_.links.empty()) near_.links.back().density = last_density_;
-  ray = vertex.leaving(direction);
+  ray = from_last_ = vertex.leaving(direction);
+  passed_m_ = 0;
   return roulette();
 }
 
@@ -367,14 +390,40 @@ bool Path::roulette() {
   return true;
 }
 
+/// What the picture says of the surface that the eye sees, past panes.
+void Path::note_surface(const std::optional<SurfaceHit>& nearest, const Ray& ray) {
+  const bool is_pane = nearest && nearest->is_pane;
+  const std::optional<SurfaceHit> behind = is_pane ? scene_.surfaces.opaque_hit(ray) : std::nullopt;
+  const std::optional<SurfaceHit>& seen = is_pane ? behind : nearest;
+  if (!seen) return;
+  found_.albedo = seen->reflection.albedo;
+  found_.normal = seen->reflection.normal;
+  found_.distance = seen->t;
+}
+
+/// Goes straight on through a pane, or not, at random: then it scatters.
+bool Path::pass_pane(const SurfaceHit& hit, Ray& ray) {
+  const float straight = largest(hit.passes);
+  if (!(straight > 0)) return false;
+  const float scattered =
+      largest(hit.reflection.albedo) +
+      shared::pane_reflectance(hit.reflection.highlight, -glm::dot(hit.reflection.normal, ray.direction));
+  const float chance = straight / (straight + scattered);
+  if (sampler_.random() >= chance) {
+    throughput_ /= 1 - chance;
+    return false;
+  }
+  throughput_ *= hit.passes / chance;
+  passed_m_ += hit.t;
+  ray = {Surfaces::off_surface(hit, ray.direction), ray.direction, Ray::kNoEnd, ray.time};
+  return true;
+}
+
 PathSample Path::trace(Ray ray) {
+  from_last_ = ray;
   while (true) {
     const std::optional<SurfaceHit> hit = scene_.surfaces.hit(ray);
-    if (bounces_ == 0 && hit) {
-      found_.albedo = hit->reflection.albedo;
-      found_.normal = hit->reflection.normal;
-      found_.distance = hit->t;
-    }
+    if (bounces_ == 0 && passed_m_ <= 0) note_surface(hit, ray);
     // Media before the surface.
     if (hit) ray.end = hit->t;
     if (bounces_ == 0) add_near_lights(ray);
@@ -395,6 +444,7 @@ PathSample Path::trace(Ray ray) {
       vertex.albedo = collision->medium->albedo(collision->medium->at_rest(ray).at(collision->t));
     } else if (hit) {
       add_found_emitter(*hit, ray);
+      if (pass_pane(*hit, ray)) continue;
       vertex.surface = &*hit;
       vertex.t = hit->t;
       vertex.position = hit->position;
@@ -403,6 +453,7 @@ PathSample Path::trace(Ray ray) {
                         : scene_.environment.lighting(ray.direction));
       return found_;
     }
+    vertex.distance = passed_m_ + vertex.t;
     if (!scatter(vertex, ray)) return found_;
   }
 }

@@ -6,6 +6,7 @@
 
 #include "reference/motion.hpp"
 #include "scene/color.hpp"
+#include "shared/pane.h"
 
 namespace brume::reference {
 namespace {
@@ -53,6 +54,19 @@ const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
   return &scene.images[index].pixels;
 }
 
+/// What a pane reflects and lets through, as shaders/lib/pane.glsl: of a hit whose albedo is the pane's
+/// colour.
+void make_pane(const scene::Material& material, float alpha, const glm::vec3& direction, SurfaceHit& hit) {
+  const shared::PaneMaterial pane{material.opacity, material.transmission, material.blended ? 1.0f : 0.0f};
+  const float weight = shared::pane_weight(pane, alpha);
+  const float reflected = shared::pane_reflectance(weight, -glm::dot(hit.reflection.normal, direction));
+  hit.is_pane = true;
+  hit.passes = shared::pane_tint(pane, weight, hit.reflection.albedo) * (1 - reflected);
+  hit.reflection.albedo = shared::pane_albedo(pane, weight, hit.reflection.albedo);
+  hit.reflection.metallic = 0;
+  hit.reflection.highlight = weight;
+}
+
 RTCRay embree_ray(const Ray& ray) {
   return {ray.origin.x,
           ray.origin.y,
@@ -86,16 +100,27 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const planning::LevelSta
   if (scene.grenade)
     for (const glm::mat4& world_from_mesh : level.grenades)
       add(*scene.grenade, {world_from_mesh * scene.grenade->world_from_mesh});
+  build(opaque_, false);
+  build(panes_, true);
+}
+
+void Surfaces::build(Tree& tree, bool of_panes) {
   std::vector<trace::TriangleMesh> meshes;
-  for (const auto& part : parts_) {
-    const bool cut_out = part->material->alpha_cutoff > 0;
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = *parts_[i];
+    if (part.is_pane != of_panes) continue;
+    tree.parts.push_back(i);
+    const bool cut_out = part.material->alpha_cutoff > 0 && !(part.is_pane && part.material->blended);
     trace::TriangleMesh& mesh = meshes.emplace_back();
-    mesh = {
-        part->corners_world.front(), part->mesh->indices, cut_out ? reject_cut_out : nullptr, part.get(), {}};
-    for (std::size_t step = 1; step < part->corners_world.size(); ++step)
-      mesh.moved.emplace_back(part->corners_world[step]);
+    mesh = {part.corners_world.front(),
+            part.mesh->indices,
+            cut_out ? reject_cut_out : nullptr,
+            parts_[i].get(),
+            {}};
+    for (std::size_t step = 1; step < part.corners_world.size(); ++step)
+      mesh.moved.emplace_back(part.corners_world[step]);
   }
-  tree_.build("reference", meshes).value_or_throw();
+  tree.triangles.build("reference", meshes).value_or_throw();
 }
 
 void Surfaces::add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh) {
@@ -105,6 +130,7 @@ void Surfaces::add(const scene::Object& object, std::vector<glm::mat4> world_fro
   part->scene = &scene_;
   part->mesh = &scene_.meshes[object.mesh];
   part->material = object.material == scene::kNone ? &kPlain : &scene_.materials[object.material];
+  part->is_pane = scene::is_pane(object);
   // What rests while the shutter is open has one place.
   if (std::ranges::all_of(world_from_mesh,
                           [&](const glm::mat4& pose) { return pose == world_from_mesh.front(); }))
@@ -154,48 +180,80 @@ void Surfaces::reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-RTCRayHit Surfaces::intersect(const Ray& ray) const {
+std::optional<RTCRayHit> Surfaces::intersect(const Tree& tree, const Ray& ray) {
+  if (tree.parts.empty()) return std::nullopt;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
   query.ray = embree_ray(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(tree_.scene(), &context, &query);
+  rtcIntersect1(tree.triangles.scene(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return query;
 }
 
 float Surfaces::distance(const Ray& ray) const {
-  return intersect(ray).ray.tfar;
+  const std::optional<RTCRayHit> query = intersect(opaque_, ray);
+  return query ? query->ray.tfar : ray.end;
 }
 
 std::optional<Surfaces::Place> Surfaces::place(const Ray& ray) const {
-  const RTCRayHit query = intersect(ray);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const glm::vec3 across =
-      parts_[query.hit.geomID]->handedness * glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  const std::optional<RTCRayHit> query = intersect(opaque_, ray);
+  if (!query) return std::nullopt;
+  const Part& part = *parts_[opaque_.parts[query->hit.geomID]];
+  const glm::vec3 across = part.handedness * glm::vec3(query->hit.Ng_x, query->hit.Ng_y, query->hit.Ng_z);
   const float length = glm::length(across);
   const glm::vec3 outward = length > 0 ? across / length : -ray.direction;
   const bool is_front = glm::dot(outward, ray.direction) < 0;
-  return Place{ray.at(query.ray.tfar), is_front ? outward : -outward, is_front};
+  return Place{ray.at(query->ray.tfar), is_front ? outward : -outward, is_front};
 }
 
-std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
-  const RTCRayHit query = intersect(ray);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+SurfaceHit Surfaces::shaded(const Tree& tree, const RTCRayHit& query, const Ray& ray) const {
   SurfaceHit hit;
   hit.t = query.ray.tfar;
-  hit.part = query.hit.geomID;
+  hit.part = tree.parts[query.hit.geomID];
   hit.triangle = query.hit.primID;
   shade(*parts_[hit.part], hit.triangle, {query.hit.u, query.hit.v}, ray, hit);
   return hit;
+}
+
+std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
+  const std::optional<RTCRayHit> opaque = intersect(opaque_, ray);
+  Ray before = ray;
+  if (opaque) before.end = opaque->ray.tfar;
+  if (const std::optional<RTCRayHit> pane = intersect(panes_, before)) return shaded(panes_, *pane, ray);
+  if (!opaque) return std::nullopt;
+  return shaded(opaque_, *opaque, ray);
+}
+
+std::optional<SurfaceHit> Surfaces::opaque_hit(const Ray& ray) const {
+  const std::optional<RTCRayHit> query = intersect(opaque_, ray);
+  if (!query) return std::nullopt;
+  return shaded(opaque_, *query, ray);
+}
+
+glm::vec3 Surfaces::through_panes(Ray ray) const {
+  constexpr int kMostPanes = 256;
+  glm::vec3 passed(1);
+  for (int i = 0; i < kMostPanes; ++i) {
+    const std::optional<RTCRayHit> query = intersect(panes_, ray);
+    if (!query) return passed;
+    const SurfaceHit pane = shaded(panes_, *query, ray);
+    passed *= pane.passes;
+    const glm::vec3 from = off_surface(pane, ray.direction);
+    ray.end -= glm::dot(from - ray.origin, ray.direction);
+    ray.origin = from;
+    if (passed == glm::vec3(0) || !(ray.end > 0)) return passed;
+  }
+  return glm::vec3(0);
 }
 
 bool Surfaces::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = embree_ray(ray);
-  rtcOccluded1(tree_.scene(), &context, &query);
+  rtcOccluded1(opaque_.triangles.scene(), &context, &query);
   return query.tfar < 0;
 }
 
@@ -221,15 +279,15 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
   // Material, as shaders/gbuffer.frag.
   const scene::Material& material = *part.material;
   const glm::vec2 uv = interpolated(*part.mesh, triangle, at, &scene::Vertex::uv);
-  glm::vec3 base(interpolated(*part.mesh, triangle, at, &scene::Vertex::color));
+  glm::vec4 base = interpolated(*part.mesh, triangle, at, &scene::Vertex::color);
   if (const image::Image8* image = image_of(scene_, material.base_color_image))
-    base *= glm::vec3(image_at(*image, uv, true));
+    base *= image_at(*image, uv, true);
   glm::vec2 rough_metal(1);
   if (const image::Image8* image = image_of(scene_, material.roughness_image)) {
     const glm::vec4 texel = image_at(*image, uv, false);
     rough_metal = {texel.g, texel.b};
   }
-  hit.reflection.albedo = glm::clamp(base * material.base_color, 0.0f, 1.0f);
+  hit.reflection.albedo = glm::clamp(glm::vec3(base) * material.base_color, 0.0f, 1.0f);
   hit.reflection.roughness = std::clamp(material.roughness * rough_metal.x, 0.0f, 1.0f);
   hit.reflection.metallic = std::clamp(material.metallic * rough_metal.y, 0.0f, 1.0f);
   if (matte_) hit.reflection.highlight = hit.reflection.metallic = 0;
@@ -252,6 +310,7 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
     }
   }
   hit.reflection.normal = front ? n : -n;
+  if (part.is_pane) make_pane(material, base.a, ray.direction, hit);
 }
 
 glm::vec3 Surfaces::off_surface(const SurfaceHit& hit, const glm::vec3& direction) {

@@ -22,6 +22,8 @@ struct SurfaceHit {
   glm::vec3 geometric_normal{0};  ///< Of the triangle, unit, towards the ray's origin.
   Reflection reflection;
   glm::vec3 emission{0};
+  bool is_pane = false;
+  glm::vec3 passes{0};  ///< Of a pane: which fraction of light goes straight on.
   std::uint32_t part = 0, triangle = 0;
 };
 
@@ -39,7 +41,11 @@ class Surfaces {
   /// without highlights. Throws what TriangleTree::build fails with.
   Surfaces(const scene::Scene& scene, std::span<const planning::LevelState> levels, bool matte = false);
 
+  /// The nearest surface or pane. What follows looks through panes.
   std::optional<SurfaceHit> hit(const Ray& ray) const;
+  std::optional<SurfaceHit> opaque_hit(const Ray& ray) const;
+  /// What panes let through of light along a ray up to its end.
+  glm::vec3 through_panes(Ray ray) const;
   /// The nearest place of a surface on a ray, without its material.
   struct Place {
     glm::vec3 position{0};
@@ -64,6 +70,7 @@ class Surfaces {
     const scene::Scene* scene = nullptr;
     const scene::Mesh* mesh = nullptr;
     const scene::Material* material = nullptr;
+    bool is_pane = false;
     // At equal steps of the shutter's time; one of what rests.
     std::vector<glm::mat4> world_from_mesh;
     std::vector<std::vector<glm::vec3>> corners_world;
@@ -72,7 +79,13 @@ class Surfaces {
   };
   void add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh);
   void add_emitters(Part& part);
-  RTCRayHit intersect(const Ray& ray) const;
+  struct Tree {
+    trace::TriangleTree triangles;
+    std::vector<std::uint32_t> parts;  // of its geometries
+  };
+  void build(Tree& tree, bool of_panes);
+  static std::optional<RTCRayHit> intersect(const Tree& tree, const Ray& ray);
+  SurfaceHit shaded(const Tree& tree, const RTCRayHit& query, const Ray& ray) const;
   static void reject_cut_out(const RTCFilterFunctionNArguments* arguments);
   void shade(const Part& part, std::uint32_t triangle, const glm::vec2& at, const Ray& ray,
              SurfaceHit& hit) const;
@@ -81,7 +94,7 @@ class Surfaces {
   bool matte_;
   std::vector<std::unique_ptr<Part>> parts_;  // at fixed addresses
   std::vector<Emitter> emitters_;
-  trace::TriangleTree tree_;
+  Tree opaque_, panes_;
 };
 
 }  // namespace brume::reference

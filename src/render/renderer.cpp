@@ -5,6 +5,7 @@
 
 #include "passes/blue_noise.hpp"
 #include "planning/device_camera.hpp"
+#include "planning/device_lights.hpp"
 #include "planning/lens.hpp"
 #include "render/tank_layer.hpp"
 
@@ -37,10 +38,7 @@ float texture_bias(const planning::ViewSample& sample) {
 
 /// `displays`: whether shading may display, too. Without a GPU a pass of its own costs next to nothing.
 passes::ShadePass::Needs shade_needs(const FramePlan& plan, bool displays) {
-  const auto by_voxels = [](const shared::Light& light) {
-    return light.shadow_layer == shared::kShadowByVoxels;
-  };
-  return {.voxel_shadows = std::ranges::any_of(plan.lights, by_voxels),
+  return {.voxel_shadows = planning::has_voxel_shadows(plan.lights),
           .decals = !plan.decals.empty(),
           .display = displays && plan.particles.empty() && plan.input.view.sample.count <= 1};
 }
@@ -94,7 +92,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
   stream.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
   if (options.smoke.prepare_all && shade_pass_)
     for (const bool voxel_shadows : {false, true})
-      shade_pass_->reserve({.voxel_shadows = voxel_shadows, .display = shading_displays_});
+      shade_pass_->reserve(
+          {.voxel_shadows = voxel_shadows, .display = shading_displays_ && !scene_.has_panes()});
 }
 
 void Renderer::set_march_scale(std::uint32_t scale) {
@@ -224,7 +223,7 @@ void Renderer::reserve(FramePlan& plan) {
   }
   if (plan.input.view.sample.count > 1 && !average_pass_) average_pass_.emplace(context_, targets_.size_px);
   if (plan.input.debug.view == planning::DebugView::none) {
-    const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
+    const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_ && !scene_.has_panes());
     shade_pass_->reserve(needs);
     if (!needs.display && !display_pass_) display_pass_.emplace(context_);
     return;
@@ -330,7 +329,7 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (is_debug_view && antialias_pass_) antialias_pass_->invalidate_past();
   if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
   if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
-  const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_);
+  const passes::ShadePass::Needs needs = shade_needs(plan, shading_displays_ && !scene_.has_panes());
   scope(recorder, "shade", [&] {
     shade_pass_->record(recorder, needs,
                         {frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(), scene_.level(),
@@ -338,6 +337,7 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
                         {targets_.radiance, targets_.display});
   });
   if (needs.display) return;
+  if (scene_.has_panes()) scope(recorder, "panes", [&] { record_panes(recorder, plan); });
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
   if (const planning::ViewSample& sample = plan.input.view.sample; sample.count > 1)
     scope(recorder, "average", [&] { average_pass_->record(recorder, targets_.radiance, sample.index); });
@@ -404,6 +404,13 @@ void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, con
   scene_.record_lights(recorder, plan);
   smoke_.record_upload(recorder, plan, in);
   if (!plan.decals.empty()) upload_decals(recorder, plan);
+}
+
+void Renderer::record_panes(gpu::Recorder& recorder, const FramePlan& plan) {
+  scene_.record_panes(recorder, plan,
+                      {frame_, scene_.shadows(), smoke_.shadows(), scene_.level(), targets_.gbuffer.depth,
+                       media(), smoke_.resources(), smoke_.holes().cells, smoke_.lit_volumes()},
+                      targets_.radiance);
 }
 
 void Renderer::record_particles(gpu::Recorder& recorder, const FramePlan& plan) {

@@ -141,6 +141,7 @@ class Renderer {
   void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_panes(gpu::Recorder& recorder, const FramePlan& plan);
   void record_particles(gpu::Recorder& recorder, const FramePlan& plan);
   void record_antialias(gpu::Recorder& recorder, const FramePlan& plan);
   void record_debug_view(gpu::Recorder& recorder, const FramePlan& plan);

@@ -1,5 +1,7 @@
 #include "render/scene_view.hpp"
 
+#include "planning/device_lights.hpp"
+
 namespace brume::render {
 namespace {
 
@@ -17,6 +19,10 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
   return draws;
 }
 
+passes::PanePass::Needs pane_needs(const planning::FramePlan& plan) {
+  return {planning::has_voxel_shadows(plan.lights), plan.media.casters};
+}
+
 }  // namespace
 
 SceneView::SceneView(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
@@ -31,6 +37,7 @@ SceneView::SceneView(gpu::Context& context, gpu::CommandStream& stream, const sc
       sky_light_(context),
       indirect_light_(context) {
   shadow_pass_.record(context, stream, scene_, {}, shadows_);
+  if (scene_.has_panes) pane_pass_.emplace(context);
 }
 
 void SceneView::reserve(const planning::FramePlan& plan) {
@@ -38,6 +45,7 @@ void SceneView::reserve(const planning::FramePlan& plan) {
   solid_.reserve(level.voxels);
   sky_light_.reserve(solid_);
   reserve_indirect_light(plan);
+  if (pane_pass_) pane_pass_->reserve(pane_needs(plan));
   if (!plan.changed_objects.empty())
     shadow_pass_.record_changed(context_, stream_, scene_, level.hidden_objects, plan.changed_objects,
                                 shadows_);
@@ -48,7 +56,7 @@ void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
   if (indirect.bounces == 0) return;
   if (indirect.level_changed) {
     const reference::Surfaces surfaces(*source_, {&plan.input.level, 1});
-    light_cells_ = reference::make_light_cells(*plan.input.level.voxels.grid, surfaces);
+    light_cells_ = reference::make_light_cells(*plan.input.level.voxels.light_grid(), surfaces);
   }
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);
 }
@@ -102,6 +110,14 @@ void SceneView::record_gbuffer(gpu::Recorder& recorder, const planning::FramePla
   const planning::LevelState& level = plan.input.level;
   gbuffer_pass_.record(recorder, scene_, moving_draws(scene_, level), level.hidden_objects, plan.frustum,
                        frame, target);
+}
+
+void SceneView::record_panes(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                             const passes::PanePass::Inputs& in, const gpu::Image& radiance) const {
+  const planning::LevelState& level = plan.input.level;
+  const std::vector<passes::Draw> moving = moving_draws(scene_, level);
+  pane_pass_->record(recorder, pane_needs(plan), in, {scene_, moving, level.hidden_objects, plan.frustum},
+                     radiance);
 }
 
 }  // namespace brume::render

@@ -4,6 +4,7 @@
 
 #include "passes/gbuffer.hpp"
 #include "passes/indirect_light.hpp"
+#include "passes/panes.hpp"
 #include "passes/shade.hpp"
 #include "planning/frame_plan.hpp"
 
@@ -41,6 +42,11 @@ class SceneView {
   void record_gbuffer(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame,
                       const passes::GBuffer& target) const;
 
+  /// Draws the panes over the picture. Where has_panes().
+  void record_panes(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                    const passes::PanePass::Inputs& in, const gpu::Image& radiance) const;
+  bool has_panes() const { return scene_.has_panes; }
+
   const passes::SceneResources& resources() const { return scene_; }
   const passes::ShadowMaps& shadows() const { return shadows_; }
   passes::LevelLight level() const { return {solid_, sky_light_, indirect_light_.cube()}; }
@@ -53,6 +59,7 @@ class SceneView {
   const scene::Scene* source_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
+  std::optional<passes::PanePass> pane_pass_;  ///< Where the scene has panes.
   passes::ShadowPass shadow_pass_;
   passes::ShadowMaps shadows_;
   passes::SolidVolume solid_;

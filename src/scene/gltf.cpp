@@ -50,8 +50,9 @@ std::string ignored_features(const tinygltf::Model& model) {
   const auto is_set = [](const std::vector<double>& weights) {
     return std::ranges::any_of(weights, [](double weight) { return weight != 0; });
   };
-  bool unlit = false, instances = false, skins = false, morphs = false, wraps = false, glass = false,
-       invisible = false;
+  constexpr double kMostClearRoughness = 0.3;
+  bool unlit = false, instances = false, skins = false, morphs = false, wraps = false, frosted = false,
+       blended = false;
   for (const tinygltf::Node& node : model.nodes) {
     instances = instances || node.extensions.contains("EXT_mesh_gpu_instancing");
     skins = skins || node.skin >= 0;
@@ -63,9 +64,11 @@ std::string ignored_features(const tinygltf::Model& model) {
             sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT;
   for (const tinygltf::Material& material : model.materials) {
     unlit = unlit || material.extensions.contains("KHR_materials_unlit");
-    glass = glass || material.extensions.contains("KHR_materials_transmission");
+    frosted = frosted || (material.extensions.contains("KHR_materials_transmission") &&
+                          material.pbrMetallicRoughness.roughnessFactor > kMostClearRoughness);
     const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
-    invisible = invisible || (material.alphaMode == "BLEND" && color.size() == 4 && color[3] < 1);
+    blended =
+        blended || (material.alphaMode == "BLEND" && color.size() == 4 && color[3] >= 0.5 && color[3] < 1);
   }
   std::string text;
   const auto add = [&](bool any, const char* words) {
@@ -75,8 +78,8 @@ std::string ignored_features(const tinygltf::Model& model) {
   add(skins, "skins (meshes are drawn as they are stored)");
   add(morphs, "weights of morph targets");
   add(wraps, "samplers that clamp or mirror (textures repeat)");
-  add(glass, "KHR_materials_transmission (glass is drawn opaque)");
-  add(invisible, "blending (what has an alpha below 0.5 is not drawn; the rest is opaque)");
+  add(frosted, "rough KHR_materials_transmission (what is behind the glass is sharp)");
+  add(blended, "blending from an alpha of 0.5 on (it is drawn opaque)");
   add(unlit, "KHR_materials_unlit (it is lit)");
   return text;
 }
@@ -184,6 +187,7 @@ class GltfLoader {
       object.mesh = part.mesh;
       object.material = part.material;
       object.role = own.value_or(part.role);
+      object.see_through = part.role == Role::glass;
       builder_.add_object(object, place).value_or_throw();
     }
   }

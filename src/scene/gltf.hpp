@@ -14,7 +14,8 @@ namespace brume::scene {
 /// Reads a .gltf or .glb: the default scene's nodes with meshes (triangles, strips, fans), their vertex
 /// colours, metallic-roughness materials, punctual lights, and the first perspective camera. Files it refers
 /// to must lie below the scene's folder.
-/// - Missing normals become flat normals, missing tangents are computed. BLEND becomes a cutout at alpha 0.5.
+/// - Missing normals become flat normals, missing tangents are computed. BLEND becomes a pane (is_pane), or
+///   a cutout at alpha 0.5 where it is not glass.
 /// - Light intensities are not converted: candela count as W/sr, lux as W/m^2; exposure compensates.
 /// - A light emits along its node's -z. The camera's target is the point on its axis nearest to the middle of
 /// the

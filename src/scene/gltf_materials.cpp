@@ -126,13 +126,20 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   const std::string& mode = source.alphaMode;
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
     document_.fail(place + ".alphaMode", "is none of OPAQUE, MASK, BLEND");
+  const double transmission = transmission_of(source);
+  if (transmission >= 0.5) material.transmission = static_cast<float>(std::min(transmission, 1.0));
+  if (mode == "BLEND") {
+    material.blended = true;
+    material.opacity = static_cast<float>(std::clamp(pbr.baseColorFactor[3], 0.0, 1.0));
+    if (transmission < 0.5) material.transmission = 0;
+  }
   if (mode != "OPAQUE") {
     const double cutoff = mode == "MASK" ? source.alphaCutoff : 0.5;
     material.alpha_cutoff = static_cast<float>(cutoff / std::max(pbr.baseColorFactor[3], 1e-6));
     const auto index = static_cast<std::uint32_t>(builder_.scene.materials.size());
     if (!chosen) alphas_[index] = {numbers(pbr.baseColorTexture), pbr.baseColorFactor[3], cutoff};
   }
-  material.role = chosen.value_or(transmission_of(source) >= 0.5 ? Role::glass : Role::wall);
+  material.role = chosen.value_or(transmission >= 0.5 ? Role::glass : Role::wall);
   return material;
 }
 

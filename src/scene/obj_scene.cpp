@@ -184,6 +184,10 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   material.emission = source.emission;
   material.roughness = source.roughness;
   material.metallic = source.metallic;
+  if (source.opacity < 0.5f) {
+    material.opacity = source.opacity;
+    material.transmission = 0;
+  }
   const auto image = [&](const std::string& file, const std::string& place, const char* stand_in) {
     return file.empty() ? kNone : builder.image_of_file(places_of(file, source.folder), place, stand_in);
   };
@@ -251,6 +255,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     object.mesh = *mesh;
     object.material = static_cast<std::uint32_t>(builder.scene.materials.size() - 1);
     object.role = role_of_prefix(object.name).value_or(by_material);
+    object.see_through = by_material == Role::glass;
     if (auto added = builder.add_object(std::move(object), part.place); !added) return added.failure();
   }
   return std::move(builder).finish();

@@ -51,6 +51,11 @@ struct Material {
   std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
   std::uint32_t roughness_image = kNone;   ///< G: roughness, B: metallic; multiply the factors.
   Role role = Role::wall;                  ///< Of all that it covers, as far as it is not cut out.
+  // Of panes (is_pane):
+  float opacity = 1;  ///< [0, 1]: the fraction of a pane that has the base colour; the rest is clear.
+  float transmission =
+      1;  ///< [0, 1]: of that fraction, what lets light through and tints it; the rest scatters.
+  bool blended = false;  ///< Alpha multiplies the opacity, and cuts nothing out of panes.
 };
 
 struct Object {
@@ -58,9 +63,16 @@ struct Object {
   std::uint32_t mesh = kNone;      ///< Index into Scene::meshes.
   std::uint32_t material = kNone;  ///< Index into Scene::materials.
   glm::mat4 world_from_mesh{1};
-  Role role = Role::wall;  ///< What it stops.
-  bool backdrop = false;   ///< Not part of the scene's bounds: a ground that reaches to the horizon.
+  Role role = Role::wall;    ///< What it stops.
+  bool see_through = false;  ///< Its material is that of glass, whatever its role.
+  bool backdrop = false;     ///< Not part of the scene's bounds: a ground that reaches to the horizon.
 };
+
+/// Whether an object is drawn transparent, and lets light through: glass, and what its material makes glass,
+/// unless it stops sight.
+inline bool is_pane(const Object& object) {
+  return object.role == Role::glass || (object.see_through && !stops_sight(object.role));
+}
 
 enum class LightKind : std::uint32_t { point, spot, directional };
 

@@ -106,9 +106,10 @@ class SceneTxtParser {
     if (!mesh) return mesh.failure();
     Object object;
     object.mesh = *mesh;
-    object.material = material_of(material, std::clamp(roughness, kLeastRoughness, 1.0f));
-    object.world_from_mesh = world_from_mesh(*position, *rotation, *scale);
     object.role = role_of_prefix(name).value_or(Role::wall);
+    const bool clear = object.role == Role::glass && material.empty();
+    object.material = clear ? glass() : material_of(material, std::clamp(roughness, kLeastRoughness, 1.0f));
+    object.world_from_mesh = world_from_mesh(*position, *rotation, *scale);
     object.name = std::move(name);
     if (object.name != "Grenade") return builder_.add_object(std::move(object), reader_.line_place());
     if (!builder_.has_grenade()) return builder_.set_grenade(object, reader_.line_place());
@@ -135,6 +136,16 @@ class SceneTxtParser {
     return added;
   }
 
+  /// Clear and smooth, but for the colours of vertices.
+  std::uint32_t glass() {
+    if (glass_ != kNone) return glass_;
+    Material material;
+    material.name = "glass";
+    material.roughness = kLeastRoughness;
+    builder_.scene.materials.push_back(std::move(material));
+    return glass_ = static_cast<std::uint32_t>(builder_.scene.materials.size() - 1);
+  }
+
   std::uint32_t material_of(const std::string& name, float roughness) {
     const auto key = std::pair(name, roughness);
     if (const auto known = materials_.find(key); known != materials_.end()) return known->second;
@@ -157,6 +168,7 @@ class SceneTxtParser {
   SceneBuilder builder_;
   std::map<std::string, std::uint32_t> meshes_;
   std::map<std::pair<std::string, float>, std::uint32_t> materials_;
+  std::uint32_t glass_ = kNone;
 };
 
 }  // namespace

@@ -134,7 +134,8 @@
   X(88, MediaLayerParams) \
   X(89, SurfaceShadowParams) \
   X(90, SurfaceNormalParams) \
-  X(91, VolumeDetail)
+  X(91, VolumeDetail) \
+  X(92, PaneMaterial)
 // clang-format on
 
 #endif

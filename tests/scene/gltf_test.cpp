@@ -217,6 +217,37 @@ TEST(Gltf, MaterialsAndCameras) {
   EXPECT_FLOAT_EQ(scene->camera->vertical_fov, 0.8f);
 }
 
+TEST(Gltf, PanesAreWhatBlendsOrTransmits) {
+  const auto load = [](const std::string& material, const std::string& node = R"({"mesh": 0})") {
+    Document document;
+    document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
+    document.nodes = "[" + node + "]";
+    document.more = R"(, "materials": [)" + material + "]";
+    return document.load().value_or_throw();
+  };
+  const std::string blended =
+      R"({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}})";
+  Scene scene = load(blended);
+  EXPECT_TRUE(is_pane(scene.objects[0]));
+  EXPECT_TRUE(scene.materials[0].blended);
+  EXPECT_FLOAT_EQ(scene.materials[0].opacity, 0.3f);
+  EXPECT_EQ(scene.materials[0].transmission, 0);
+
+  scene = load(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.75}}})");
+  EXPECT_TRUE(is_pane(scene.objects[0]));
+  EXPECT_FALSE(scene.materials[0].blended);
+  EXPECT_EQ(scene.materials[0].opacity, 1);
+  EXPECT_FLOAT_EQ(scene.materials[0].transmission, 0.75f);
+
+  // By its role alone, tinted by its colour; and whatever stops less than glass stays a pane.
+  scene = load("{}", R"({"mesh": 0, "extras": {"brume_role": "glass"}})");
+  EXPECT_TRUE(is_pane(scene.objects[0]));
+  EXPECT_EQ(scene.materials[0].transmission, 1);
+  EXPECT_TRUE(is_pane(load(blended, R"({"mesh": 0, "extras": {"brume_role": "ghost"}})").objects[0]));
+  EXPECT_FALSE(is_pane(load(blended, R"({"mesh": 0, "extras": {"brume_role": "wall"}})").objects[0]));
+  EXPECT_FALSE(is_pane(load(R"({"alphaMode": "BLEND"})").objects[0]));
+}
+
 TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
   Document document;
   document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
@@ -250,11 +281,16 @@ TEST(Gltf, SaysWhatIsNotSupported) {
             begin + "samplers that clamp or mirror (textures repeat)");
   EXPECT_EQ(
       warned(R"(, "materials": [{"extensions": {"KHR_materials_transmission": {}}},
-                        {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}}])",
+                        {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.7]}}])",
              ""),
       begin +
-          "KHR_materials_transmission (glass is drawn opaque); blending (what has an alpha below 0.5 is "
-          "not drawn; the rest is opaque)");
+          "rough KHR_materials_transmission (what is behind the glass is sharp); blending from an alpha of "
+          "0.5 on (it is drawn opaque)");
+  EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND",
+                          "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}}])",
+                   ""),
+            "")
+      << "a pane";
   EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND"}])", ""), "") << "opaque all the same";
   EXPECT_EQ(warned("", R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}, "weights": [0, 1]}])"),
             begin + "EXT_mesh_gpu_instancing (one of the instances is drawn); weights of morph targets");

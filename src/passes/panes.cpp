@@ -1,0 +1,144 @@
+#include "passes/panes.hpp"
+
+#include <algorithm>
+
+#include "brume_shaders.hpp"
+#include "shared/frame.h"
+#include "shared/indirect_light.h"
+#include "shared/resolve.h"
+
+namespace brume::passes {
+namespace {
+
+/// What the pipelines differ by.
+constexpr std::uint32_t kPaneMedia = shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer;
+
+gpu::GraphicsInfo pane_info(const gpu::ShaderCode& fragment, gpu::Blend blend) {
+  gpu::GraphicsInfo info{&shaders::gbuffer_vert, &fragment, {VK_FORMAT_R16G16B16A16_SFLOAT}};
+  info.blend = blend;
+  info.writes_depth = false;
+  return info;
+}
+
+/// From back to front, by their middles; what moves comes last.
+std::vector<const Draw*> in_order(const VisiblePanes& panes) {
+  std::vector<const Draw*> draws;
+  for (const Draw& draw : panes.scene.draws)
+    if (draw.is_pane && panes.view.may_intersect({draw.centre_world, draw.radius}) &&
+        !is_hidden(draw, panes.hidden))
+      draws.push_back(&draw);
+  std::ranges::stable_sort(draws, std::greater{}, [&](const Draw* draw) {
+    return panes.view.distance_to({draw->centre_world, 0});
+  });
+  for (const Draw& draw : panes.moving)
+    if (draw.is_pane) draws.push_back(&draw);
+  return draws;
+}
+
+}  // namespace
+
+PanePass::PanePass(gpu::Context& context)
+    : context_(context),
+      filter_(context, pane_info(shaders::panes_filter_frag, gpu::Blend::filter)),
+      maps_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1}),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      linear_(context, {}),
+      compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
+
+void PanePass::reserve(const Needs& needs) {
+  const Needs own{needs.voxel_shadows, needs.media & kPaneMedia};
+  if (shine_.contains(own)) return;
+  gpu::GraphicsInfo info = pane_info(shaders::panes_shine_frag, gpu::Blend::add);
+  info.constants = {own.media, own.voxel_shadows ? 1u : 0u};
+  shine_.try_emplace(own, context_, info);
+}
+
+void PanePass::prepare(gpu::Recorder& recorder, const Inputs& in, const SceneResources& scene) const {
+  recorder.prepare_for_draws({gpu::uniform(in.frame),
+                              gpu::read(scene.vertices),
+                              gpu::read(scene.lights),
+                              gpu::uniform(in.shadows.sun),
+                              gpu::sampled(in.shadows.layers, compare_),
+                              gpu::sampled(in.smoke_shadows.atlas, linear_),
+                              gpu::read(in.smoke_shadows.faces),
+                              gpu::sampled(in.smoke, nearest_),
+                              gpu::sampled(in.level.sky.light(), linear_),
+                              gpu::sampled(in.level.indirect_cube, linear_),
+                              gpu::sampled(in.level.solid.texels(), linear_),
+                              gpu::read(in.bricks.pages),
+                              gpu::sampled(in.bricks.filtered_density, linear_),
+                              gpu::read(in.bricks.cells),
+                              gpu::read(in.bricks.boundary),
+                              gpu::read(in.bricks.corners),
+                              gpu::read(in.hole_cells),
+                              gpu::uniform(in.volumes.instances),
+                              gpu::read(in.volumes.pages),
+                              gpu::sampled(in.volumes.values, linear_),
+                              gpu::read(in.volumes.transfers)});
+  for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, maps_)});
+  recorder.prepare_indices(scene.indices);
+}
+
+void PanePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs& in,
+                      const VisiblePanes& panes, const gpu::Image& radiance) const {
+  const std::vector<const Draw*> draws = in_order(panes);
+  if (draws.empty()) return;
+  const gpu::GraphicsPipeline& shine = shine_.at({needs.voxel_shadows, needs.media & kPaneMedia});
+  prepare(recorder, in, panes.scene);
+  gpu::Recorder::Attachments attachments{{&radiance}, &in.depth};
+  attachments.keep = 0b1;
+  attachments.keep_depth = true;
+  recorder.begin_rendering(attachments, glm::uvec2(radiance.info().size));
+  for (const Draw* const one : draws) draw(recorder, shine, in, panes.scene, *one);
+  recorder.end_rendering();
+}
+
+void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
+                    const SceneResources& scene, const Draw& draw) const {
+  const MaterialImages& material = scene.materials[draw.material];
+  const shared::DrawConstants constants = draw_constants(draw, material.constants, false);
+  const auto draw_with = [&](const gpu::GraphicsPipeline& pipeline) {
+    recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
+    recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+  };
+  const auto base_color = gpu::sampled(scene.images[material.base_color], maps_),
+             normal = gpu::sampled(scene.images[material.normal], maps_),
+             roughness = gpu::sampled(scene.images[material.roughness], maps_);
+  recorder.bind_for_draws(filter_, {
+                                       {shared::kBindFrame, gpu::uniform(in.frame)},
+                                       {shared::kBindVertices, gpu::read(scene.vertices)},
+                                       {shared::kBindBaseColorMap, base_color},
+                                       {shared::kBindNormalMap, normal},
+                                   });
+  draw_with(filter_);
+  recorder.bind_for_draws(
+      shine, {
+                 {shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindVertices, gpu::read(scene.vertices)},
+                 {shared::kBindBaseColorMap, base_color},
+                 {shared::kBindNormalMap, normal},
+                 {shared::kBindRoughnessMap, roughness},
+                 {shared::kBindLights, gpu::read(scene.lights)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
+                 {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
+                 {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
+                 {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                 {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                 {shared::kBindPages, gpu::read(in.bricks.pages)},
+                 {shared::kBindFilteredDensity, gpu::sampled(in.bricks.filtered_density, linear_)},
+                 {shared::kBindCells, gpu::read(in.bricks.cells)},
+                 {shared::kBindBoundary, gpu::read(in.bricks.boundary)},
+                 {shared::kBindCorners, gpu::read(in.bricks.corners)},
+                 {shared::kBindHoleCells, gpu::read(in.hole_cells)},
+                 {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                 {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                 {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                 {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
+             });
+  draw_with(shine);
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,63 @@
+// Draws panes over a picture: what lets light through.
+#pragma once
+
+#include <compare>
+#include <map>
+
+#include "passes/hole_clusters.hpp"
+#include "passes/shade.hpp"
+#include "passes/smoke_upload.hpp"
+#include "passes/volume_upload.hpp"
+#include "planning/view_frustum.hpp"
+
+namespace brume::passes {
+
+/// The panes of a scene at a time; `hidden` ones and those outside of `view` are not drawn.
+struct VisiblePanes {
+  const SceneResources& scene;
+  std::span<const Draw> moving;
+  HiddenObjects hidden;
+  const planning::ViewFrustum& view;
+};
+
+class PanePass {
+ public:
+  /// What a frame needs; each thing that it does not is faster.
+  struct Needs {
+    bool voxel_shadows = true;  ///< A light may be shadowed by voxels (kShadowByVoxels).
+    std::uint32_t media = ~0u;  ///< Those that light meets: FramePlan::media.casters.
+    auto operator<=>(const Needs&) const = default;
+  };
+  struct Inputs {
+    const gpu::Buffer& frame;  ///< FrameConstants.
+    const ShadowMaps& shadows;
+    const SmokeShadows& smoke_shadows;
+    LevelLight level;
+    const gpu::Image& depth;  ///< Reverse depth of the other surfaces: GBuffer::depth.
+    const gpu::Image& smoke;  ///< Premultiplied radiance and transmittance of the media up to these.
+    const SmokeResources& bricks;
+    const gpu::Buffer& hole_cells;
+    VolumeResources volumes;  ///< As light meets them.
+  };
+
+  explicit PanePass(gpu::Context& context);
+  /// Prepares for frames of these needs. Outside of a recording.
+  void reserve(const Needs& needs);
+  /// Filters `radiance`, half floats, by each pane from back to front, and adds what it reflects; the alpha
+  /// becomes the fraction that passes. Media before a pane are not filtered (shaders/panes_shine.frag).
+  /// `needs` are reserved.
+  void record(gpu::Recorder& recorder, const Needs& needs, const Inputs& in, const VisiblePanes& panes,
+              const gpu::Image& radiance) const;
+
+ private:
+  void prepare(gpu::Recorder& recorder, const Inputs& in, const SceneResources& scene) const;
+  void draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
+            const SceneResources& scene, const Draw& draw) const;
+
+  gpu::Context& context_;
+  gpu::GraphicsPipeline filter_;
+  std::map<Needs, gpu::GraphicsPipeline> shine_;
+  gpu::Sampler maps_, nearest_, linear_, compare_;
+};
+
+}  // namespace brume::passes
