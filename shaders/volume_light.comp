@@ -26,6 +26,9 @@ layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 
 const bool kHasDense = (kMedia & kMediumDense) != 0u;
 const uint kStepsToLight = 16u;
+/// Light that shines inside of a medium and is scattered often falls off as 1 / r, not as 1 / r^2 (diffusion): its
+/// ratio to what arrives straight grows with the optical depth. By how much: docs/volume-light.md#glow-in-dense-smoke.
+const float kSpreadInside = 0.4;
 const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
 
 /// Whether a sample that reads this cell can lie in a brick.
@@ -85,7 +88,9 @@ OtherLights other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings
     const float depth = depth_to_light(volume, p_world, incident);
     const vec3 arriving = incident.irradiance * (lit * kPerSphere);
     sum.once += arriving * exp(-depth) * albedo;
-    sum.often += arriving * many.fraction * exp(-many.decay * depth);
+    const bool inside = lights[i].radius > 0.0 && frame.indirect.bounces == 0u;
+    const float spread = inside ? 1.0 + kSpreadInside * depth : 1.0;
+    sum.often += arriving * many.fraction * exp(-many.decay * depth) * spread;
   }
   return sum;
 }

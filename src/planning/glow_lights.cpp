@@ -30,6 +30,14 @@ shared::Light light_at_ball(const glm::vec3& middle_world, double radius, const 
   return light;
 }
 
+/// The fraction of what a homogeneous ball emits that leaves it, by its optical radius. What it scatters has
+/// the same chances again (Case, de Hoffmann and Placzek 1953, 8.3).
+glm::dvec3 leaving_ball(const scene::VolumeOptions& options, double optical_radius) {
+  const double escape = grids::escape_from_ball(optical_radius);
+  const glm::dvec3 albedo = glm::dvec3(options.albedo) * double{options.multiple_scattering};
+  return escape / (1.0 - albedo * (1 - escape));
+}
+
 shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                        const grids::GlowBall& ball, double exposure) {
   const scenario::VolumeFrame& frame = *volume.frame;
@@ -44,10 +52,10 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   const glm::dvec3 color =
       glm::dvec3(blackbody_color(static_cast<float>(mean))) / std::pow(mean / double{kUnitGlow}, 4);
   const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
-  const double leaves = grids::escape_from_ball(extinction * radius);
+  const glm::dvec3 leaves = leaving_ball(options, extinction * radius);
 
   const glm::vec3 middle(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
-  return light_at_ball(middle, radius, color * std::min(glow * voxel_volume * leaves, kMostIntensity),
+  return light_at_ball(middle, radius, color * leaves * std::min(glow * voxel_volume, kMostIntensity),
                        exposure);
 }
 
@@ -61,9 +69,9 @@ void add_mask_lights(const scene::VolumeOptions& options, const scenario::Volume
   for (const scenario::MaskGlow& ball : frame.mask_glow) {
     const glm::dvec3 glow(scene::glow_at(options.masks[ball.mask], seconds));
     const double radius = ball.radius * scale;
-    const double leaves = grids::escape_from_ball(double{options.extinction} * radius);
+    const glm::dvec3 leaves = leaving_ball(options, double{options.extinction} * radius);
     const glm::vec3 middle(world_from_file * glm::dvec4(ball.middle, 1));
-    lights.push_back(light_at_ball(middle, radius, glow * (ball.integral * cubed * leaves), exposure));
+    lights.push_back(light_at_ball(middle, radius, glow * leaves * (ball.integral * cubed), exposure));
   }
 }
 

@@ -38,6 +38,7 @@ scene::VolumeOptions options_of(float extinction) {
   options.extinction = extinction;
   options.kelvin = kUnitGlow;
   options.emission = 2;
+  options.albedo = glm::vec3(0);
   return options;
 }
 
@@ -66,6 +67,22 @@ TEST(GlowLights, OfAnOpaqueBallHaveThePowerOfItsSurface) {
   const double found = intensity_of(glow_lights(options_of(40), hot_ball(), 0, 1));
   EXPECT_GT(found, 0.9 * kRadiance * disc);
   EXPECT_LT(found, 2 * kRadiance * disc);
+}
+
+// What is only scattered leaves in the end, however dense the ball is.
+TEST(GlowLights, LoseNothingToScattering) {
+  const double volume = 4.0 / 3 * 3.14159265 * kRadius * kRadius * kRadius;
+  for (const float extinction : {0.02f, 1.0f, 40.0f}) {
+    scene::VolumeOptions options = options_of(extinction);
+    options.albedo = glm::vec3(1);
+    const double emitted = double{extinction} * kRadiance * volume;
+    EXPECT_NEAR(intensity_of(glow_lights(options, hot_ball(), 0, 1)), emitted, 0.05 * emitted);
+    // Half of what is scattered is absorbed: less than with all of it, more than with none.
+    options.albedo = glm::vec3(0.5f);
+    const double some = intensity_of(glow_lights(options, hot_ball(), 0, 1));
+    EXPECT_LT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1)) * 2);
+    EXPECT_GT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1)));
+  }
 }
 
 TEST(GlowLights, LieInTheBall) {
