@@ -2,6 +2,7 @@
 
 #include <Iex.h>
 #include <ImfChannelList.h>
+#include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -9,6 +10,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
@@ -180,6 +182,8 @@ Result<void> save_exr(const std::filesystem::path& path, const LayeredImage& ima
                  layer.name);
     header.channels().insert(layer.name, Imf::Channel(type_of(layer)));
   }
+  // Those of sRGB and Rec. 709, which the format assumes where none are named, and other programs guess.
+  Imf::addChromaticities(header, Imf::Chromaticities());
   header.insert(kChecksum, Imf::StringAttribute(checksum_of(image)));
   if (text) header.insert(text->keyword, Imf::StringAttribute(text->text));
 

@@ -70,6 +70,8 @@ std::string ignored_features(const tinygltf::Model& model) {
     blended =
         blended || (material.alphaMode == "BLEND" && color.size() == 4 && color[3] >= 0.5 && color[3] < 1);
   }
+  const bool orthographic = std::ranges::any_of(
+      model.cameras, [](const tinygltf::Camera& camera) { return camera.type == "orthographic"; });
   std::string text;
   const auto add = [&](bool any, const char* words) {
     if (any) text += (text.empty() ? "" : "; ") + std::string(words);
@@ -80,6 +82,7 @@ std::string ignored_features(const tinygltf::Model& model) {
   add(wraps, "samplers that clamp or mirror (textures repeat)");
   add(frosted, "rough KHR_materials_transmission (what is behind the glass is sharp)");
   add(blended, "blending from an alpha of 0.5 on (it is drawn opaque)");
+  add(orthographic, "orthographic cameras (views are perspective)");
   add(unlit, "KHR_materials_unlit (it is lit)");
   return text;
 }

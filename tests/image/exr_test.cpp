@@ -1,10 +1,12 @@
 #include "image/exr.hpp"
 
 #include <ImfChannelList.h>
+#include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,6 +71,8 @@ TEST(Exr, IsReadByOpenExr) {
   ASSERT_TRUE(file.header().channels().findChannel("Z"));
   EXPECT_EQ(file.header().channels().findChannel("Z")->type, Imf::FLOAT);
   EXPECT_EQ(file.header().channels().findChannel("albedo.R")->type, Imf::HALF);
+  ASSERT_TRUE(Imf::hasChromaticities(file.header()));
+  EXPECT_EQ(Imf::chromaticities(file.header()).red, Imath::V2f(0.64f, 0.33f)) << "of Rec. 709";
   std::vector<std::uint16_t> red(21);
   Imf::FrameBuffer slices;
   slices.insert("R", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(red.data()), 2, 14));

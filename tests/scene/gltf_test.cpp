@@ -291,6 +291,10 @@ TEST(Gltf, SaysWhatIsNotSupported) {
                    ""),
             "")
       << "a pane";
+  EXPECT_EQ(warned(R"(, "cameras": [{"type": "orthographic",
+                          "orthographic": {"xmag": 1, "ymag": 1, "zfar": 10, "znear": 0.1}}])",
+                   ""),
+            begin + "orthographic cameras (views are perspective)");
   EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND"}])", ""), "") << "opaque all the same";
   EXPECT_EQ(warned("", R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}, "weights": [0, 1]}])"),
             begin + "EXT_mesh_gpu_instancing (one of the instances is drawn); weights of morph targets");
