@@ -18,7 +18,7 @@ struct Pane {
 Pane pane_here() {
   const vec4 base = base_color_here();
   const PaneMaterial material = draw.material.pane;
-  if (material.blended == 0.0 && base.a < draw.material.alpha_cutoff) discard;
+  if (base.a < draw.material.alpha_cutoff) discard;
   const vec3 ray = camera_ray(frame.camera, gl_FragCoord.xy, frame.size_px);
   const vec3 along = view_distance(frame.camera, gl_FragCoord.z) * ray;
   Pane pane;

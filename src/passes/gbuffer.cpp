@@ -41,13 +41,13 @@ gpu::GraphicsInfo dull_info() {
   return info;
 }
 
-bool is_cut(const shared::MaterialConstants& material) {
-  return material.alpha_cutoff > 0;
+bool is_cut(const Draw& draw) {
+  return draw.alpha_cutoff > 0;
 }
 
 /// Neither cut by a texture nor glowing.
-bool is_dull(const shared::MaterialConstants& material) {
-  return !is_cut(material) && material.emission == glm::vec3(0);
+bool is_dull(const SceneResources& scene, const Draw& draw) {
+  return !is_cut(draw) && scene.materials[draw.material].constants.emission == glm::vec3(0);
 }
 
 void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const SceneResources& scene,
@@ -126,9 +126,8 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   for (const Draw& draw : moving) draws.push_back({&draw, true});
   std::erase_if(draws, [](const VisibleDraw& visible) { return visible.draw->is_pane; });
   // In an order that every form has, for surfaces in the same place.
-  const auto first_other = std::stable_partition(draws.begin(), draws.end(), [&](const VisibleDraw& visible) {
-    return is_dull(scene.materials[visible.draw->material].constants);
-  });
+  const auto first_other = std::stable_partition(
+      draws.begin(), draws.end(), [&](const VisibleDraw& visible) { return is_dull(scene, *visible.draw); });
   const std::span<VisibleDraw> others(first_other, draws.end());
 
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
@@ -179,8 +178,7 @@ void GBufferPass::draw_depth(gpu::Recorder& recorder, const SceneResources& scen
   recorder.bind_for_draws(depth_first_->depth, {{shared::kBindFrame, gpu::uniform(frame)},
                                                 {shared::kBindVertices, gpu::read(scene.vertices)}});
   for (const VisibleDraw& visible : draws)
-    if (!is_cut(scene.materials[visible.draw->material].constants))
-      draw_one(recorder, depth_first_->depth, scene, visible);
+    if (!is_cut(*visible.draw)) draw_one(recorder, depth_first_->depth, scene, visible);
 }
 
 }  // namespace brume::passes

@@ -75,10 +75,11 @@ Geometry gather_geometry(const scene::Scene& scene) {
   return geometry;
 }
 
-Draw place(const Geometry& geometry, const scene::Object& object) {
+Draw place(const scene::Scene& scene, const Geometry& geometry, const scene::Object& object) {
   Draw draw = geometry.ranges[object.mesh];
   draw.material = object.material;
   draw.is_pane = scene::is_pane(object);
+  draw.alpha_cutoff = scene::cutoff_of(object, scene.materials[object.material]);
   draw.world_from_mesh = object.world_from_mesh;
   draw.centre_world = glm::vec3(object.world_from_mesh * glm::vec4(draw.centre_world, 1));
   float scale = 0;
@@ -141,7 +142,9 @@ MaterialImages device_material(const scene::Material& material) {
 shared::DrawConstants draw_constants(const Draw& draw, const shared::MaterialConstants& material,
                                      bool moves) {
   const glm::mat4 rows = glm::transpose(draw.world_from_mesh);
-  return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
+  shared::DrawConstants constants{rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
+  constants.material.alpha_cutoff = draw.alpha_cutoff;
+  return constants;
 }
 
 SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene) {
@@ -159,11 +162,11 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, c
   upload_images(context, stream, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-    out.draws.emplace_back(place(geometry, scene.objects[i])).object = i;
+    out.draws.emplace_back(place(scene, geometry, scene.objects[i])).object = i;
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
   out.has_panes = std::ranges::any_of(out.draws, &Draw::is_pane);
-  if (scene.grenade) out.grenade = place(geometry, *scene.grenade);
+  if (scene.grenade) out.grenade = place(scene, geometry, *scene.grenade);
   const Box<float> bounds = scene::world_bounds(scene);
   out.bounds_min = bounds.low;
   out.bounds_max = bounds.high;

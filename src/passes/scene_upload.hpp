@@ -22,7 +22,8 @@ struct Draw {
   glm::mat4 world_from_mesh{1};
   glm::vec3 centre_world{0};  ///< Bounding sphere.
   float radius = 0;
-  bool is_pane = false;  ///< Of PanePass: neither in the G-buffer nor in shadow maps.
+  float alpha_cutoff = 0;  ///< scene::cutoff_of.
+  bool is_pane = false;    ///< Of PanePass: neither in the G-buffer nor in shadow maps.
 };
 
 /// `moves`: over the level.

@@ -132,14 +132,13 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream,
       return scene.materials[draw.material];
     };
     const auto draw_one = [&](const gpu::GraphicsPipeline& pipeline, const Draw& draw) {
-      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh,
-                                         material_of(draw).constants.alpha_cutoff};
+      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh, draw.alpha_cutoff};
       recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
       recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
     };
     std::vector<const Draw*> cut;
     for (const Draw& draw : scene.draws)
-      if (material_of(draw).constants.alpha_cutoff > 0 && draws(draw)) cut.push_back(&draw);
+      if (draw.alpha_cutoff > 0 && draws(draw)) cut.push_back(&draw);
 
     recorder.prepare_for_draws({gpu::read(scene.vertices)});
     for (const Draw* const draw : cut)
@@ -148,7 +147,7 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream,
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
     recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
     for (const Draw& draw : scene.draws)
-      if (material_of(draw).constants.alpha_cutoff <= 0 && draws(draw)) draw_one(pipeline_, draw);
+      if (draw.alpha_cutoff <= 0 && draws(draw)) draw_one(pipeline_, draw);
     for (const Draw* const draw : cut) {
       recorder.bind_for_draws(
           cut_pipeline_,

@@ -110,7 +110,7 @@ void Surfaces::build(Tree& tree, bool of_panes) {
     const Part& part = *parts_[i];
     if (part.is_pane != of_panes) continue;
     tree.parts.push_back(i);
-    const bool cut_out = part.material->alpha_cutoff > 0 && !(part.is_pane && part.material->blended);
+    const bool cut_out = part.alpha_cutoff > 0;
     trace::TriangleMesh& mesh = meshes.emplace_back();
     mesh = {part.corners_world.front(),
             part.mesh->indices,
@@ -131,6 +131,7 @@ void Surfaces::add(const scene::Object& object, std::vector<glm::mat4> world_fro
   part->mesh = &scene_.meshes[object.mesh];
   part->material = object.material == scene::kNone ? &kPlain : &scene_.materials[object.material];
   part->is_pane = scene::is_pane(object);
+  part->alpha_cutoff = scene::cutoff_of(object, *part->material);
   // What rests while the shutter is open has one place.
   if (std::ranges::all_of(world_from_mesh,
                           [&](const glm::mat4& pose) { return pose == world_from_mesh.front(); }))
@@ -176,7 +177,7 @@ void Surfaces::reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
     float alpha = interpolated(*part.mesh, triangle, at, &scene::Vertex::color).a;
     if (const image::Image8* image = image_of(*part.scene, part.material->base_color_image))
       alpha *= image_at(*image, interpolated(*part.mesh, triangle, at, &scene::Vertex::uv), true).a;
-    if (alpha < part.material->alpha_cutoff) arguments->valid[i] = 0;
+    if (alpha < part.alpha_cutoff) arguments->valid[i] = 0;
   }
 }
 

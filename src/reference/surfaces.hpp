@@ -71,6 +71,7 @@ class Surfaces {
     const scene::Mesh* mesh = nullptr;
     const scene::Material* material = nullptr;
     bool is_pane = false;
+    float alpha_cutoff = 0;
     // At equal steps of the shutter's time; one of what rests.
     std::vector<glm::mat4> world_from_mesh;
     std::vector<std::vector<glm::vec3>> corners_world;

@@ -74,6 +74,13 @@ inline bool is_pane(const Object& object) {
   return object.role == Role::glass || (object.see_through && !stops_sight(object.role));
 }
 
+/// The alpha below which texels of an object are cut out; 0: none. Glass that its role makes a wall is drawn
+/// opaque, and of panes that blend nothing is cut out.
+inline float cutoff_of(const Object& object, const Material& material) {
+  const bool is_filled = object.see_through && stops_sight(object.role);
+  return is_filled || (is_pane(object) && material.blended) ? 0 : material.alpha_cutoff;
+}
+
 enum class LightKind : std::uint32_t { point, spot, directional };
 
 struct Light {

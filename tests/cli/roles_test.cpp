@@ -12,6 +12,7 @@
 
 #include "apps/cli/coverage.hpp"
 #include "image/png.hpp"
+#include "reference/surfaces.hpp"
 #include "scenario/world_triangles.hpp"
 #include "smoke/holes.hpp"
 #include "tests/cli/run_program.hpp"
@@ -303,8 +304,17 @@ struct Embedded {
 constexpr int kPairs = 1000;
 
 struct Counts {
-  int visible = 0, hidden = 0, either = 0, through = 0, smoky = 0;
+  int visible = 0, hidden = 0, either = 0, through = 0, smoky = 0, pictured = 0;
 };
+
+/// Whether the segment meets what is drawn opaque, but lets sight pass.
+bool meets_screen(const scene::Scene& scene, vec3 from, vec3 to) {
+  for (const scene::Object& object : scene.objects)
+    if (!stops_sight(object.role) && !scene::is_pane(object))
+      for (const voxel::Triangle& t : scenario::object_triangles(scene, object))
+        if (hit(dvec3(from), dvec3(to), {dvec3(t.a), dvec3(t.b), dvec3(t.c)})) return true;
+  return false;
+}
 
 /// Whether the segment meets glass or a grille, but no wall.
 bool is_through(const scene::Scene& scene, vec3 from, vec3 to) {
@@ -320,6 +330,9 @@ void compare_level(const WorkFolder& folder, unsigned seed, Counts& counts) {
       scenario::load_scenario(folder.path() / "level.toml", {}).value_or_throw();
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   const std::vector<Triangle3> walls = walls_of(scenario.scene);
+  // What pictures show: the G-buffer draws the same (GBufferPass).
+  const planning::LevelState all;
+  const reference::Surfaces drawn(scenario.scene, {&all, 1});
   Random random(1000 + seed);
   for (const double time : {0.0, 3.0}) {
     simulation->advance_to(time);
@@ -351,6 +364,11 @@ void compare_level(const WorkFolder& folder, unsigned seed, Counts& counts) {
       counts.hidden += truth == Truth::hidden;
       counts.either += truth == Truth::either;
       counts.through += visible && is_through(scenario.scene, a, b);
+      if (truth != Truth::either && !meets_screen(scenario.scene, a, b)) {
+        const float distance = glm::distance(a, b);
+        ASSERT_EQ(!drawn.occluded({a, (b - a) / distance, distance}), visible) << "the picture, pair " << i;
+        ++counts.pictured;
+      }
       if (truth != Truth::either) {
         ASSERT_EQ(visible, truth == Truth::visible)
             << "triangles, pair " << i << ": " << a.x << "," << a.y << "," << a.z << " to " << b.x << ","
@@ -370,11 +388,13 @@ TEST(Roles, AllAgreeOnFortyLevels) {
     if (testing::Test::HasFatalFailure()) return;
   }
   // Each kind of answer was among them.
-  for (const int count : {counts.visible, counts.hidden, counts.through, counts.smoky}) EXPECT_GT(count, 100);
+  for (const int count : {counts.visible, counts.hidden, counts.through, counts.smoky, counts.pictured})
+    EXPECT_GT(count, 100);
   RecordProperty("either", counts.either);
   std::printf(
-      "must be visible %d, hidden %d, either %d; visible through glass or grilles %d; hidden by smoke %d\n",
-      counts.visible, counts.hidden, counts.either, counts.through, counts.smoky);
+      "must be visible %d, hidden %d, either %d; visible through glass or grilles %d; hidden by smoke %d; "
+      "as drawn %d\n",
+      counts.visible, counts.hidden, counts.either, counts.through, counts.smoky, counts.pictured);
 }
 
 // ---- The program ----

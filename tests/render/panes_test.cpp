@@ -116,6 +116,20 @@ TEST_F(PanesTest, LetThroughByTheirAlpha) {
   EXPECT_NEAR(seen.a, 0.75 * (1 - kStraight), 0.002) << "what passes";
 }
 
+// What stops sight hides what is behind, though its material lets light through.
+TEST_F(PanesTest, AreWallsByTheRoleOfWalls) {
+  Hall hall;
+  hall.pane.blended = true;
+  hall.pane.transmission = 0;
+  hall.pane.opacity = 0.25f;
+  hall.pane.alpha_cutoff = 2;  // of a factor of 1/4
+  auto scenario = scenario_of_hall(hall);
+  scenario.scene.objects[1].see_through = true;
+  EXPECT_GT(middle(picture(scenario)).g, 0.7f);
+  scenario.scene.objects[1].role = Role::wall;
+  EXPECT_EQ(middle(picture(scenario)).g, 0);
+}
+
 // A light behind a pane lights a wall before it as if there were none.
 TEST_F(PanesTest, CastNoShadow) {
   Hall hall;
