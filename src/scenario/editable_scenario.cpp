@@ -130,8 +130,8 @@ bool EditableScenario::changes_are_last(const scene::Timeline& actions) const {
 
 Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
   // Check the events first, because applying level changes is expensive to undo.
-  const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke,
-                               scenario_.shot_masks};
+  const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke, scenario_.shot_masks,
+                               scenario_};
   BodyNumbers bodies = bodies_;
   auto events = ordered_events(actions, {}, bodies, settings);
   if (!events) return events.failure();
@@ -176,8 +176,8 @@ Result<void> EditableScenario::replay(scene::Timeline timeline, const Unchanged&
 
   // Events.
   BodyNumbers bodies;
-  auto events =
-      ordered_events(timeline, changes, bodies, {scenario_.voxels.grid.layout(), timeline.smoke, shot_masks});
+  auto events = ordered_events(timeline, changes, bodies,
+                               {scenario_.voxels.grid.layout(), timeline.smoke, shot_masks, scenario_});
   if (!events) return events.failure();
   if (auto done = simulation_->replace(std::move(*events), std::move(changes), key); !done) return done;
 

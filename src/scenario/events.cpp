@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "scenario/smoke_start.hpp"
 #include "smoke/holes.hpp"
 
 namespace brume::scenario {
@@ -166,10 +167,13 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
 
   // Smokes, shots and texts.
   const sim::SmokeSettings smoke = smoke_settings(settings.smoke, rate);
-  for (const scene::SmokeEvent& event : timeline.smokes)
+  for (const scene::SmokeEvent& event : timeline.smokes) {
+    const bool is_placed = event.from_world == event.at_world;
+    const glm::vec3 at = is_placed ? smoke_start(settings.level, event.at_world) : event.at_world;
+    const glm::vec3 from = is_placed ? at : event.from_world;
     events.add(EventKind::smoke, event.time,
-               sim::ThrowSmoke{tick(event), position(event.from_world), position(event.at_world), smoke},
-               event.place);
+               sim::ThrowSmoke{tick(event), position(from), position(at), smoke}, event.place);
+  }
   for (const scene::ShotEvent& event : timeline.shots)
     events.add(EventKind::shot, event.time, shot_of(event, tick(event), settings.masks), event.place);
   for (const scene::TextEvent& event : timeline.texts)
@@ -189,9 +193,9 @@ Result<std::vector<sim::Event>> events_of(const Scenario& scenario, std::uint32_
   const auto changes = level_events(scenario);
   if (!changes) return changes.failure();
   BodyNumbers bodies;
-  auto events = ordered_events(
-      scenario.timeline, *changes, bodies,
-      {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, ticks_per_second});
+  auto events = ordered_events(scenario.timeline, *changes, bodies,
+                               {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks,
+                                scenario, ticks_per_second});
   if (!events) return events.failure();
   return without_order(std::move(*events));
 }

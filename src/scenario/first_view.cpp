@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/log.hpp"
+#include "scenario/first_smoke.hpp"
 #include "scene/daylight.hpp"
-#include "scene/ray.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -188,20 +188,16 @@ void size_smoke(scene::Timeline& timeline, float diameter, const Box<float>& bou
   timeline.smoke.albedo = glm::vec3(0.99f);
 }
 
-/// What is in the middle of the view.
-glm::vec3 middle_of_view(const scene::Scene& scene, const scene::Camera& camera) {
-  return scene::first_hit(scene, camera.position_world, camera.target_world - camera.position_world)
-      .value_or(camera.target_world);
-}
-
-/// The floor before a surface in the middle of the view, half in it.
-glm::vec3 floor_before(const scene::Scene& scene, const scene::Camera& camera, glm::vec3 surface,
-                       float diameter) {
-  const glm::vec3 along = surface - camera.position_world;
-  const float distance = glm::length(along);
-  const glm::vec3 before = surface - along / distance * std::min(0.35f * diameter, 0.5f * distance);
-  const auto floor = scene::first_hit(scene, before, {0, -1, 0});
-  return floor ? *floor + glm::vec3(0, 0.04f * diameter, 0) : before;
+/// The default camera for a scene and its smokes of this diameter [m].
+scene::Camera camera_with_smoke(scene::Scene& scene, const std::vector<scene::SmokeEvent>& smokes,
+                                float diameter, float aspect) {
+  const std::size_t spheres = scene.spheres.size();
+  for (const scene::SmokeEvent& smoke : smokes)
+    scene.spheres.push_back(
+        {smoke.at_world + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
+  const scene::Camera camera = scene::default_camera(scene, aspect);
+  scene.spheres.resize(spheres);
+  return camera;
 }
 
 }  // namespace
@@ -280,24 +276,20 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   timeline.tone = options.tone.value_or(timeline.tone);
 
   // Its smoke.
-  const scene::Camera eye = options.camera.value_or(camera);
-  const glm::vec3 surface = middle_of_view(scene, eye);
-  const float diameter = smoke_size(eye, surface, options);
-  size_smoke(timeline, diameter, bounds, options);
+  const bool is_fitted = !scene.camera && !options.camera;
   timeline.smokes = options.smokes;
+  if (is_fitted) camera = camera_with_smoke(scene, timeline.smokes, 0, options.aspect);
+  const SmokeView view{options.camera.value_or(camera), options.aspect, !is_fitted};
+  const float diameter = smoke_size(view.camera, subject_point(scene, view.camera), options);
+  Box<float> extent = bounds;
+  for (const scene::SmokeEvent& smoke : timeline.smokes)
+    extent = united(extent, {smoke.at_world, smoke.at_world});
+  size_smoke(timeline, diameter, extent, options);
   if (timeline.smokes.empty() && options.has_smoke) {
-    const glm::vec3 place = floor_before(scene, eye, surface, diameter);
+    const glm::vec3 place = choose_smoke_place(scene, view, diameter);
     timeline.smokes.push_back({0, place, place});
   }
-  if (!scene.camera && !options.camera) {
-    // The smoke belongs into the image, too.
-    const std::size_t spheres = scene.spheres.size();
-    for (const scene::SmokeEvent& smoke : timeline.smokes)
-      scene.spheres.push_back(
-          {smoke.at_world + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
-    camera = scene::default_camera(scene, options.aspect);
-    scene.spheres.resize(spheres);
-  }
+  if (is_fitted) camera = camera_with_smoke(scene, timeline.smokes, diameter, options.aspect);
   scene.camera = camera;
   return timeline;
 }

@@ -57,7 +57,8 @@ void apply_level_options(const scene::Timeline& timeline, scene::Scene& scene);
 /// - ground: below a scene without a camera, to the horizon (Object::backdrop);
 /// - light: a sun and a day sky where the scene has no light, a dusk sky where it has no sun but other
 /// lights;
-/// - smoke: on the floor in the middle of the view, about a fifth of the image's width, dense and bright.
+/// - smoke: on the floor before what is in the middle of the view (first_smoke.hpp), about a fifth of the
+/// image's width, dense and bright.
 ///
 /// `path` is the scene's file.
 scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Scene& scene,

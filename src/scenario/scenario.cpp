@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "image/font.hpp"
+#include "scenario/first_smoke.hpp"
 #include "scenario/moved_objects.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scenario/volume_view.hpp"
@@ -79,6 +81,35 @@ void warn_of_heat(const std::filesystem::path& file, const VolumeFrame& first) {
     log_warning(file.string() + ": " + first.heat_note);
 }
 
+/// Whether the simulation accepts it.
+bool is_near_origin(const voxel::GridLayout& layout) {
+  const glm::vec3 high = layout.origin_world + glm::vec3(layout.size) * layout.voxel_size;
+  const glm::vec3 most = glm::max(glm::abs(layout.origin_world), glm::abs(high));
+  return std::max({most.x, most.y, most.z}) < static_cast<float>(scene::kFarthestEvent);
+}
+
+bool covers(const voxel::GridLayout& layout, glm::vec3 at_world) {
+  const glm::vec3 high = layout.origin_world + glm::vec3(layout.size) * layout.voxel_size;
+  return glm::all(glm::greaterThanEqual(at_world, layout.origin_world)) &&
+         glm::all(glm::lessThanEqual(at_world, high));
+}
+
+/// Moves smoke whose place was chosen out of what is solid, and warns where it is not seen for all that.
+void free_smokes(Scenario& scenario, const std::filesystem::path& file, const FirstViewOptions& options) {
+  const scene::SmokeOptions& smoke_options = scenario.timeline.smoke;
+  const SmokeView view{options.camera.value_or(scenario.camera), options.aspect, true};
+  const float diameter =
+      2 * std::cbrt(static_cast<float>(smoke_options.voxels) * 0.75f / std::numbers::pi_v<float>) *
+      scenario.timeline.grid.voxel;
+  for (scene::SmokeEvent& smoke : scenario.timeline.smokes) {
+    smoke.from_world = smoke.at_world =
+        nearest_free_place(scenario.voxels.grid, smoke.at_world, smoke_options.voxels / 2)
+            .value_or(smoke.at_world);
+    if (!is_smoke_seen(scenario.scene, view, smoke.at_world, diameter))
+      log_warning(file.string() + ": the smoke is hidden or out of the picture; choose a place with --smoke");
+  }
+}
+
 Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewOptions& options) {
   scene::VolumeOptions chosen{file};
   chosen.density = options.density;
@@ -120,18 +151,16 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
     if (bounds.empty()) bounds = {middle - kVoxels * grid.voxel, middle + kVoxels * grid.voxel};
     layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
   }
-  // It reaches to where smoke goes off beside the scene, but not far away.
-  if (layout) {
-    const Box<float> covered{layout->origin_world,
-                             layout->origin_world + glm::vec3(layout->size) * layout->voxel_size};
-    for (const scene::SmokeEvent& smoke : timeline.smokes)
-      if (glm::any(glm::lessThan(smoke.at_world, covered.low)) ||
-          glm::any(glm::greaterThan(smoke.at_world, covered.high)))
-        bounds = united(bounds, {smoke.at_world, smoke.at_world});
-    const glm::ivec3 most = 2 * layout->size + 128;
-    const auto larger = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
-    if (larger && glm::all(glm::lessThanEqual(larger->size, most))) layout = larger;
-  }
+  // It reaches to where smoke goes off beside the scene, as far as a grid can.
+  if (layout)
+    for (const scene::SmokeEvent& smoke : timeline.smokes) {
+      if (covers(*layout, smoke.at_world)) continue;
+      const Box<float> wider = united(bounds, {smoke.at_world, smoke.at_world});
+      const auto larger = voxel::layout_around(wider.low, wider.high, grid.voxel, margin);
+      if (!larger || !is_near_origin(*larger)) continue;
+      layout = larger;
+      bounds = wider;
+    }
   if (!layout && !(grid.size && grid.origin_world)) return layout;
   voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
   if (grid.size) chosen.size = *grid.size;
@@ -162,11 +191,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
   if (!scenario) return scenario;
   scenario->camera_is_fitted = is_fitted;
   scenario->measure_exposure = !options.exposure;
-  if (options.smokes.empty())
-    for (scene::SmokeEvent& smoke : scenario->timeline.smokes)
-      smoke.from_world = smoke.at_world =
-          nearest_free_place(scenario->voxels.grid, smoke.at_world, scenario->timeline.smoke.voxels / 2)
-              .value_or(smoke.at_world);
+  if (options.smokes.empty()) free_smokes(*scenario, input, options);
   return scenario;
 }
 

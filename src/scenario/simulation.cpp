@@ -26,8 +26,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(const Scenario& scenario)
   auto changes = scenario::level_events(scenario);
   if (!changes) return changes.failure();
   BodyNumbers bodies;
-  auto events = ordered_events(scenario.timeline, *changes, bodies,
-                               {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks});
+  auto events =
+      ordered_events(scenario.timeline, *changes, bodies,
+                     {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, scenario});
   if (!events) return events.failure();
   std::unique_ptr<Simulation> simulation(new Simulation(scenario, std::move(*changes)));
   if (auto done = simulation->add(std::move(*events), {}); !done) return done.failure();

@@ -18,7 +18,7 @@ namespace brume::scene {
 
 // Units, ranges and meanings of all settings: scene/options.hpp.
 
-/// Placement of the voxel grid. Without size and origin the grid covers the scene's bounds.
+/// Placement of the voxel grid. Without size and origin the grid covers the scene's bounds and its smokes.
 struct GridOptions {
   float voxel = 0.25f;
   std::optional<glm::ivec3> size;

@@ -190,6 +190,31 @@ TEST_F(Render, SceneWithoutATimeline) {
 }
 
 // The film has no name while it is written: a program called ffmpeg says that the real one starts.
+// Smoke far beside a small room is in its grid; a throw ends there, too.
+TEST_F(Render, SmokeIsWhereItIsRequested) {
+  for (const Arguments& smoke : {Arguments{"--smoke", "-30,0.3,-3"},
+                                 {"--throw", "-20,2,-3 -30,0.3,-3"},
+                                 {"--smoke", "-30,0.3,-3", "--voxel", "0.1"}}) {
+    Arguments arguments{"render", "room.obj", "-o", "far.png", "--size", "64x36", "--json", "-"};
+    arguments.insert(arguments.end(), smoke.begin(), smoke.end());
+    const Outcome run = run_brume(folder_.path(), arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(run.error, "");
+    EXPECT_EQ(nlohmann::json::parse(run.out)["smokes"][0]["fault"], "none") << run.out;
+  }
+}
+
+TEST_F(Render, WithoutSmoke) {
+  for (const char* input : {"room.obj", "room.toml"}) {
+    const Outcome run = run_brume(folder_.path(), {"render", input, "-o", "none.png", "--size", "64x36",
+                                                   "--smoke", "none", "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(run.error, "");
+    EXPECT_EQ(nlohmann::json::parse(run.out)["smokes"].size(), 0u) << run.out;
+  }
+  EXPECT_EQ(render({"-o", "no.png", "--smoke", "none", "--smoke", "0,1,0"}).exit_code, 2);
+}
+
 TEST_F(Render, LeavesNothingWhenAFilmIsInterrupted) {
   const char* path = std::getenv("PATH");
   std::filesystem::create_directory(folder_.path() / "bin");

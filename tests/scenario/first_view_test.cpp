@@ -135,6 +135,36 @@ TEST_F(FirstViewTest, SmokeIsBeforeTheCameraThatIsGiven) {
   }
 }
 
+// The grid and the fitted camera reach to smoke anywhere, and to where a grenade goes off.
+TEST_F(FirstViewTest, SmokeAnywhereIsInTheGridAndInThePicture) {
+  for (const float far : {-1.0f, 3.0f, -30.0f, 900.0f, -10000.0f})
+    for (const bool thrown : {false, true}) {
+      const glm::vec3 at(far, 0.9f, -3), from = thrown ? at + glm::vec3(0, 2, 2) : at;
+      FirstViewOptions options;
+      options.smokes = {{0, from, at}};
+      const Scenario scenario = load_scenario(box(4), {}, options).value_or_throw();
+      const SmokeReport report = Simulation::create(scenario).value_or_throw()->report_smokes(scenario).at(0);
+      EXPECT_EQ(report.fault, SmokeFault::none) << warning_of(report, 1, scenario);
+      const glm::vec3 eye = scenario.camera.position_world;
+      const glm::vec3 off = glm::normalize(report.at_world - eye);
+      const glm::vec3 forward = glm::normalize(scenario.camera.target_world - eye);
+      const float half = std::tan(scenario.camera.vertical_fov / 2);
+      EXPECT_GT(glm::dot(off, forward), 1 / std::hypot(1.0f, half, half * options.aspect)) << far;
+    }
+}
+
+TEST_F(FirstViewTest, SmokeOutOfReachLeavesTheOthersInTheGrid) {
+  scene::Timeline timeline;
+  timeline.scene = box(6);
+  for (const float x : {-9.0f, 2000.0f, 40.0f}) timeline.smokes.push_back({0, {x, 1, 2}, {x, 1, 2}});
+  const Scenario scenario = make_scenario(timeline, {}).value_or_throw();
+  const auto reports = Simulation::create(scenario).value_or_throw()->report_smokes(scenario);
+  ASSERT_EQ(reports.size(), 3u);
+  EXPECT_EQ(reports[0].fault, SmokeFault::none);
+  EXPECT_EQ(reports[1].fault, SmokeFault::outside_grid);
+  EXPECT_EQ(reports[2].fault, SmokeFault::none);
+}
+
 TEST_F(FirstViewTest, ASavedTimelineGivesTheSameLevel) {
   for (const float size : {0.05f, 4.0f, 20000.0f}) {
     const auto path = box(size, 20 * size);
@@ -204,9 +234,18 @@ TEST_F(FirstViewTest, TheSkyIsAsBrightAsTheLightsAskFor) {
 /// A closed room of 6 m with walls, in voxels of 0.25 m, and open air around it.
 class SmokeReportTest : public FirstViewTest {
  protected:
+  /// The room with a shelf that is solid all through: sheets from 2 to 3 m above the origin, 0.1 m apart.
+  SmokeReportTest() {
+    std::ofstream out(box(6), std::ios::app);
+    for (int sheet = 0; sheet <= 10; ++sheet) {
+      for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(0, 4), glm::vec2(1, 4), glm::vec2(1, 0)})
+        out << "v " << corner.x << ' ' << 2 + 0.1 * sheet << ' ' << corner.y << '\n';
+      out << "f -4 -3 -2 -1\n";
+    }
+  }
   Scenario scenario(glm::vec3 from, glm::vec3 at, double time = 0) const {
     scene::Timeline timeline;
-    timeline.scene = box(6);
+    timeline.scene = folder_ / "box.obj";
     timeline.smoke.voxels = 2000;
     timeline.smokes = {{time, from, at}};
     return make_scenario(timeline, {}).value_or_throw();
@@ -224,12 +263,12 @@ TEST_F(SmokeReportTest, TheGridReachesToSmokeBesideTheScene) {
 }
 
 TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
-  const glm::vec3 inside{3, 2, 2}, wall{0, 2.5f, 2}, far{900, 1, 0};
+  const glm::vec3 inside{3, 2, 2}, shelf{0.5f, 2.5f, 2}, far{2000, 1, 0};
   const Scenario good = scenario(inside, inside);
   EXPECT_EQ(report(good).fault, SmokeFault::none);
   EXPECT_EQ(report(good).voxels, 2000u);
   EXPECT_EQ(warning_of(report(good), 1, good), "");
-  for (const auto& [at, fault, words] : {std::tuple(wall, SmokeFault::in_solid, "lies in something solid"),
+  for (const auto& [at, fault, words] : {std::tuple(shelf, SmokeFault::in_solid, "lies in something solid"),
                                          std::tuple(far, SmokeFault::outside_grid, "is outside the grid")}) {
     const Scenario bad = scenario(at, at);
     const SmokeReport found = report(bad);
@@ -239,6 +278,27 @@ TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
     const Scenario mended = scenario(*found.works_at, *found.works_at);
     EXPECT_EQ(report(mended).fault, SmokeFault::none);
   }
+}
+
+// 10 cm from a surface in voxels of 25 cm: smoke begins on its side of it, in the next voxel.
+TEST_F(SmokeReportTest, SmokeBesideASurfaceIsNotInIt) {
+  const Box<float> room{{0, 1.2f, 0}, {6, 4.2f, 4.2f}};  // box(6)
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool is_high : {false, true})
+      for (const float off : {0.0f, 0.01f, 0.1f, 0.24f})
+        for (const bool is_inside : {false, true}) {
+          glm::vec3 at(3.5f, 3.5f, 2.1f);
+          const float sign = is_high == is_inside ? -1.0f : 1.0f;
+          at[axis] = (is_high ? room.high : room.low)[axis] + sign * off;
+          const Scenario placed = scenario(at, at);
+          const SmokeReport found = report(placed);
+          EXPECT_EQ(found.fault, SmokeFault::none) << warning_of(found, 1, placed);
+          // At most the diagonal of two voxels away, and on the same side.
+          EXPECT_LE(glm::distance(found.at_world, at), 0.5f * std::sqrt(3.0f));
+          if (off > 0) {
+            EXPECT_EQ(room.contains(found.at_world), is_inside) << axis << ' ' << is_high << ' ' << off;
+          }
+        }
 }
 
 // A thin floor with a block on it: the nearest free voxels of a place in the floor are below it.
