@@ -204,6 +204,25 @@ TEST_F(Render, SmokeIsWhereItIsRequested) {
   }
 }
 
+// The default ground, in the lower corners, is at most 60 % of white (153) and no darker than a third.
+TEST_F(Render, TheGroundIsAsBrightBehindAnySubject) {
+  for (const char* color : {"0.005", "0.2", "0.9"}) {
+    folder_.write("car.mtl", std::string("newmtl m\nKd ") + color + ' ' + color + ' ' + color + '\n');
+    std::string box = "mtllib car.mtl\nusemtl m\n";
+    for (int i = 0; i < 8; ++i)
+      box += "v " + std::to_string(4 * (i & 1)) + ' ' + std::to_string(1.4 * (i >> 1 & 1)) + ' ' +
+             std::to_string(1.8 * (i >> 2)) + '\n';
+    folder_.write("car.obj", box + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+    const Outcome run = run_brume(folder_.path(), {"render", "car.obj", "-o", "car.png", "--size", "64x36"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const image::Image8 picture = png("car.png");
+    for (const std::size_t corner : {std::size_t{64 * 35}, std::size_t{64 * 36 - 1}}) {
+      EXPECT_LE(picture.rgba[4 * corner + 1], 153) << color;
+      EXPECT_GE(picture.rgba[4 * corner + 1], 85) << color;
+    }
+  }
+}
+
 TEST_F(Render, WithoutSmoke) {
   for (const char* input : {"room.obj", "room.toml"}) {
     const Outcome run = run_brume(folder_.path(), {"render", input, "-o", "none.png", "--size", "64x36",

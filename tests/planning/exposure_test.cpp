@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "shared/tone.h"
+
 namespace brume::planning {
 namespace {
 
@@ -27,10 +29,24 @@ TEST(Exposure, BringsAnEvenPictureToTheMiddle) {
   EXPECT_NEAR(exposure_of(picture(2, 2, 1)), 0.14f, 1e-6f);
 }
 
-// A black car before a grey ground: the ground is not burnt.
+// Windows of a dark room.
 TEST(Exposure, HoldsTheBrightQuarter) {
   for (const float black : {0.0f, 1e-9f, 1e-3f})
     EXPECT_NEAR(exposure_of(picture(black, 0.5f, 0.3)), 1.3f, 1e-4f);
+}
+
+// A black, grey or white car before a grey ground, which is at most 60 % of white.
+TEST(Exposure, LeavesTheGroundGreyBehindAnySubject) {
+  constexpr float kGround = 0.33f;
+  for (const float car : {0.0f, 1e-3f, 0.05f, 0.2f, 0.9f})
+    for (const double share : {0.05, 0.3, 0.6}) {
+      const float exposure = car < kGround ? exposure_of(picture(car, kGround, 1 - share))
+                                           : exposure_of(picture(kGround, car, share));
+      const glm::vec3 shown =
+          shared::srgb_from_linear(shared::tone_curve(shared::kToneNeutral, glm::vec3(exposure * kGround)));
+      EXPECT_LE(shown.x, 0.6f) << car << ' ' << share;
+      EXPECT_GE(shown.x, 0.25f) << car << ' ' << share;
+    }
 }
 
 // A light that covers little burns: the rest is what is looked at.
