@@ -1,19 +1,22 @@
 """Events: frames and markers, sizes and paths in the 3D view, checks, presets, import."""
 
+import json
 import os
+import subprocess
 import tomllib
 
+import addon_case
 import bpy
 import level_parts
 from addon_case import AddonCase, box
-from brume_blender import checks, gizmos, markers, presets
+from brume_blender import checks, gizmos, markers, messages, presets
 from mathutils import Vector
 
 
 class Frames(AddonCase):
     def test_new_events_are_at_the_current_frame_and_named(self):
         self.scene.frame_set(30)
-        for kind, name in (("SMOKE", "Brume smoke"), ("SHOT", "Brume shot"), ("TEXT", "Brume word")):
+        for kind, name in (("SMOKE", "Brume smoke"), ("SHOT", "Brume shot"), ("WORD", "Brume word")):
             bpy.ops.brume.add_event(type=kind)
             self.assertEqual((bpy.context.object.name, bpy.context.object.brume_event.frame), (name, 30))
 
@@ -53,12 +56,12 @@ class Markers(AddonCase):
 
     def test_markers_follow_events(self):
         self.scene.timeline_markers.new("mine", frame=3)
-        event = self.event("TEXT", frame=12, text="HI")
+        event = self.event("WORD", frame=12, text="HI")
         markers.synchronize(self.scene)
-        self.assertEqual(self.frames(), {"mine": 3, 'Brume: TEXT "HI"': 12})
+        self.assertEqual(self.frames(), {"mine": 3, 'Brume: WORD "HI"': 12})
         event.brume_event.frame = 20
         bpy.context.view_layer.update()
-        self.assertEqual(self.frames()['Brume: TEXT "HI"'], 20)
+        self.assertEqual(self.frames()['Brume: WORD "HI"'], 20)
         bpy.data.objects.remove(event)
         markers.synchronize(self.scene)
         self.assertEqual(self.frames(), {"mine": 3})
@@ -106,7 +109,7 @@ class Gizmos(AddonCase):
         shot = self.event("SHOT", aim=target, shape="BOX", radius=0.4)
         points = gizmos._section(shot.brume_event, Vector((0, 0, 0)), along, 1.0)
         self.assertAlmostEqual(max(point.z for point in points), 0.4, 6)
-        word = self.event("TEXT", aim=target, text="HI", size=0.7)
+        word = self.event("WORD", aim=target, text="HI", size=0.7)
         points = gizmos._section(word.brume_event, Vector((0, 0, 0)), along, 1.0)
         self.assertAlmostEqual(max(point.z for point in points), 0.35, 6)
         self.assertAlmostEqual(max(point.y for point in points), 0.735, 6)
@@ -135,9 +138,52 @@ class Checks(AddonCase):
         self.event("SMOKE", (0, 0, 0))
         self.assertEqual(self.checked(), [])
 
+    def test_a_grenade_beside_a_surface_is_not_in_it(self):
+        # Voxels of 25 cm: both surfaces of the floor are in the voxels around 0.
+        box("wall", (2, -3, 0), (2.2, 3, 3))
+        for place in ((0, 0, 0.1), (0, 0, 0.24), (1.9, 0, 1), (2.3, 0, 1), (1.95, 0, 0.05), (0, 0, -0.3)):
+            event = self.event("SMOKE", place)
+            self.assertEqual(self.checked(), [], place)
+            bpy.data.objects.remove(event)
+
+    def test_a_grenade_inside_the_floor(self):
+        self.event("SMOKE", (0, 0, -0.1))
+        self.assertEqual(self.checked(), ['"SMOKE" is inside "floor": move it out'])
+
+    def test_a_grenade_between_sheets(self):
+        for number in range(10):
+            box(f"sheet{number}", (1, -3, 0.05 + number / 10), (3, 3, 0.06 + number / 10))
+        self.event("SMOKE", (2, 0, 0.53))
+        self.assertEqual(self.checked(), ['"SMOKE" lies in something solid: move it out'])
+
+    def test_a_grenade_in_a_room_of_one_mesh(self):
+        box("room", (-20, -20, -0.5), (20, 20, 8))
+        self.event("SMOKE", (3, 0, 2))
+        self.assertEqual(self.checked(), [])
+
+    def test_brume_applies_the_same_test(self):
+        box("crate", (3, -1, 0), (5, 1, 2))
+        box("room", (-20, -20, -0.5), (20, 20, 8))
+        for number in range(10):
+            box(f"sheet{number}", (-3, -3, 0.05 + number / 10), (-1, 3, 0.06 + number / 10))
+        places = [(0, 0, 0.1), (2.95, 0, 0.5), (4, 0, 1), (-2, 0, 0.53), (0, 0, -0.1), (8, 8, 4), (40, 0, 1)]
+        places += [(0, 0, 900), (0, 0, 1900)]
+        events = [self.event("SMOKE", place) for place in places]
+        self.checked()
+        found = {message.thing for message in messages.last() if message.kind == "WARNING"}
+        self.export("same.glb")
+        path = os.path.join(self.folder, "same.toml")
+        out = subprocess.check_output([addon_case.BRUME, "info", path, "--json", "-"], stderr=subprocess.DEVNULL)
+        smokes = json.loads(out)["smokes"]
+        self.assertEqual(len(smokes), len(places))
+        for event, smoke in zip(sorted(events, key=lambda event: event.name), smokes):
+            self.assertEqual(event.name in found, smoke["fault"] != "none", (event.location, smoke))
+
     def test_a_grenade_outside_the_level(self):
         self.event("SMOKE", (0, 0, 500))
-        self.assertEqual(self.checked(), ['"SMOKE" is 500.0 m outside the level: no smoke there'])
+        self.assertEqual(self.checked(), [])
+        self.event("SMOKE", (0, 0, 1500))
+        self.assertEqual(self.checked(), ['"SMOKE.001" is 1500.0 m outside the level: no smoke there'])
 
     def test_a_throw_that_hits_a_wall(self):
         box("wall", (1, -3, 0), (1.2, 3, 3))
@@ -215,9 +261,7 @@ class Messages(AddonCase):
         self.assertEqual(text, 'Error: the shape of "SHOT" is Mask, but it names no image; choose one')
 
     def test_every_message_of_an_event_is_at_its_event(self):
-        from brume_blender import messages
-
-        self.event("SMOKE", (0, 0, 500))
+        self.event("SMOKE", (0, 0, 1500))
         bpy.ops.brume.check()
         self.assertEqual({message.thing for message in messages.last()}, {"SMOKE"})
 
@@ -251,7 +295,7 @@ class ImportTimeline(AddonCase):
         self.event("SMOKE", (1, 2, 0.3), 3, thrown_from=hand)
         self.event("SMOKE", (2, 2, 0.3), 5)
         self.event("SHOT", (-3, 1, 1), 30, aim=hand, shape="MASK", mask=star, roll=0.5, radius=0.4, stay=2)
-        self.event("TEXT", (-3, 2, 1), 31, text='a "b"', size=0.8, interval=0.1, spacing=0.25)
+        self.event("WORD", (-3, 2, 1), 31, text='a "b"', size=0.8, interval=0.1, spacing=0.25)
         self.event("BLAST", (1, 1, 1), 40, blast_radius=3, remaining=0.5, blast_flash=7)
         self.event("DOOR", (4, 0, 1), 45, door=door, open=False)
         self.scene.brume.smoke_voxels, self.scene.brume.voxel = 700, 0.5

@@ -303,7 +303,7 @@ def build_events(folder):
 
     grenade = event("Grenade at the steps", "SMOKE", 0.25, (0.2, 0.7, 0.2))
     grenade.thrown_from = bpy.data.objects["camera"]
-    word = event("word", "TEXT", 3.1, (0.33, -5.5, 1.7))
+    word = event("word", "WORD", 3.1, (0.33, -5.5, 1.7))
     word.text, word.size, word.stay = "HI", 0.7, 2.0
     word.aim = event("aim", "NONE", 0, (-0.3, 0.6, 1.15)).id_data
     shot = event("shot", "SHOT", 3.2, (2.5, -3.5, 1.2), (math.radians(90), 0, math.radians(200)))

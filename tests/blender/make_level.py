@@ -132,7 +132,7 @@ def make_ranges(folder):
     for setting in ("least", "usual", "most"):
         empty_scene()
         level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
-        for number, kind in enumerate(("SMOKE", "SHOT", "TEXT", "BLAST")):
+        for number, kind in enumerate(("SMOKE", "SHOT", "WORD", "BLAST")):
             empty_with(kind, number, setting).text = LETTERS
         if setting != "usual":
             set_all(bpy.context.scene.brume, setting)

@@ -10,6 +10,7 @@ from . import conversion, timeline
 _SMALLEST_LEVEL = 1.0  # [m]
 _GRENADE_SPEED = 20.0  # [m/s], docs/timeline.md.
 _RANGE = 4096.0  # [m]
+_LARGEST_GRID = 4096  # Voxels along an axis.
 
 # What the last check found: name of an event: (its matrix, its end point), in Blender's axes and units.
 ends = {}
@@ -65,6 +66,7 @@ class _EventCheck:
         self._scene, self._level, self._clock, self._warnings = scene, level, clock, warnings
         self._options, self._solids = scene.brume, solids
         self._open_doors, self._smokes = set(), []
+        self._low, self._high = solids.low, solids.high  # What the grid covers, without its margin.
 
     def run(self):
         ends.clear()
@@ -96,15 +98,32 @@ class _EventCheck:
         options = self._options
         return options.voxel * (2 + math.floor((options.smoke_voxels * 0.75 / math.pi) ** (1 / 3) * 1.2))
 
+    def _cover(self, point):
+        """Extends the grid to a smoke, as src/scenario/scenario.cpp does; whether a grid can be as large as that."""
+        voxel = self._options.voxel
+        low, high = np.minimum(self._low, point), np.maximum(self._high, point)
+        across = np.ceil(high / voxel) - np.floor(low / voxel) + 2 * self._margin() / voxel
+        if across.max() > _LARGEST_GRID:
+            return False
+        self._low, self._high = low, high
+        return True
+
     def _is_placed_well(self, thing, point):
         outside = self._solids.distance_outside(np.array(point))
-        if outside > self._margin():
+        is_smoke = thing.brume_event.type == "SMOKE"
+        if outside > self._margin() and not (is_smoke and self._cover(np.array(point))):
             self._warnings.add(f'"{thing.name}" is {_metres(outside)} outside the level: no smoke there', thing.name)
             return False
-        around = self._solids.around(point, self._open_doors)
-        if around:
-            self._warnings.add(f'"{thing.name}" is inside "{around}": move it out', thing.name)
-        return not around
+        # The smoke of a closed mesh with room for half of it is in that room.
+        voxel, around = self._options.voxel, self._solids.around(point, self._open_doors)
+        if around and around[1] < self._options.smoke_voxels / 2 * voxel**3:
+            self._warnings.add(f'"{thing.name}" is inside "{around[0]}": move it out', thing.name)
+            return False
+        if self._solids.is_free(point, voxel, self._open_doors):
+            return True
+        what = f'is inside "{around[0]}"' if around else "lies in something solid"
+        self._warnings.add(f'"{thing.name}" {what}: move it out', thing.name)
+        return False
 
     def _check_smoke(self, thing, time):
         event, at = thing.brume_event, self._point(thing, time)
@@ -160,7 +179,7 @@ class _EventCheck:
         else:
             self._warnings.note(f'"{thing.name}" {end}', thing.name)
 
-    _check_text = _check_shot
+    _check_word = _check_shot
 
     def _reach(self, start):
         """A distance beyond the far side of the level [m]."""

@@ -11,7 +11,7 @@ from .properties import EVENTS
 _EMPTIES = {
     "SMOKE": ("Brume smoke", "SPHERE", 0.15),
     "SHOT": ("Brume shot", "SINGLE_ARROW", 0.5),
-    "TEXT": ("Brume word", "SINGLE_ARROW", 0.5),
+    "WORD": ("Brume word", "SINGLE_ARROW", 0.5),
     "BLAST": ("Brume blast", "SPHERE", 0.15),
     "DOOR": ("Brume door", "PLAIN_AXES", 0.5),
 }
@@ -76,7 +76,7 @@ class BRUME_MT_add(bpy.types.Menu):
     bl_label = "Brume"
 
     def draw(self, _context):
-        for identifier, label, _ in EVENTS[1:]:
+        for identifier, label, _, _ in EVENTS[1:]:
             self.layout.operator(BRUME_OT_add_event.bl_idname, text=label).type = identifier
 
 

@@ -12,7 +12,7 @@ from .conversion import metres_per_unit, radius_of_voxels
 _COLORS = {
     "SMOKE": (0.75, 0.8, 0.85),
     "SHOT": (1.0, 0.75, 0.25),
-    "TEXT": (1.0, 0.75, 0.25),
+    "WORD": (1.0, 0.75, 0.25),
     "BLAST": (1.0, 0.4, 0.2),
     "DOOR": (0.4, 0.8, 1.0),
 }
@@ -44,7 +44,7 @@ def _across(along, roll):
 def _section(event, center, along, metres):
     """The outline of a hole or of a row of letters."""
     right, up = _across(along, event.roll)
-    if event.type == "TEXT":
+    if event.type == "WORD":
         height = event.size / metres
         width = height * max(1, len(event.text)) * (_LETTER_WIDTH + event.spacing)
         right, up = right * width / 2, up * height / 2

@@ -8,7 +8,7 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 from mathutils import Vector
 
-from . import conversion, markers, names
+from . import conversion, markers, names, timeline
 from .clock import frames_per_second
 from .event_operators import add_event
 from .messages import BrumeError, Warnings, fail
@@ -24,6 +24,7 @@ _KEYS = {
     "door": {"open": "open"},
 }
 _COLLECTION = "Brume events"
+_TYPES = {name: kind for kind, name in timeline.NAMES.items()}
 
 
 def _read(path):
@@ -72,7 +73,7 @@ class _Import:
 
     def _add(self, entry, kind):
         frame = self._scene.frame_start + entry["time"] * frames_per_second(self._scene)
-        empty = add_event(self._scene, self._collection, kind.upper(), frame)
+        empty = add_event(self._scene, self._collection, _TYPES.get(kind, kind.upper()), frame)
         event = empty.brume_event
         for key, name in _KEYS[kind].items():
             if key in entry:

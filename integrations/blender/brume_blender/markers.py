@@ -11,7 +11,7 @@ _KEY = "brume_marker"
 
 
 def _name(thing):
-    text = f' "{thing.brume_event.text}"' if thing.brume_event.type == "TEXT" else ""
+    text = f' "{thing.brume_event.text}"' if thing.brume_event.type == "WORD" else ""
     return _PREFIX + thing.name + text
 
 

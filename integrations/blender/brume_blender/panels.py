@@ -11,7 +11,7 @@ from .properties import HOLE_TIMES
 _FIELDS = {
     "SMOKE": ("thrown_from",),
     "SHOT": ("aim", "shape", "shown_radius", "roll", "flash") + HOLE_TIMES,
-    "TEXT": ("text", "aim", "shown_size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
+    "WORD": ("text", "aim", "shown_size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
     "BLAST": ("shown_blast_radius", "shown_speed", "blast_flash", "remaining", "refill_rim", "refill_middle"),
     "DOOR": ("door", "open"),
 }

@@ -19,7 +19,7 @@ PRESETS = {
         "Shotgun": {"shape": "CYLINDER", "radius": 0.6, "reach": 0.3, "stay": 1.0, "flash": 60.0},
         "Window": {"shape": "BOX", "radius": 0.7, "reach": 0.1, "stay": 5.0, "flash": 0.0},
     },
-    "TEXT": {
+    "WORD": {
         "At Once": {"interval": 0.0, "stay": 2.0, "size": 0.5},
         "Letter by Letter": {"interval": 0.15, "stay": 3.0, "size": 0.5},
     },

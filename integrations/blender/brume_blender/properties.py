@@ -34,13 +34,14 @@ ROLES = (
 # What Brume calls those that decide for their objects, the one that stops least first.
 BRUME_ROLES = {"PASSABLE": "ghost", "GRILLE": "grille", "GLASS": "glass", "WALL": "wall"}
 
+# Identifier, name, description, number in .blend files, which have no identifiers.
 EVENTS = (
-    ("NONE", "None", "An ordinary empty"),
-    ("SMOKE", "Smoke Grenade", "A grenade goes off here"),
-    ("SHOT", "Shot", "A shot is fired from here along the arrow"),
-    ("TEXT", "Word", "Letters are shot from here along the arrow"),
-    ("BLAST", "Blast", "An explosion"),
-    ("DOOR", "Door Event", "A door opens or closes"),
+    ("NONE", "None", "An ordinary empty", 0),
+    ("SMOKE", "Smoke Grenade", "A grenade goes off here", 1),
+    ("SHOT", "Shot", "A shot is fired from here along the arrow", 2),
+    ("WORD", "Word", "Letters are shot from here along the arrow", 3),
+    ("BLAST", "Blast", "An explosion", 4),
+    ("DOOR", "Door Event", "A door opens or closes", 5),
 )
 
 _FIXED = set()  # Options of a property without keyframes.

@@ -8,6 +8,8 @@ from mathutils.bvhtree import BVHTree
 from . import conversion
 
 _NUDGE = 1e-4  # Past a hit, for the next ray [m].
+_ON_SURFACE = 1e-3  # What lies this close to a surface is on either side of it [m].
+_TOUCH = 1e-6  # Voxels that triangles touch are solid; of their edge.
 _SKIN = 0.02  # What lies on a floor is not inside of it [m].
 _DIRECTIONS = (Vector((0.577, 0.577, 0.578)), Vector((-0.8, 0.36, 0.48)), Vector((0.28, -0.1, -0.95)))
 
@@ -19,7 +21,8 @@ class _Solid:
         self.thing, self._mesh, self._matrix = thing, piece.mesh, piece.world_from_mesh
         world = corners @ self._matrix[:3, :3].T + self._matrix[:3, 3]
         self.low, self.high = world.min(axis=0), world.max(axis=0)
-        self._tree = None
+        self._tree = self._triangles = None
+        self._volume = 0.0
 
     def tree(self):
         if self._tree is None:
@@ -29,10 +32,33 @@ class _Solid:
             try:
                 copy.from_mesh(self._mesh)
                 copy.transform(Matrix((self._matrix @ turn).tolist()))
+                self._volume = abs(copy.calc_volume())
                 self._tree = BVHTree.FromBMesh(copy)
             finally:
                 copy.free()
         return self._tree
+
+    def volume(self):
+        """Of the inside of a closed mesh [m^3]."""
+        self.tree()
+        return self._volume
+
+    def triangles_in(self, low, high):
+        """The triangles whose bounds meet a box: an array of corners, (n, 3, 3)."""
+        if np.any(self.low > high) or np.any(self.high < low):
+            return np.empty((0, 3, 3))
+        if self._triangles is None:
+            mesh = self._mesh
+            mesh.calc_loop_triangles()
+            points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+            mesh.vertices.foreach_get("co", points)
+            points = points.reshape(-1, 3).astype(float) @ conversion.BRUME_FROM_BLENDER.T
+            points = points @ self._matrix[:3, :3].T + self._matrix[:3, 3]
+            corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+            mesh.loop_triangles.foreach_get("vertices", corners)
+            self._triangles = points[corners.reshape(-1, 3)]
+        below, above = self._triangles.min(axis=1), self._triangles.max(axis=1)
+        return self._triangles[np.all((below <= high) & (above >= low), axis=1)]
 
     def meets(self, start, direction, far):
         """Whether a ray meets the bounds (slabs of Kay and Kajiya 1986)."""
@@ -74,6 +100,22 @@ def _corners(mesh):
     return np.array([[(high if i >> axis & 1 else low)[axis] for axis in range(3)] for i in range(8)])
 
 
+def _touches(triangles, centre):
+    """Whether one of the triangles touches the unit cube around a point (Akenine-Moller 2001: 13 axes)."""
+    corners = triangles - centre
+    edges = np.roll(corners, -1, axis=1) - corners
+    axes = np.eye(3)
+    along = [np.broadcast_to(axis, (len(corners), 3)) for axis in axes]
+    along += [np.cross(edges[:, 0], edges[:, 1])]
+    along += [np.cross(axis, edges[:, k]) for axis in axes for k in range(3)]
+    apart = np.zeros(len(corners), dtype=bool)
+    for axis in along:
+        places = np.einsum("nkc,nc->nk", corners, axis)
+        reach = (0.5 + _TOUCH) * np.abs(axis).sum(axis=1)
+        apart |= (places.min(axis=1) > reach) | (places.max(axis=1) < -reach)
+    return not apart.all()
+
+
 class Solids:
     """The things of a level that stop smoke and shots."""
 
@@ -103,11 +145,34 @@ class Solids:
         return found
 
     def around(self, point, without=()):
-        """The label of a closed mesh around a point, or None."""
+        """(label, volume [m^3]) of a closed mesh around a point, or None."""
         for solid in self._solids:
             if solid.thing.name not in without and solid.encloses(point):
-                return solid.thing.label
+                return solid.thing.label, solid.volume()
         return None
+
+    def is_free(self, point, voxel, without=()):
+        """Whether smoke can begin at a point: its voxel is free, or one beside it on the same side of all surfaces.
+
+        The rule of src/scenario/smoke_start.cpp.
+        """
+        own = np.floor(np.asarray(point, dtype=float) / voxel)
+        low, high = (own - 1 - _TOUCH) * voxel, (own + 2 + _TOUCH) * voxel
+        near = [solid.triangles_in(low, high) for solid in self._solids if solid.thing.name not in without]
+        triangles = np.concatenate([*near, np.empty((0, 3, 3))]) / voxel
+        if not _touches(triangles, own + 0.5):
+            return True
+        for offset in np.ndindex(3, 3, 3):
+            centre = own + np.array(offset) - 0.5
+            if not _touches(triangles, centre) and self._is_open(Vector(point), Vector(centre * voxel), without):
+                return True
+        return False
+
+    def _is_open(self, start, end, without):
+        """Whether no surface is between two points; a surface at the first does not count."""
+        along = (end - start).normalized()
+        start = start + along * _ON_SURFACE
+        return self.cast(start, along, (end - start).length, without) is None
 
     def distance_outside(self, point):
         """How far a point is outside the bounds of the level [m]; 0 inside."""

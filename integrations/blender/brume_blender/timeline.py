@@ -20,7 +20,9 @@ _AHEAD = 5.0  # Distance from the camera to its target [m].
 
 
 # Events of one tick happen in this order.
-_ORDER = ("DOOR", "SMOKE", "SHOT", "TEXT", "BLAST")
+_ORDER = ("DOOR", "SMOKE", "SHOT", "WORD", "BLAST")
+# Types of events in timelines that are not called as those of empties are.
+NAMES = {"WORD": "text"}
 
 
 def events(scene, level):
@@ -152,7 +154,7 @@ class Writer:
         if event.type == "DOOR":
             return self._door(thing, event, time)
         here = self._clock.matrix_at(thing, time).translation
-        keys = {"type": quoted(event.type.lower()), "time": number(time)}
+        keys = {"type": quoted(NAMES.get(event.type, event.type.lower())), "time": number(time)}
         if event.type == "SMOKE":
             start = self._clock.matrix_at(event.thrown_from, time).translation if event.thrown_from else here
             keys |= {"from": self._point(thing, start), "at": self._point(thing, here)}
@@ -179,7 +181,7 @@ class Writer:
         keys = {"from": self._point(thing, here), "toward": self._point(thing, toward)}
         keys["roll"] = number(math.degrees(event.roll))
         keys |= {key: number(getattr(event, key)) for key in HOLE_TIMES}
-        if event.type == "TEXT":
+        if event.type == "WORD":
             if not 1 <= len(event.text.encode("utf-8")) <= 1024:
                 raise BrumeError(f'the text of "{thing.name}" must be 1 to 1024 bytes long')
             keys["text"] = quoted(event.text)
