@@ -10,6 +10,15 @@
 namespace brume::grids {
 namespace {
 
+/// Voxels whose centres are off by rounding alone count as they are.
+constexpr double kRounding = 1e-4;
+
+/// To [0, 1]; NaN is 0.
+glm::vec3 limited(glm::dvec3 color) {
+  for (int i = 0; i < 3; ++i) color[i] = color[i] > 0 ? std::min(color[i], 1.0) : 0.0;
+  return glm::vec3(color);
+}
+
 glm::vec3 read_color(ValueType type, const std::byte* at) {
   glm::dvec3 color(0);
   if (type == ValueType::vec3d) {
@@ -19,49 +28,109 @@ glm::vec3 read_color(ValueType type, const std::byte* at) {
     std::memcpy(&narrow, at, sizeof narrow);
     color = glm::dvec3(narrow);
   }
-  for (int i = 0; i < 3; ++i) color[i] = color[i] > 0 ? std::min(color[i], 1.0) : 0.0;
-  return glm::vec3(color);
+  return limited(color);
 }
 
 /// Looks up voxels of a grid; remembers the brick of the last one.
 class Lookup {
  public:
-  explicit Lookup(const Grid& grid) : grid_(grid) {}
+  explicit Lookup(const Grid& grid) : grid_(&grid) {}
+  const Grid& grid() const { return *grid_; }
 
-  /// nullopt: the voxel is not active.
-  std::optional<glm::vec3> at(glm::ivec3 index) {
+  /// The value of an active voxel; null: it is not active.
+  const std::byte* at(glm::ivec3 index) {
     const glm::ivec3 origin = (index >> 3) * 8;
     if (!known_ || origin != origin_) {
-      brick_ = find_brick(grid_, origin).value_or(grid_.bricks.size());
+      brick_ = find_brick(*grid_, origin).value_or(grid_->bricks.size());
       origin_ = origin;
       known_ = true;
     }
-    if (brick_ == grid_.bricks.size()) return of_tile(index);
+    if (brick_ == grid_->bricks.size()) return of_tile(index);
     const glm::ivec3 in = index & 7;
     const auto voxel = static_cast<std::size_t>(in.x + 8 * (in.y + 8 * in.z));
-    if (!grid_.bricks[brick_].is_active(voxel)) return std::nullopt;
-    return read_color(grid_.type, grid_.values_of(brick_).data() + voxel * bytes_of(grid_.type));
+    if (!grid_->bricks[brick_].is_active(voxel)) return nullptr;
+    return grid_->values_of(brick_).data() + voxel * bytes_of(grid_->type);
   }
 
  private:
-  std::optional<glm::vec3> of_tile(glm::ivec3 index) const {
-    if (grid_.tiles.empty()) return std::nullopt;
+  const std::byte* of_tile(glm::ivec3 index) const {
+    if (grid_->tiles.empty()) return nullptr;
     for (const int edge : {8, 128, 4096}) {
       const glm::ivec3 origin = index & ~(edge - 1);
       const auto tile =
-          std::lower_bound(grid_.tiles.begin(), grid_.tiles.end(), origin,
+          std::lower_bound(grid_->tiles.begin(), grid_->tiles.end(), origin,
                            [](const Tile& one, glm::ivec3 at) { return goes_before(one.origin, at); });
-      if (tile == grid_.tiles.end() || tile->origin != origin || int(tile->edge) != edge) continue;
-      if (!tile->active) return std::nullopt;
-      return read_color(grid_.type, tile->value.data());
+      if (tile == grid_->tiles.end() || tile->origin != origin || int(tile->edge) != edge) continue;
+      return tile->active ? tile->value.data() : nullptr;
     }
-    return std::nullopt;
+    return nullptr;
   }
 
-  const Grid& grid_;
+  const Grid* grid_;
   glm::ivec3 origin_{0};
   std::size_t brick_ = 0;  // its number, or that of all: none
   bool known_ = false;
+};
+
+/// The colours of a grid of vectors.
+class VectorColors {
+ public:
+  explicit VectorColors(const Grid& grid) : lookup_(grid) {}
+  /// nullopt: the voxel has none.
+  std::optional<glm::vec3> at(glm::ivec3 index) {
+    const std::byte* const value = lookup_.at(index);
+    return value ? std::optional(read_color(lookup_.grid().type, value)) : std::nullopt;
+  }
+
+ private:
+  Lookup lookup_;
+};
+
+/// Those of a grid for each channel, at the voxels of the first.
+class ChannelColors {
+ public:
+  explicit ChannelColors(const ColorChannels& channels) : first_(channels.parts[0]->world_from_index) {
+    for (const Grid* part : channels.parts) parts_.emplace_back(*part);
+    if (channels.density) parts_.emplace_back(*channels.density);
+  }
+
+  std::optional<glm::vec3> at(glm::ivec3 index) {
+    bool is_active = false;
+    glm::dvec4 sums(0);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const auto value = value_at(parts_[i], index);
+      is_active = is_active || value;
+      sums[static_cast<int>(i)] = value.value_or(0);
+    }
+    if (!is_active || (parts_.size() > 3 && !(sums.w > 0))) return std::nullopt;
+    const glm::dvec3 color = parts_.size() > 3 ? glm::dvec3(sums) / sums.w : glm::dvec3(sums);
+    return limited(color);
+  }
+
+ private:
+  /// Of a part at the place of a voxel of the first; nullopt: no voxel around it is active.
+  std::optional<double> value_at(Lookup& part, glm::ivec3 index) const {
+    const Grid& grid = part.grid();
+    if (grid.world_from_index == first_) {
+      const std::byte* const value = part.at(index);
+      return value ? std::optional(number_of(grid.type, value)) : std::nullopt;
+    }
+    const glm::dvec3 p(glm::inverse(grid.world_from_index) * (first_ * glm::dvec4(index, 1)));
+    const glm::dvec3 low = glm::floor(p + kRounding), weight = glm::clamp(p - low, 0.0, 1.0);
+    std::optional<double> sum;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+      const glm::dvec3 w = glm::mix(1.0 - weight, weight, glm::dvec3(side));
+      const double product = w.x * w.y * w.z;
+      if (!(product > kRounding)) continue;
+      if (const std::byte* const value = part.at(glm::ivec3(low) + side))
+        sum = sum.value_or(0) + product * number_of(grid.type, value);
+    }
+    return sum;
+  }
+
+  glm::dmat4 first_;
+  std::vector<Lookup> parts_;  // red, green, blue, and what they are multiplied by
 };
 
 /// The mean of colours by weight.
@@ -81,9 +150,8 @@ class Mean {
 };
 
 /// The colour at a point of index space.
-glm::vec3 color_at(Lookup& lookup, glm::dvec3 p_index) {
-  // Voxels whose centres are off by rounding alone count as they are.
-  constexpr double kRounding = 1e-4;
+template <typename Colors>
+glm::vec3 color_at(Colors& lookup, glm::dvec3 p_index) {
   const glm::dvec3 low = glm::floor(p_index + kRounding);
   const glm::vec3 weight(glm::clamp(p_index - low, 0.0, 1.0));
   Mean filtered, around;
@@ -99,24 +167,16 @@ glm::vec3 color_at(Lookup& lookup, glm::dvec3 p_index) {
   return around.empty() ? glm::vec3(1) : around.color();
 }
 
-}  // namespace
-
-bool is_color_grid(const Grid& grid) {
-  return grid.type == ValueType::vec3f || grid.type == ValueType::vec3d;
-}
-
-Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
-                                                                const BrickVolume& volume) {
-  if (!is_color_grid(colors))
-    return Failure{ErrorCode::bad_input, "grid " + colors.name + ": holds values of " + name_of(colors.type) +
-                                             "; expected colours, which are vec3f or vec3d"};
-  const glm::dmat4 index_from_voxel = glm::inverse(colors.world_from_index) * volume.world_from_voxel;
+/// The colours at the centres of a volume's voxels, in the same bricks and slots. `grid` holds the transform.
+template <typename Colors, typename Source>
+Result<std::unique_ptr<volume::SparseVolume>> bricks_of(const Source& source, const Grid& grid,
+                                                        const BrickVolume& volume) {
+  const glm::dmat4 index_from_voxel = glm::inverse(grid.world_from_index) * volume.world_from_voxel;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(index_from_voxel[column][row]))
-        return Failure{ErrorCode::bad_input, "grid " + colors.name + ": its transform has no inverse"};
+        return Failure{ErrorCode::bad_input, "grid " + grid.name + ": its transform has no inverse"};
 
-  // The same bricks in the same slots.
   volume::SparseVolumeInfo info;
   info.channels = {{sizeof(std::uint64_t)}};
   auto bricks = std::make_unique<volume::SparseVolume>(info);
@@ -125,7 +185,7 @@ Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colo
   bricks->begin_update();
   for (std::uint32_t slot = 0; slot < slots; ++slot) bricks->acquire(volume.volume->brick_of(slot));
   parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
-    Lookup lookup(colors);
+    Colors lookup(source);
     for (std::size_t slot = begin; slot < end; ++slot) {
       const auto texels = bricks->texels<std::uint64_t>(channel, static_cast<std::uint32_t>(slot));
       const glm::ivec3 first = 8 * volume.volume->brick_of(static_cast<std::uint32_t>(slot)) - 1;
@@ -139,6 +199,30 @@ Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colo
   bricks->set_bounds(volume.volume->layout().bounds_min, volume.volume->layout().bounds_max);
   bricks->end_update();
   return bricks;
+}
+
+}  // namespace
+
+bool is_color_grid(const Grid& grid) {
+  return grid.type == ValueType::vec3f || grid.type == ValueType::vec3d;
+}
+
+Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
+                                                                const BrickVolume& volume) {
+  if (!is_color_grid(colors))
+    return Failure{ErrorCode::bad_input, "grid " + colors.name + ": holds values of " + name_of(colors.type) +
+                                             "; expected colours, which are vec3f or vec3d"};
+  return bricks_of<VectorColors>(colors, colors, volume);
+}
+
+Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChannels& channels,
+                                                                const BrickVolume& volume) {
+  for (const Grid* part : channels.parts)
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row)
+        if (!std::isfinite(glm::inverse(part->world_from_index)[column][row]))
+          return Failure{ErrorCode::bad_input, "grid " + part->name + ": its transform has no inverse"};
+  return bricks_of<ChannelColors>(channels, *channels.parts[0], volume);
 }
 
 }  // namespace brume::grids

@@ -1,6 +1,7 @@
 // Grids of colours in the bricks of another volume, which the renderer samples beside it.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "core/error.hpp"
@@ -18,6 +19,17 @@ bool is_color_grid(const Grid& grid);
 /// filtering at the rim does not darken, and is white beyond. Colours are limited to [0, 1]; NaN is 0. Fails
 /// with bad_input for a grid that holds none, and a transform without an inverse.
 Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
+                                                                const BrickVolume& volume);
+
+/// Colours as three grids of numbers, as Mantaflow saves those of smoke.
+struct ColorChannels {
+  std::array<const Grid*, 3> parts{};  ///< Red, green and blue; none null.
+  const Grid* density = nullptr;       ///< By which they are multiplied, and are divided; null: by nothing.
+};
+
+/// The same of three grids: at the voxels of the first, where those of the others are filtered trilinearly if
+/// they are at other places. A voxel has a colour where one of them is active, or the density above 0.
+Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChannels& channels,
                                                                 const BrickVolume& volume);
 
 }  // namespace brume::grids

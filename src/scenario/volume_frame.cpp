@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 /// The names that Blender, Houdini and EmberGen give, in order.
 constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
 constexpr std::array kColorNames{"Cd", "color", "colour", "Color", "Colour"};
+/// Of colours in channels, as Mantaflow names them: color_r, color_g, color_b.
+constexpr const char* kChannelName = "color";
 constexpr std::array kTemperatureNames{"temperature", "heat"};
 constexpr std::array kFireNames{"flame", "flames", "fire", "burn"};
 
@@ -76,17 +78,31 @@ bool says_none(GridList grids, const std::string& name) {
          std::ranges::none_of(grids, [](const grids::Grid* grid) { return grid->name == kNoHeat; });
 }
 
+/// Red, green and blue as a grid of numbers each.
+using ColorParts = std::array<const grids::Grid*, 3>;
+
+/// The channels of a colour: NAME_r, NAME_g and NAME_b; nulls where one is missing.
+ColorParts color_channels(GridList grids, const std::string& name) {
+  ColorParts parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const grids::Grid* grid : grids)
+      if (!parts[i] && is_number_grid(grid) && grid->name == name + '_' + "rgb"[i]) parts[i] = grid;
+  return std::ranges::count(parts, nullptr) > 0 ? ColorParts{} : parts;
+}
+
 /// What is rendered of a file.
 struct Chosen {
   const grids::Grid* density = nullptr;
   const grids::Grid* heat = nullptr;   ///< Null: nothing glows.
   const grids::Grid* fire = nullptr;   ///< A grid that says where it burns; null: none.
   bool names_heat = false;             ///< Whether the options do.
-  const grids::Grid* color = nullptr;  ///< Null: no colours.
+  const grids::Grid* color = nullptr;  ///< Null: no colours, or in channels.
+  ColorParts channels = {};            ///< Of colours; null: none.
   std::vector<const grids::Grid*> masks = {};
 
   bool has(const grids::Grid* grid) const {
     return grid == density || grid == heat || grid == fire || grid == color ||
+           std::ranges::find(channels, grid) != channels.end() ||
            std::ranges::find(masks, grid) != masks.end();
   }
 };
@@ -109,6 +125,18 @@ Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options)
   return chosen;
 }
 
+/// A grid of vectors, else the channels of a colour.
+Result<void> choose_colors(GridList grids, const std::string& name, Chosen& chosen) {
+  const bool has_name = std::ranges::find(grids, name, &grids::Grid::name) != grids.end();
+  if (!has_name) chosen.channels = color_channels(grids, name.empty() ? kChannelName : name);
+  if (chosen.channels[0] && !name.empty()) return {};
+  const auto color = choose_grid(grids, name, kColorNames, is_colors);
+  if (!color) return color.failure();
+  chosen.color = *color;
+  if (chosen.color) chosen.channels = {};
+  return {};
+}
+
 Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
   if (!options.masks.empty()) return choose_masks(grids, options);
   const auto density = choose_density(grids, options.density);
@@ -117,13 +145,18 @@ Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
   const auto heat = choose_grid(grids, none ? "" : options.heat, kTemperatureNames);
   if (!heat) return heat.failure();
   const grids::Grid* const fire = *choose_grid(grids, "", kFireNames);
-  const auto color = choose_grid(grids, options.color, kColorNames, is_colors);
-  if (!color) return color.failure();
-  if (none) return Chosen{*density, nullptr, nullptr, true, *color};
-  if (!options.heat.empty()) return Chosen{*density, *heat, nullptr, true, *color};
+  Chosen chosen{.density = *density, .names_heat = !options.heat.empty()};
+  if (auto colors = choose_colors(grids, options.color, chosen); !colors) return colors.failure();
+  if (none) return chosen;
+  if (chosen.names_heat) {
+    chosen.heat = *heat;
+    return chosen;
+  }
   // One grid is both only if the options say so.
   const auto hot = *heat ? *heat : fire;
-  return Chosen{*density, hot == *density ? nullptr : hot, fire, false, *color};
+  chosen.heat = hot == *density ? nullptr : hot;
+  chosen.fire = fire;
+  return chosen;
 }
 
 /// Whether the file says so: Blender's solver names the resolution of its domain.
@@ -206,6 +239,14 @@ void warn_of_odd(const fs::path& file, const grids::Grid& grid, const grids::Bri
               " NaN, infinite or beyond 1e30: NaN counts as 0, the others as the largest of the rest");
 }
 
+/// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density.
+Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const Chosen& chosen,
+                                                           const grids::BrickVolume& density) {
+  if (chosen.color) return grids::make_color_bricks(*chosen.color, density);
+  return grids::make_color_bricks(
+      grids::ColorChannels{chosen.channels, is_z_up(*chosen.density) ? chosen.density : nullptr}, density);
+}
+
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
                                                 const scene::VolumeOptions& options, const VolumeRoom& room) {
   std::vector<const grids::Grid*> list;
@@ -214,7 +255,8 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   if (!chosen) return chosen.failure();
   const std::vector<const grids::Grid*>& masks = chosen->masks;
   auto frame = std::make_shared<VolumeFrame>();
-  const grids::Grid *density = chosen->density, *const color = chosen->color;
+  const grids::Grid* density = chosen->density;
+  const bool has_colors = chosen->color || chosen->channels[0];
   const grids::Grid* const heat = glows(*chosen, options, *frame) ? chosen->heat : nullptr;
   grids::Grid joined;
   if (!masks.empty()) {
@@ -234,7 +276,7 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   // Bricks of colours and masks have the slots of the density's, which reach wherever a mask does.
   const grids::Grid* const also = alike ? heat : density != &joined && !masks.empty() ? &joined : nullptr;
   auto bricks =
-      grids::make_brick_volume(*density, {max_bricks, max_pages, also, color == nullptr && masks.empty()});
+      grids::make_brick_volume(*density, {max_bricks, max_pages, also, !has_colors && masks.empty()});
   if (!bricks) return bricks.failure();
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
@@ -248,8 +290,8 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     if (hot->high > 0) frame->heat = std::move(*hot);
     if (frame->heat) frame->glow = grids::find_glow(*frame->heat, frame->density);
   }
-  if (color) {
-    auto colors = grids::make_color_bricks(*color, frame->density);
+  if (has_colors) {
+    auto colors = color_bricks(*chosen, frame->density);
     if (!colors) return colors.failure();
     frame->colors = std::move(*colors);
   }
@@ -275,7 +317,10 @@ Result<std::string> shown_grids(const grids::GridFile& file) {
   if (!chosen) return chosen.failure();
   VolumeFrame frame;
   glows(*chosen, {}, frame);
-  const std::string color = chosen->color ? ", coloured by \"" + chosen->color->name + '"' : "";
+  const std::string color = chosen->color ? ", coloured by \"" + chosen->color->name + '"'
+                            : chosen->channels[0]
+                                ? std::string(", coloured by \"color_r\", \"color_g\", \"color_b\"")
+                                : "";
   return '"' + chosen->density->name + '"' + color + (frame.heat_note.empty() ? "" : "; " + frame.heat_note);
 }
 
@@ -302,6 +347,7 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                               if (is_number_grid(head)) number_grids.push_back(head->name);
                               if (is_colors(head)) color_grids.push_back(head->name);
                             }
+                            if (color_channels(heads, kChannelName)[0]) color_grids.push_back(kChannelName);
                             const auto chosen = choose(heads, options);
                             if (!chosen) return chosen.failure();
                             std::vector<std::size_t> positions;

@@ -100,5 +100,88 @@ TEST(ColorBricks, LimitsWhatIsNoAlbedoAndRefusesOtherTypes) {
   EXPECT_EQ(texel(*make_color_bricks(tiled, density).value_or_throw(), {1, 2, 3}), red);
 }
 
+/// A channel of the gradient, multiplied by `factor` at each voxel.
+template <typename Factor>
+Grid channel(int of, int end, Factor factor) {
+  Grid grid;
+  grid.name = std::string("color_") + "rgb"[of];
+  Brick& brick = grid.bricks.emplace_back();
+  for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
+    const glm::ivec3 p(voxel & 7, voxel >> 3 & 7, voxel >> 6);
+    if (p.x < end) brick.active[voxel / 64] |= std::uint64_t{1} << (voxel % 64);
+    append(grid, factor(p) * static_cast<float>(p[of]) / 8.0f);
+  }
+  return grid;
+}
+
+std::vector<Grid> channels(int end) {
+  std::vector<Grid> grids;
+  for (int of = 0; of < 3; ++of) grids.push_back(channel(of, end, [](glm::ivec3) { return 1.0f; }));
+  return grids;
+}
+
+TEST(ColorBricks, ChannelsAreTheColoursOfVectors) {
+  Grid fine = cube();
+  fine.world_from_index = glm::scale(glm::dmat4(1), glm::dvec3(0.5));
+  for (const Grid& lattice : {cube(), fine})
+    for (const int end : {8, 4}) {
+      const BrickVolume density = make_brick_volume(lattice).value_or_throw();
+      const std::vector<Grid> parts = channels(end);
+      const auto joined =
+          make_color_bricks({{&parts[0], &parts[1], &parts[2]}, nullptr}, density).value_or_throw();
+      const auto vectors = make_color_bricks(gradient(end), density).value_or_throw();
+      ASSERT_EQ(joined->slot_count(), vectors->slot_count());
+      for (int i = 0; i < 1000; ++i) {
+        const glm::ivec3 p = glm::ivec3(i % 10, i / 10 % 10, i / 100) - 1;
+        EXPECT_EQ(texel(*joined, p), texel(*vectors, p)) << i;
+      }
+    }
+}
+
+// Each channel has voxels at places of its own, of which the colour is linear.
+TEST(ColorBricks, ChannelsAtOtherPlacesAreFiltered) {
+  const BrickVolume density = make_brick_volume(cube()).value_or_throw();
+  std::vector<Grid> parts = channels(8);
+  parts[1].world_from_index = glm::translate(glm::dmat4(1), glm::dvec3(0, 0.25, 0));
+  parts[2].world_from_index = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, 2));
+  const auto joined =
+      make_color_bricks({{&parts[0], &parts[1], &parts[2]}, nullptr}, density).value_or_throw();
+  for (const glm::ivec3 p : {glm::ivec3(1, 2, 3), glm::ivec3(7, 5, 6), glm::ivec3(3, 1, 0)}) {
+    const glm::vec3 expected(float(p.x), float(p.y) - 0.25f, float(p.z) / 2);
+    EXPECT_LT(glm::length(texel(*joined, p) - expected / 8.0f), 1e-3f) << p.x;  // halves
+  }
+  parts[1].world_from_index = glm::dmat4(0);
+  EXPECT_EQ(make_color_bricks({{&parts[0], &parts[1], &parts[2]}, nullptr}, density).failure().message,
+            "grid color_g: its transform has no inverse");
+}
+
+// What is multiplied by the density is divided by it; where there is none, neither is a colour.
+TEST(ColorBricks, ChannelsAreDividedByTheDensity) {
+  const auto dense = [](glm::ivec3 p) { return 0.25f * static_cast<float>(p.y); };
+  Grid weight = cube();
+  weight.values.clear();
+  for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel)
+    append(weight, dense(glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6)));
+  const BrickVolume density = make_brick_volume(weight).value_or_throw();
+  std::vector<Grid> parts;
+  for (int of = 0; of < 3; ++of) parts.push_back(channel(of, 8, dense));
+  const auto joined =
+      make_color_bricks({{&parts[0], &parts[1], &parts[2]}, &weight}, density).value_or_throw();
+  for (int i = 0; i < 512; ++i) {
+    const glm::ivec3 p(i & 7, i >> 3 & 7, i >> 6);
+    if (p.y > 0) {
+      EXPECT_LT(glm::length(texel(*joined, p) - glm::vec3(p) / 8.0f), 1e-3f) << i;
+    }
+  }
+  // Black smoke has no voxels of colour.
+  for (Grid& part : parts) {
+    part.bricks.clear();
+    part.values.clear();
+  }
+  const auto black =
+      make_color_bricks({{&parts[0], &parts[1], &parts[2]}, &weight}, density).value_or_throw();
+  EXPECT_EQ(texel(*black, {3, 4, 5}), glm::vec3(0));
+}
+
 }  // namespace
 }  // namespace brume::grids
