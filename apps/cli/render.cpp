@@ -51,6 +51,19 @@ void check_raycast(const RenderOptions& options, const scenario::Scenario& scena
     log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
 }
 
+// Debug views of the smoke show nothing without any.
+void check_view(const RenderOptions& options, const Plan& plan, const scenario::Scenario& scenario) {
+  if (!scenario.timeline.smokes.empty()) return;
+  using passes::DebugView;
+  for (const DebugView view :
+       {DebugView::distance, DebugView::density, DebugView::light, DebugView::holes, DebugView::bricks})
+    if (plan.view == view)
+      throw Error(ErrorCode::usage,
+                  "--view " + options.view + ": shows smoke, and " + options.input + " has none" +
+                      (scenario.timeline.volumes.empty() ? "; give --smoke or another view"
+                                                         : "; volumes are in --view steps"));
+}
+
 // What both modes start from.
 struct Loaded {
   scenario::Scenario scenario;
@@ -283,6 +296,7 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   Plan plan = make_plan(arguments, options, common.outputs);
   if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, Json::list({})};
+  check_view(options, plan, loaded.scenario);
   set_shutter(options, plan, loaded.scenario);
   // A turn around what stands still has a frame for each tile.
   if (plan.flipbook && options.orbit && !plan.frames && !plays(loaded.scenario))

@@ -105,6 +105,24 @@ TEST_F(Render, DebugViewsAndSlices) {
             draw("high.png", {"--view", "density", "--slice", "y=1.1"}));
 }
 
+TEST_F(Render, ViewsOfSmokeAreRefusedWithoutSmoke) {
+  ASSERT_EQ(run_brume(folder_.path(), {"bake", "pyroclastic", "--edge", "16", "-o", "puff.brv"}).exit_code,
+            0);
+  for (const char* view : {"distance", "density", "light", "holes", "bricks"}) {
+    const Outcome volume =
+        run_brume(folder_.path(), {"render", "puff.brv", "-o", "no.png", "--scale", "10", "--view", view});
+    EXPECT_EQ(volume.exit_code, 2);
+    EXPECT_EQ(volume.error, "brume: --view " + std::string(view) +
+                                ": shows smoke, and puff.brv has none; volumes are in --view steps\n");
+    EXPECT_EQ(render({"-o", "no.png", "--view", view, "--smoke", "none"}).exit_code, 2);
+  }
+  for (const char* view : {"steps", "solid", "depth"})
+    EXPECT_EQ(
+        run_brume(folder_.path(), {"render", "puff.brv", "-o", "a.png", "--size", "32x18", "--view", view})
+            .exit_code,
+        0);
+}
+
 TEST_F(Render, InvalidViewsAndSlices) {
   const auto refused = [&](const Arguments& more, const std::string& part) {
     Arguments arguments{"-o", "a.png", "--size", "32x18"};
