@@ -183,11 +183,13 @@ std::uint16_t half_of(float value) {
 }
 
 /// The texels of a brick with its apron.
-void fill_texels(const Level& level, float per_value, glm::ivec3 brick, std::span<std::uint16_t> texels) {
+void fill_texels(const Level& level, float per_value, float outside, glm::ivec3 brick,
+                 std::span<std::uint16_t> texels) {
+  if (outside > 0) std::ranges::fill(texels, half_of(per_value * outside));
   std::array<std::uint32_t, 27> around{};
   for (int n = 0; n < 27; ++n) around[static_cast<std::size_t>(n)] = level.index.at(neighbour(brick, n));
   const auto set = [&](std::size_t texel, std::uint32_t from, std::size_t voxel) {
-    if (from != volume::PageTable::kNoSlot)  // else the texel is 0
+    if (from != volume::PageTable::kNoSlot)  // else the texel is outside
       texels[texel] = half_of(per_value * level.numbers.at(from, voxel));
   };
   for (int z = -1; z <= 8; ++z)
@@ -302,7 +304,7 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& ou
   parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto texels = out.volume->texels<std::uint16_t>(channel, static_cast<std::uint32_t>(i));
-      fill_texels(levels.density, 1 / out.unit, bricks[i], texels);
+      fill_texels(levels.density, 1 / out.unit, out.outside, bricks[i], texels);
       out.ranges[i] = filtered_range(texels);
     }
   });
@@ -312,9 +314,10 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& ou
 }
 
 /// What a level looks like in a unit (0: the one that suits it) and in bounds (empty: its own). Without its
-/// place.
-BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds) {
+/// place. `outside`: of the voxels beyond its numbers.
+BrickVolume volume_of(const Levels& levels, float unit, float outside, const Box<float>& bounds) {
   BrickVolume out;
+  out.outside = outside;
   const Measures all = measure(levels.density.numbers);
   out.low = all.low;
   out.high = all.high;
@@ -328,6 +331,14 @@ BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds
   if (unit > 0) out.unit = unit;
   fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds, out);
   return out;
+}
+
+/// Around the active voxels of a grid, in voxels of a level.
+Box<float> bounds_of(const Grid& grid, int halvings) {
+  const Box<double> active = active_bounds(grid);
+  const double per_voxel = std::exp2(-halvings);
+  if (active.empty()) return kEmptyBox;
+  return {glm::vec3((active.low + 0.5) * per_voxel), glm::vec3((active.high + 0.5) * per_voxel)};
 }
 
 /// From the voxels of a level to those before it was halved: voxel i of level l has its centre at index
@@ -369,8 +380,10 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   BRUME_ASSERT(options.max_bricks >= kFewestVolumeBricks && options.max_pages >= kFewestVolumePages,
                std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
   const Grid nothing;
-  GridNumbers numbers(grid);
+  const std::optional<ValueShift> shift = is_level_set(grid) ? std::nullopt : options.shift;
+  GridNumbers numbers(grid, shift);
   const std::uint64_t odd = numbers.odd();
+  const float outside = shift ? numbers.background(grid) : 0;
   Levels levels{Level(std::move(numbers)),
                 Level(GridNumbers(options.also ? *options.also : nothing)),
                 options.may_be_uniform,
@@ -378,7 +391,12 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
                 {},
                 {}};
   levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
-  BrickVolume out = volume_of(levels, 0, kEmptyBox);
+  BrickVolume out = volume_of(levels, 0, outside, shift ? bounds_of(grid, levels.halvings) : kEmptyBox);
+  if (shift) {
+    out.offset = shift->offset;
+    out.low += shift->offset;
+    out.high += shift->offset;
+  }
   const auto active = static_cast<double>(count_active(grid));
   out.level = levels.halvings;
   out.odd = odd;
@@ -400,10 +418,13 @@ BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool
   levels.reduce({max_bricks, kMostVolumePages, max_bricks});
   const shared::VolumeLayout& layout = fine.volume->layout();
   const auto per_voxel = static_cast<float>(std::exp2(-levels.halvings));
-  BrickVolume out = volume_of(levels, 1, {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});
+  BrickVolume out = volume_of(levels, 1, fine.outside / fine.unit,
+                              {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});
   out.unit = fine.unit;
-  out.low *= fine.unit;
-  out.high *= fine.unit;
+  out.offset = fine.offset;
+  out.outside = fine.outside;
+  out.low = out.low * fine.unit + fine.offset;
+  out.high = out.high * fine.unit + fine.offset;
   out.sum *= double{fine.unit};
   out.usual *= fine.unit;
   out.densest *= fine.unit;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,6 +17,12 @@ namespace brume::grids {
 inline constexpr std::uint32_t kMostVolumeBricks = 1u << 21, kFewestVolumeBricks = 8;
 /// The same for entries of its page table: 128 MiB, and those of 8 nodes far apart.
 inline constexpr std::uint32_t kMostVolumePages = 1u << 25, kFewestVolumePages = 1u << 13;
+
+/// How values below 0 are stored: less `offset`, so that all are above 0; those below `least` count as it.
+/// offset < least. Where a grid has no voxels, it has its background.
+struct ValueShift {
+  float least = 0, offset = 0;
+};
 
 struct BrickVolumeOptions {
   /// Bricks that there is room for, at least kFewestVolumeBricks; a grid of more is averaged over 2^3 voxels,
@@ -31,6 +38,8 @@ struct BrickVolumeOptions {
   /// Whether lower resolutions keep the mean of the fourth powers, that is the power of what glows, instead
   /// of the mean.
   bool glows = false;
+  /// Not for level sets; empty: values below 0 count as 0.
+  std::optional<ValueShift> shift = {};
 };
 
 /// What the values in a brick lie between.
@@ -51,7 +60,9 @@ struct BrickVolume {
   std::vector<ValueRange> ranges;
   glm::dmat4 world_from_voxel{1};  ///< To the file's world.
   float unit = 1;                  ///< Value that the bricks store as 1: a power of two.
-  float low = 0, high = 0;         ///< Range of the values.
+  float low = 0, high = 0;         ///< Range of the values, as the file has them.
+  float offset = 0;                ///< What all values below are less (ValueShift).
+  float outside = 0;               ///< Value that filtering finds beyond the bricks.
   /// Percentiles of the values above 0, in halves: the 90th, and the 99.9th, for which single hot
   /// voxels do not count.
   float usual = 0, densest = 0;

@@ -28,11 +28,12 @@ std::size_t voxel_number(glm::ivec3 v) {
 
 }  // namespace
 
-NumberReader::NumberReader(const Grid& grid)
+NumberReader::NumberReader(const Grid& grid, const std::optional<ValueShift>& shift)
     : type_(grid.type),
       bytes_(bytes_of(grid.type)),
       level_set_(is_level_set(grid)),
-      is_plain_(type_ == ValueType::float32 && !level_set_) {
+      is_plain_(type_ == ValueType::float32 && !level_set_ && !shift),
+      shift_(level_set_ ? std::nullopt : shift) {
   ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
   find_most(grid);
 }
@@ -64,6 +65,11 @@ void NumberReader::find_most(const Grid& grid) {
 float NumberReader::converted(const std::byte* at) const {
   double value = number(at);
   if (level_set_) value = std::min(-value / ramp_, 1.0);
+  if (shift_) {
+    if (std::isnan(value)) value = 0;
+    value = std::clamp(value, double{shift_->least}, std::max(double{most_}, double{shift_->least}));
+    return static_cast<float>(value - double{shift_->offset});
+  }
   return value > 0 ? static_cast<float>(std::min<double>(value, most_)) : 0.0f;
 }
 
@@ -91,7 +97,7 @@ double NumberReader::number(const std::byte* at) const {
   return 0;
 }
 
-GridNumbers::GridNumbers(const Grid& grid) : reader_(grid) {
+GridNumbers::GridNumbers(const Grid& grid, const std::optional<ValueShift>& shift) : reader_(grid, shift) {
   std::vector<std::uint8_t> any(grid.bricks.size());
   parallel_for(grid.bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -108,6 +114,29 @@ GridNumbers::GridNumbers(const Grid& grid) : reader_(grid) {
   for (const Tile& tile : grid.tiles)
     if (const float number = reader_.at(tile.value.data(), 0); number > 0)
       add_cube({tile.origin >> 3, static_cast<int>(tile.edge / 8), number});
+  if (shift) add_background(grid);
+}
+
+void GridNumbers::add_background(const Grid& grid) {
+  constexpr std::uint64_t kMost = 1u << 18;
+  const float number = background(grid);
+  if (!(number > 0) || brick_count() == 0) return;
+  const Box<int> box = brick_box();
+  const glm::u64vec3 size(box.high - box.low);
+  if (size.x > kMost || size.y > kMost || size.z > kMost || size.x * size.y * size.z > kMost) return;
+  // Those in bricks and cubes are taken.
+  std::vector<bool> taken(size.x * size.y * size.z);
+  const auto place_of = [&](glm::ivec3 at) {
+    const glm::u64vec3 p(at - box.low);
+    return p.x + size.x * (p.y + size.y * p.z);
+  };
+  for (const glm::ivec3 at : at_) taken[place_of(at)] = true;
+  for (const Cube& cube : cubes_)
+    for_each_in(Box<int>{cube.origin, cube.origin + cube.edge},
+                [&](glm::ivec3 at) { taken[place_of(at)] = true; });
+  for_each_in(box, [&](glm::ivec3 at) {
+    if (!taken[place_of(at)]) add_cube({at, 1, number});
+  });
 }
 
 GridNumbers::GridNumbers(const volume::SparseVolume& volume, bool only_presence) : reader_(Grid()) {

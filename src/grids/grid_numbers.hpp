@@ -7,9 +7,11 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/box.hpp"
+#include "grids/brick_volume.hpp"
 #include "grids/grid.hpp"
 #include "volume/sparse_volume.hpp"
 
@@ -21,7 +23,7 @@ using BrickNumbers = std::array<float, kBrickVoxels>;
 /// What is infinite, or beyond kLargest, is the largest other number.
 class NumberReader {
  public:
-  explicit NumberReader(const Grid& grid);
+  explicit NumberReader(const Grid& grid, const std::optional<ValueShift>& shift = {});
   float at(const std::byte* values, std::size_t index) const {
     if (!is_plain_) return converted(values + index * bytes_);
     float value = 0;
@@ -44,17 +46,22 @@ class NumberReader {
   double ramp_ = 1;
   float most_ = kLargest;
   std::uint64_t odd_ = 0;
+  std::optional<ValueShift> shift_;
 };
 
 /// Bricks and cubes of numbers, without those of zeros.
 class GridNumbers {
  public:
   /// Those of a grid, which must outlive it.
-  explicit GridNumbers(const Grid& grid);
+  /// With a shift, also bricks of the background between them, as far as they are few.
+  explicit GridNumbers(const Grid& grid, const std::optional<ValueShift>& shift = {});
 
   /// The stored halves of a volume of one channel, which must outlive it; with `only_presence` 1 throughout
   /// each of its bricks.
   GridNumbers(const volume::SparseVolume& volume, bool only_presence);
+
+  /// Of the voxels of the grid, which must be that of the constructor, beyond its bricks and tiles.
+  float background(const Grid& grid) const { return reader_.at(grid.background.data(), 0); }
 
   /// NumberReader::odd of the grid.
   std::uint64_t odd() const { return reader_.odd(); }
@@ -101,6 +108,7 @@ class GridNumbers {
   explicit GridNumbers(const NumberReader& reader) : reader_(reader) {}
   static float half_at(const std::uint16_t* texels, std::size_t voxel);
   void add_cube(const Cube& cube);
+  void add_background(const Grid& grid);
 
   NumberReader reader_;
   std::vector<glm::ivec3> at_;

@@ -48,8 +48,9 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   input.volume = density.volume.get();
   input.world_from_voxel = volume.world_from_density;
   input.colors = volume.frame->colors.get();
-  input.transfer = {options.opacity, options.color_map, scenario::range_of(options, typical) / density.unit,
-                    options.glow, options.emission};
+  input.transfer = {options.opacity, options.color_map,
+                    (scenario::range_of(options, typical) - density.offset) / density.unit, options.glow,
+                    options.emission};
   // Values are stored in a unit, which an opacity curve cancels.
   const float unit = options.opacity.empty() ? density.unit : 1;
   input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy,

@@ -75,10 +75,11 @@ void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scen
   }
 }
 
-/// Where something else glows than one might expect.
-void warn_of_heat(const std::filesystem::path& file, const VolumeFrame& first) {
+/// Where something else glows or is drawn than one might expect.
+void warn_of_values(const std::filesystem::path& file, const VolumeFrame& first) {
   if (!first.heat_note.empty() && (!first.heat || first.heat_is_kelvin))
     log_warning(file.string() + ": " + first.heat_note);
+  if (!first.value_note.empty()) log_warning(file.string() + ": " + first.value_note);
 }
 
 /// Whether the simulation accepts it.
@@ -115,9 +116,11 @@ Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewO
   chosen.density = options.density;
   chosen.heat = options.heat;
   chosen.kelvin = options.kelvin.value_or(chosen.kelvin);
+  chosen.opacity = options.opacity;
+  chosen.range = options.range;
   auto volumes = Volumes::load(std::array{chosen});
   if (!volumes) return volumes.failure();
-  warn_of_heat(file, (*volumes)->typical_frame(0));
+  warn_of_values(file, (*volumes)->typical_frame(0));
   if (options.kelvin && !(*volumes)->typical_frame(0).heat)
     log_warning("--kelvin: nothing of " + file.string() + " glows");
   scene::Scene scene;
@@ -205,7 +208,7 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   auto volumes = Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
-    warn_of_heat(timeline.volumes[i].file, (*volumes)->typical_frame(i));
+    warn_of_values(timeline.volumes[i].file, (*volumes)->typical_frame(i));
   // A camera that the timeline leaves to be fitted is to see all frames.
   if (timeline.camera.empty() && !scene->camera)
     for (std::size_t i = 0; i < timeline.volumes.size(); ++i) (*volumes)->measure_sequence(i);

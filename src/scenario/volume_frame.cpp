@@ -239,6 +239,32 @@ void warn_of_odd(const fs::path& file, const grids::Grid& grid, const grids::Bri
               " NaN, infinite or beyond 1e30: NaN counts as 0, the others as the largest of the rest");
 }
 
+/// About values below 0, but for those that are rounding.
+std::string note_of_negative(const grids::Grid& grid) {
+  constexpr double kRounding = 0.01;
+  if (grids::is_level_set(grid)) return "";
+  double low = 0, high = 0;
+  const auto add = [&](double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  const std::size_t bytes = grids::bytes_of(grid.type);
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i)
+    for (std::size_t voxel = 0; voxel < grids::kBrickVoxels; ++voxel)
+      if (grid.bricks[i].is_active(voxel))
+        add(grids::number_of(grid.type, grid.values_of(i).data() + voxel * bytes));
+  for (const grids::Tile& tile : grid.tiles)
+    if (tile.active) add(grids::number_of(grid.type, tile.value.data()));
+  if (!(low < -kRounding * high)) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "\" has values below 0, down to %.4g, which count as 0: a range from below 0 with an opacity "
+                "curve draws them",
+                low);
+  return '"' + grid.name + text;
+}
+
 /// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density.
 Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const Chosen& chosen,
                                                            const grids::BrickVolume& density) {
@@ -275,9 +301,12 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
   // Bricks of colours and masks have the slots of the density's, which reach wherever a mask does.
   const grids::Grid* const also = alike ? heat : density != &joined && !masks.empty() ? &joined : nullptr;
-  auto bricks =
-      grids::make_brick_volume(*density, {max_bricks, max_pages, also, !has_colors && masks.empty()});
+  const auto shift = density == &joined ? std::nullopt : shift_of(options);
+  auto bricks = grids::make_brick_volume(
+      *density, {max_bricks, max_pages, also, !has_colors && masks.empty(), false, shift});
   if (!bricks) return bricks.failure();
+  const bool is_chosen = !options.opacity.empty() && options.range && options.range->x < 0;
+  if (density != &joined && !is_chosen) frame->value_note = note_of_negative(*density);
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
   warn_of_odd(file, *density, frame->density);
@@ -308,6 +337,16 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
 
 float kelvin_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
   return frame.heat_is_kelvin && options.kelvin == scene::VolumeOptions().kelvin ? 1 : options.kelvin;
+}
+
+std::optional<grids::ValueShift> shift_of(const scene::VolumeOptions& options) {
+  if (options.opacity.empty() || !options.range || !(options.range->x < 0)) return std::nullopt;
+  const glm::dvec2 range(*options.range);
+  const double zero = std::min(-range.x / (range.y - range.x), 1.0);
+  if (!(scene::opacity_integral(options.opacity, zero) > 0)) return std::nullopt;
+  // The lowest value is not 0, where there is nothing.
+  constexpr double kStep = 1.0 / 1024;
+  return grids::ValueShift{options.range->x, static_cast<float>(range.x - kStep * (range.y - range.x))};
 }
 
 Result<std::string> shown_grids(const grids::GridFile& file) {

@@ -42,6 +42,7 @@ struct VolumeFrame {
   bool heat_is_kelvin = false;
   std::string density_name;  ///< Of the grid that is dense.
   std::string heat_note;     ///< What was decided about the heat, a sentence; empty: there is none.
+  std::string value_note;    ///< About values below 0 that count as 0, a sentence; empty: there are none.
   bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
   /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
   std::vector<std::string> number_grids, color_grids;
@@ -56,6 +57,10 @@ inline constexpr float kMostFactor = 100;
 /// Kelvin where the heat is 1: VolumeOptions::kelvin, or 1 where the heat is in kelvin and the options do not
 /// differ from their default.
 float kelvin_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+
+/// How values below 0 are stored, where the options' range reaches below 0 and their opacity curve draws
+/// something there; else empty.
+std::optional<grids::ValueShift> shift_of(const scene::VolumeOptions& options);
 
 /// What is shown of a file without options: the grid that is dense, and what was decided about its heat.
 /// Fails with bad_input where nothing can be shown.

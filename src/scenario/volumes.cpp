@@ -31,6 +31,9 @@ Result<std::map<std::int64_t, fs::path>> files_of(const scene::VolumeOptions& op
 std::vector<std::string> chosen_grids(const scene::VolumeOptions& options) {
   std::vector<std::string> names{options.density, options.heat, options.color};
   for (const scene::VolumeMask& mask : options.masks) names.push_back(mask.grid);
+  // Values below 0 are stored for the range.
+  if (const auto shift = shift_of(options))
+    names.push_back(std::to_string(shift->least) + ' ' + std::to_string(shift->offset));
   return names;
 }
 
@@ -94,7 +97,7 @@ std::vector<std::int64_t> measured_numbers(const std::map<std::int64_t, fs::path
 }
 
 bool shows_nothing(const VolumeFrame& frame) {
-  return frame.density.high <= 0 && !frame.heat;
+  return frame.density.sum <= 0 && !frame.heat;
 }
 
 VolumeExtent extent_of(const VolumeFrame& frame) {

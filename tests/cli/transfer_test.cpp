@@ -44,6 +44,42 @@ TEST_F(TransferOptions, ChangeThePicture) {
   }
 }
 
+// A box of which one half is -1, the other 1: curves for either half draw a half, one for both all.
+TEST_F(TransferOptions, ValuesBelowZeroAreDrawn) {
+  std::string raw;
+  for (int i = 0; i < 16 * 16 * 16; ++i) {
+    const float value = i % 16 < 8 ? -1 : 1;
+    raw.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  folder_.write("signed.raw", raw);
+  folder_.write("signed.json",
+                R"({"format": "brume raw volume", "version": 1, "raw": "signed.raw", "size": [16, 16, 16]})");
+  const std::vector<std::string> view{"--ground", "none", "--camera", "0,8,60 0,8,0 30"};
+  const auto draw = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.end(), view.begin(), view.end());
+    const Outcome run = render("signed.json", name, more);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return run.error;
+  };
+  // Columns of the middle row that differ from the sky.
+  const auto width = [&](const std::string& name) {
+    const std::vector<std::uint8_t> seen = png(name), sky = png("sky.png");
+    int columns = 0;
+    for (std::size_t at = 4 * 18 * 48; at < 4 * 19 * 48; at += 4)
+      columns += std::abs(seen[at] - sky[at]) + std::abs(seen[at + 1] - sky[at + 1]) > 24;
+    return columns;
+  };
+  EXPECT_EQ(draw("sky.png", {"--range", "-1,1", "--opacity", "0:0,1:0"}), "");
+  EXPECT_EQ(draw("low.png", {"--range", "-1,1", "--opacity", "0:1,0.2:1,0.4:0,1:0"}), "");
+  EXPECT_EQ(draw("high.png", {"--range", "-1,1", "--opacity", "0:0,0.6:0,0.8:1,1:1"}), "");
+  EXPECT_EQ(draw("both.png", {"--range", "-1,1", "--opacity", "0:1,0.4:1,0.5:0,0.6:1,1:1"}), "");
+  EXPECT_NE(draw("plain.png", {}).find("has values below 0, down to -1, which count as 0"),
+            std::string::npos);
+  // 48 columns are 43 m of the middle of the box, and its front is nearer: a half is 9 to 10.5.
+  for (const char* name : {"low.png", "high.png", "plain.png"}) EXPECT_NEAR(width(name), 9.5, 1.5) << name;
+  EXPECT_NEAR(width("both.png"), 19, 2);
+}
+
 TEST_F(TransferOptions, MistakesAreOneLine) {
   const std::string of_timeline = "is for a volume without a timeline; set it in [[volume]] of the timeline";
   for (const auto& [input, more, message] :

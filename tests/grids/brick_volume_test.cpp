@@ -97,6 +97,44 @@ TEST(BrickVolume, FiltersAsTheGridEverywhere) {
   EXPECT_EQ(glm::dvec3(corner), glm::dvec3(grid.world_from_index * glm::dvec4(0, 0, 0, 1)));
 }
 
+// With a shift the field is that of all values, and of the background wherever no voxel is, up to the bounds.
+TEST(BrickVolume, AShiftKeepsValuesBelowZero) {
+  constexpr ValueShift kShift{-1.5f, -1.6f};
+  for (const float background : {0.0f, -0.5f}) {
+    Grid grid = random_grid(8);
+    for (std::size_t i = 0; i < grid.values.size(); i += sizeof(float)) {
+      float value = 0;
+      std::memcpy(&value, &grid.values[i], sizeof value);
+      value = value > 0 ? 4 * (value - 1) : background;  // -4 to 4
+      std::memcpy(&grid.values[i], &value, sizeof value);
+    }
+    std::memcpy(grid.background.data(), &background, sizeof background);
+    const BrickVolume volume = make_brick_volume(grid, {.shift = kShift}).value_or_throw();
+    EXPECT_EQ(volume.offset, kShift.offset);
+    EXPECT_NEAR(volume.low, kShift.least, 1e-6f);
+    const auto at = [&](glm::ivec3 voxel) {
+      const bool has_brick = find_brick(grid, (voxel >> 3) * 8).has_value();
+      return std::max(has_brick ? value_at(grid, voxel) : background, kShift.least);
+    };
+    const shared::VolumeLayout& layout = volume.volume->layout();
+    std::mt19937 random(9);
+    for (int i = 0; i < 4000; ++i) {
+      const glm::vec3 part(random() % 1000, random() % 1000, random() % 1000);
+      const glm::vec3 p = glm::mix(layout.bounds_min, layout.bounds_max, (part + 0.5f) / 1000.0f);
+      const glm::vec3 low = glm::floor(p - 0.5f), weight = p - 0.5f - low;
+      float expected = 0;
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
+        expected += w.x * w.y * w.z * at(glm::ivec3(low) + side);
+      }
+      // Halves below 8 are off by 2^-9 at most.
+      EXPECT_NEAR(volume.unit * filtered(*volume.volume, p) + volume.offset, expected, 1.0f / 512 + 1e-5f)
+          << i;
+    }
+  }
+}
+
 TEST(BrickVolume, HalvesUntilItFitsAndKeepsTheSum) {
   const Grid grid = random_grid(4);
   const BrickVolume fine = make_brick_volume(grid).value_or_throw();

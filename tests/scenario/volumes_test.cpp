@@ -351,6 +351,37 @@ TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
   EXPECT_EQ(volumes->typical_frame(0).density.high, 3);
 }
 
+TEST_F(VolumesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
+  grids::Grid grid = cube("pressure", -0.5f);
+  const float high = 1;
+  std::memcpy(grid.values.data(), &high, sizeof high);
+  scene::VolumeOptions options{save("a.brv", {grid})};
+  const auto frame = [&] { return load_volume_frame(options.file, options).value_or_throw(); };
+  const std::string note =
+      "\"pressure\" has values below 0, down to -0.5, which count as 0: a range from below 0 with an opacity "
+      "curve "
+      "draws them";
+  EXPECT_EQ(frame()->value_note, note);
+  EXPECT_EQ(frame()->density.low, 0);
+  options.range = glm::vec2(-1, 1);
+  EXPECT_EQ(frame()->value_note, note);
+  options.opacity = {{0, 0}, {0.5f, 0}, {1, 1}};
+  EXPECT_EQ(frame()->value_note, "") << "the curve draws nothing there";
+  EXPECT_EQ(frame()->density.low, 0);
+  options.opacity = {{0, 1}, {0.5f, 0}, {1, 1}};
+  EXPECT_EQ(frame()->value_note, "");
+  EXPECT_NEAR(frame()->density.low, -0.5f, 1e-3f);
+  EXPECT_NEAR(frame()->density.high, 1, 1e-3f);
+  EXPECT_EQ(range_of(options, *frame()), glm::vec2(-1, 1));
+  // Rounding of a simulation is no value below 0.
+  options.opacity.clear();
+  const float tiny = -0.005f;
+  for (std::size_t i = sizeof high; i < grid.values.size(); i += sizeof tiny)
+    std::memcpy(&grid.values[i], &tiny, sizeof tiny);
+  options.file = save("b.brv", {grid});
+  EXPECT_EQ(frame()->value_note, "");
+}
+
 // As Mantaflow saves them, of which Blender's are multiplied by the density.
 TEST_F(VolumesTest, ThreeGridsOfChannelsAreColours) {
   const auto color_of = [&](std::vector<grids::Grid> grids, const std::string& name) {
