@@ -166,7 +166,7 @@ void declare_size_options(const Arguments& arguments, SceneOptions& options) {
   arguments
       .add_option("--scale", options.scale,
                   "Metres per unit of the scene, such as 0.001 for millimetres; default: 1, "
-                  "or what brings it between 1 m and 4 km")
+                  "or what brings it between 1 m (glTF: 0.25 m) and 4 km")
       .range(1e-6, 1e6)
       .type_name("X");
 }

@@ -51,10 +51,10 @@ void warn_of_units(const std::string& file, const Box<float>& bounds) {
   if (bounds.empty()) return;
   const glm::vec3 extent = bounds.high - bounds.low;
   const float largest = std::max({extent.x, extent.y, extent.z});
-  if (scenario::fitting_scale(largest) == 1) return;
+  if (scenario::fitting_scale(largest, file) == 1) return;
   char message[160];
   std::snprintf(message, sizeof message, ": %g m wide; if its unit is another, give --scale, such as %g",
-                static_cast<double>(largest), static_cast<double>(scenario::fitting_scale(largest)));
+                static_cast<double>(largest), static_cast<double>(scenario::fitting_scale(largest, file)));
   log_warning(file + message);
 }
 

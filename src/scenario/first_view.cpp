@@ -7,6 +7,7 @@
 #include "core/log.hpp"
 #include "scenario/first_smoke.hpp"
 #include "scene/daylight.hpp"
+#include "scene/load.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -40,7 +41,7 @@ float chosen_scale(const scene::Scene& scene, const std::filesystem::path& path,
   if (options.scale) return *options.scale;
   const Box<float> bounds = scene::world_bounds(scene);
   const float extent = bounds.empty() ? 0 : largest_extent(bounds);
-  const float scale = fitting_scale(extent);
+  const float scale = fitting_scale(extent, path);
   if (scale != 1) {
     char message[160];
     std::snprintf(message, sizeof message, ": %g units wide; scaled by %g to %g m: give --scale to choose",
@@ -202,11 +203,13 @@ scene::Camera camera_with_smoke(scene::Scene& scene, const std::vector<scene::Sm
 
 }  // namespace
 
-float fitting_scale(float extent) {
+float fitting_scale(float extent, const std::filesystem::path& file) {
+  const std::string suffix = scene::lower_extension(file);
+  const float least = suffix == ".gltf" || suffix == ".glb" ? 0.25f : 1;
   float scale = 1;
   if (!(extent > 0) || !std::isfinite(extent)) return scale;
   while (extent * scale > 4000) scale *= extent * scale > 400000 ? 0.001f : 0.1f;
-  while (extent * scale < 1) scale *= 10;
+  while (extent * scale < least) scale *= 10;
   return scale;
 }
 

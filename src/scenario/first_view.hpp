@@ -34,8 +34,9 @@ struct FirstViewOptions {
 };
 
 /// Metres per unit that bring a scene's largest extent into [1 m, 4 km], by a power of ten; 1 where it is
-/// there.
-float fitting_scale(float extent);
+/// there. Of a glTF file, whose unit is a metre, from 0.25 m on: smaller, its smoke would have too few
+/// voxels.
+float fitting_scale(float extent, const std::filesystem::path& file = {});
 
 /// Scales a scene about the origin: objects, lights (so that they light it alike), camera and lists of
 /// places.

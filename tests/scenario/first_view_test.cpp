@@ -49,6 +49,13 @@ TEST_F(FirstViewTest, ScalesByPowersOfTenIntoTheRange) {
       EXPECT_EQ(scale, 1) << extent;
     }
   }
+  for (const char* file : {"a.gltf", "a.glb", "a.GLB"}) {
+    for (const float extent : {0.25f, 0.72f, 0.84f, 3999.0f})
+      EXPECT_EQ(fitting_scale(extent, file), 1) << extent;
+    EXPECT_EQ(fitting_scale(0.1f, file), 10);
+    EXPECT_LT(fitting_scale(5000, file), 1);
+  }
+  EXPECT_EQ(fitting_scale(0.72f, "a.obj"), 10);
   EXPECT_EQ(fitting_scale(0), 1);
   EXPECT_EQ(fitting_scale(INFINITY), 1);
 }

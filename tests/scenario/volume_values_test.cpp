@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+#include "grids/files.hpp"
+#include "scenario/volumes.hpp"
+
+namespace brume::scenario {
+namespace {
+
+/// A folder of its own with volume files.
+class VolumeValuesTest : public testing::Test {
+ protected:
+  VolumeValuesTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("brume_volume_values_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~VolumeValuesTest() override { std::filesystem::remove_all(folder_); }
+
+  /// A brick full of one value.
+  static grids::Grid cube(const std::string& name, float value) {
+    grids::Grid grid;
+    grid.name = name;
+    grid.bricks.emplace_back().active.fill(~std::uint64_t{0});
+    grid.values.resize(grids::kBrickVoxels * sizeof value);
+    for (std::size_t i = 0; i < grid.values.size(); i += sizeof value)
+      std::memcpy(&grid.values[i], &value, sizeof value);
+    return grid;
+  }
+  std::filesystem::path save(const std::string& name, std::vector<grids::Grid> grids) const {
+    const std::filesystem::path path = folder_ / name;
+    grids::save_grid_file(path, {std::move(grids), {}}).value_or_throw();
+    return path;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(VolumeValuesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
+  grids::Grid grid = cube("pressure", -0.5f);
+  const float high = 1;
+  std::memcpy(grid.values.data(), &high, sizeof high);
+  scene::VolumeOptions options{save("a.brv", {grid})};
+  const auto frame = [&] { return load_volume_frame(options.file, options).value_or_throw(); };
+  const std::string note =
+      "\"pressure\" has values below 0, down to -0.5, which count as 0: a range from below 0 with an opacity "
+      "curve "
+      "draws them";
+  EXPECT_EQ(frame()->value_note, note);
+  EXPECT_EQ(frame()->density.low, 0);
+  options.range = glm::vec2(-1, 1);
+  EXPECT_EQ(frame()->value_note, note);
+  options.opacity = {{0, 0}, {0.5f, 0}, {1, 1}};
+  EXPECT_EQ(frame()->value_note, "") << "the curve draws nothing there";
+  EXPECT_EQ(frame()->density.low, 0);
+  options.opacity = {{0, 1}, {0.5f, 0}, {1, 1}};
+  EXPECT_EQ(frame()->value_note, "");
+  EXPECT_NEAR(frame()->density.low, -0.5f, 1e-3f);
+  EXPECT_NEAR(frame()->density.high, 1, 1e-3f);
+  EXPECT_EQ(range_of(options, *frame()), glm::vec2(-1, 1));
+  // Rounding of a simulation is no value below 0.
+  options.opacity.clear();
+  const float tiny = -0.005f;
+  for (std::size_t i = sizeof high; i < grid.values.size(); i += sizeof tiny)
+    std::memcpy(&grid.values[i], &tiny, sizeof tiny);
+  options.file = save("b.brv", {grid});
+  EXPECT_EQ(frame()->value_note, "");
+}
+
+// As Mantaflow saves them, of which Blender's are multiplied by the density.
+TEST_F(VolumeValuesTest, ThreeGridsOfChannelsAreColours) {
+  const auto color_of = [&](std::vector<grids::Grid> grids, const std::string& name) {
+    std::vector<scene::VolumeOptions> options(1);
+    options[0].file = save("a.brv", std::move(grids));
+    options[0].color = name;
+    const auto volumes = Volumes::load(options).value_or_throw();
+    const auto* const colors = volumes->typical_frame(0).colors.get();
+    if (!colors) return glm::vec3(-1);
+    const auto texels = colors->texels<std::uint64_t>(volume::ChannelId{0}, colors->slot_at({0, 0, 0}));
+    return glm::vec3(glm::unpackHalf4x16(texels[4 + 10 * (4 + 10 * 4)]));
+  };
+  std::vector<grids::Grid> grids{cube("density", 0.5f), cube("color_r", 0.5f), cube("color_g", 0.25f),
+                                 cube("color_b", 0)};
+  EXPECT_EQ(color_of(grids, ""), glm::vec3(0.5f, 0.25f, 0));
+  EXPECT_EQ(color_of(grids, "color"), glm::vec3(0.5f, 0.25f, 0));
+  grids[0].metadata.push_back({"file_base_resolution", "vec3i", std::vector<std::byte>(12)});
+  EXPECT_EQ(color_of(grids, ""), glm::vec3(1, 0.5f, 0));
+  grids.pop_back();
+  EXPECT_EQ(color_of(grids, ""), glm::vec3(-1)) << "two channels are no colour";
+  for (const char* part : {"dye_r", "dye_g", "dye_b"}) grids.push_back(cube(part, 0.25f));
+  EXPECT_EQ(color_of(grids, "dye"), glm::vec3(0.5f));
+}
+
+}  // namespace
+}  // namespace brume::scenario
