@@ -38,7 +38,7 @@ TransferCurve::TransferCurve(const planning::TransferInput& transfer, const glm:
   for (std::uint32_t cell = 0; cell < cells; ++cell)
     first.push_back((table_[cell + 2].a - table_[cell + 1].a) * static_cast<float>(cells));
   first.push_back(table_.back().a);
-  for (std::size_t width = 1; 2 * width <= first.size(); width *= 2) {
+  for (std::size_t width = 1; 2 * width <= largest_.front().size(); width *= 2) {
     const std::vector<float>& half = largest_.back();
     std::vector<float> level;
     for (std::size_t i = 0; i + 2 * width <= largest_.front().size(); ++i)
