@@ -1,6 +1,8 @@
 // Lens and shutter of `brume render`.
 #include <gtest/gtest.h>
 
+#include <glm/glm.hpp>
+
 #include "core/file.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
