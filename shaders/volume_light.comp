@@ -26,6 +26,7 @@ layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 
 const bool kHasDense = (kMedia & kMediumDense) != 0u;
 const uint kStepsToLight = 16u;
+const float kOpaqueDepth = 1e4;
 /// Light that shines inside of a medium and is scattered often falls off as 1 / r, not as 1 / r^2 (diffusion): its
 /// ratio to what arrives straight grows with the optical depth. By how much: docs/volume-light.md#glow-in-dense-smoke.
 const float kSpreadInside = 0.4;
@@ -60,8 +61,11 @@ float escape_at(uint volume, vec3 p_world) {
 
 /// Optical depth of the media along a ray to a light.
 float depth_to_light(uint volume, vec3 p_world, Incident incident) {
-  if (kHasDense && volumes[volume].is_dense != 0u)
-    return dense_depth(volume, p_world, incident.to_light, incident.distance).all;
+  if (kHasDense && volumes[volume].is_dense != 0u) {
+    const float depth = dense_depth(volume, p_world, incident.to_light, incident.distance, kMostDepthOften).all;
+    // The ray ends there, and without an albedo of less than 1 the light would not.
+    return depth < kMostDepthOften ? depth : kOpaqueDepth;
+  }
   const float ds = incident.distance / float(kStepsToLight);
   const uint mask =
       volumes_along(p_world, p_world + incident.to_light * incident.distance);
@@ -137,7 +141,7 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
     const float lit = light_visibility(sunlight, p_world);
     float depth = 0.0;
     if (is_dense)
-      depth = dense_depth(volume, p_world, -sunlight.direction, kFar).all;
+      depth = dense_depth(volume, p_world, -sunlight.direction, kFar, kMostDepth).all;
     else
       depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
     light.a = is_dense ? lit * exp(-depth) : lit;

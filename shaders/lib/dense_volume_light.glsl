@@ -17,6 +17,8 @@ const uint kStepsBeyond = 32u;
 const uint kHalfSteps = 8u;
 /// Beyond it nothing of the light is left.
 const float kMostDepth = 16.0;
+/// The same of light that is scattered often, which decays more slowly.
+const float kMostDepthOften = 64.0;
 const uint kDenseDirections = 14u;
 /// Least mean transmittance of the directions at which a dense volume is seen.
 const float kLeastEscape = 1e-3;
@@ -45,12 +47,12 @@ float own_part(uint volume, vec3 p_world, vec3 direction, float distance) {
 }
 
 /// Optical depth of all volumes along the first `part` metres of a ray, in steps of the voxels of a dense one.
-float fine_depth(uint volume, vec3 p_world, vec3 direction, float part) {
+float fine_depth(uint volume, vec3 p_world, vec3 direction, float part, float most) {
   const vec3 per_metre = abs(volumes[volume].voxel_from_world * vec4(direction, 0.0));
   const float voxel = 1.0 / max(per_metre.x, max(per_metre.y, per_metre.z));
   const uint mask = volumes_along(p_world, p_world + direction * part);
   float depth = 0.0, t = 0.0;
-  for (uint i = 0u; t < part && depth < kMostDepth; ++i) {
+  for (uint i = 0u; t < part && depth < most; ++i) {
     const float ds = min(i < kHalfSteps ? 0.5 * voxel : voxel, part - t);
     depth += ds * volumes_extinction(mask, p_world + direction * (t + 0.5 * ds), direction * (0.5 * ds));
     t += ds;
@@ -64,12 +66,13 @@ struct DenseDepth {
   float all;  // of all media
 };
 
-DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance) {
+/// Of a ray of `distance` metres; ends beyond `most`.
+DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance, float most) {
   const float part = own_part(volume, p_world, direction, distance);
   DenseDepth depth;
-  depth.own = depth.all = fine_depth(volume, p_world, direction, part);
+  depth.own = depth.all = fine_depth(volume, p_world, direction, part, most);
   // At most once.
-  for (bool others = params.is_alone == 0u && depth.own < kMostDepth; others; others = false) {
+  for (bool others = params.is_alone == 0u && depth.own < most; others; others = false) {
     depth.all += volumes_depth(p_world + direction * part, direction, distance - part, kStepsBeyond, 0u, 1u);
     depth.all += smoke_depth(p_world, direction, distance);
   }
@@ -92,7 +95,7 @@ Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
     const vec3 diagonal = vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
     const vec3 direction = is_axis ? cube_forward(i) : diagonal * inversesqrt(3.0);
     const float weight = is_axis ? 1.0 / 15.0 : 3.0 / 40.0;
-    const DenseDepth depth = dense_depth(volume, p_world, direction, kFar);
+    const DenseDepth depth = dense_depth(volume, p_world, direction, kFar, kMostDepth);
     sum.escape += weight * exp(-depth.own);
     sum.sky += weight * exp(-depth.all);
     sum.many += weight * exp(-decay * depth.all);

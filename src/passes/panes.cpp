@@ -20,16 +20,18 @@ gpu::GraphicsInfo pane_info(const gpu::ShaderCode& fragment, gpu::Blend blend) {
   return info;
 }
 
-/// From back to front, by their middles; what moves comes last.
+/// From back to front, by the nearest points of their bounds: a pane within another comes before it. What
+/// moves comes last.
 std::vector<const Draw*> in_order(const VisiblePanes& panes) {
   std::vector<const Draw*> draws;
   for (const Draw& draw : panes.scene.draws)
     if (draw.is_pane && panes.view.may_intersect({draw.centre_world, draw.radius}) &&
         !is_hidden(draw, panes.hidden))
       draws.push_back(&draw);
-  std::ranges::stable_sort(draws, std::greater{}, [&](const Draw* draw) {
-    return panes.view.distance_to({draw->centre_world, 0});
-  });
+  const auto nearest = [&](const Draw* draw) {
+    return glm::dot(draw->centre_world, panes.forward) - glm::dot(draw->half_world, glm::abs(panes.forward));
+  };
+  std::ranges::stable_sort(draws, std::greater{}, nearest);
   for (const Draw& draw : panes.moving)
     if (draw.is_pane) draws.push_back(&draw);
   return draws;

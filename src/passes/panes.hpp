@@ -18,6 +18,7 @@ struct VisiblePanes {
   std::span<const Draw> moving;
   HiddenObjects hidden;
   const planning::ViewFrustum& view;
+  glm::vec3 forward{0, 0, -1};  ///< Of the camera, unit.
 };
 
 class PanePass {

@@ -68,7 +68,8 @@ Geometry gather_geometry(const scene::Scene& scene) {
       bounds.high = glm::max(bounds.high, v.position);
     }
     range.centre_world = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.low + bounds.high);
-    range.radius = bounds.empty() ? 0 : 0.5f * glm::length(bounds.high - bounds.low);
+    range.half_world = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.high - bounds.low);
+    range.radius = glm::length(range.half_world);
     geometry.indices.insert(geometry.indices.end(), mesh.indices.begin(), mesh.indices.end());
     geometry.ranges.push_back(range);
   }
@@ -86,6 +87,9 @@ Draw place(const scene::Scene& scene, const Geometry& geometry, const scene::Obj
   for (int axis = 0; axis < 3; ++axis)
     scale = std::max(scale, glm::length(glm::vec3(object.world_from_mesh[axis])));
   draw.radius *= scale;
+  const glm::mat3 linear(object.world_from_mesh);
+  draw.half_world =
+      glm::mat3(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2])) * draw.half_world;
   return draw;
 }
 

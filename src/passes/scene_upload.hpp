@@ -22,8 +22,9 @@ struct Draw {
   glm::mat4 world_from_mesh{1};
   glm::vec3 centre_world{0};  ///< Bounding sphere.
   float radius = 0;
-  float alpha_cutoff = 0;  ///< scene::cutoff_of.
-  bool is_pane = false;    ///< Of PanePass: neither in the G-buffer nor in shadow maps.
+  glm::vec3 half_world{0};  ///< Half of the edges of the bounding box.
+  float alpha_cutoff = 0;   ///< scene::cutoff_of.
+  bool is_pane = false;     ///< Of PanePass: neither in the G-buffer nor in shadow maps.
 };
 
 /// `moves`: over the level.

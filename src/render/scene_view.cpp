@@ -116,8 +116,9 @@ void SceneView::record_panes(gpu::Recorder& recorder, const planning::FramePlan&
                              const passes::PanePass::Inputs& in, const gpu::Image& radiance) const {
   const planning::LevelState& level = plan.input.level;
   const std::vector<passes::Draw> moving = moving_draws(scene_, level);
-  pane_pass_->record(recorder, pane_needs(plan), in, {scene_, moving, level.hidden_objects, plan.frustum},
-                     radiance);
+  pane_pass_->record(
+      recorder, pane_needs(plan), in,
+      {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)}, radiance);
 }
 
 }  // namespace brume::render

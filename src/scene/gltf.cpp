@@ -52,7 +52,7 @@ std::string ignored_features(const tinygltf::Model& model) {
   };
   constexpr double kMostClearRoughness = 0.3;
   bool unlit = false, instances = false, skins = false, morphs = false, wraps = false, frosted = false,
-       blended = false;
+       faint = false, blended = false;
   for (const tinygltf::Node& node : model.nodes) {
     instances = instances || node.extensions.contains("EXT_mesh_gpu_instancing");
     skins = skins || node.skin >= 0;
@@ -64,6 +64,8 @@ std::string ignored_features(const tinygltf::Model& model) {
             sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT;
   for (const tinygltf::Material& material : model.materials) {
     unlit = unlit || material.extensions.contains("KHR_materials_unlit");
+    const double transmission = transmission_of(material);
+    faint = faint || (transmission > 0 && transmission < 0.5);
     frosted = frosted || (material.extensions.contains("KHR_materials_transmission") &&
                           material.pbrMetallicRoughness.roughnessFactor > kMostClearRoughness);
     const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
@@ -80,6 +82,7 @@ std::string ignored_features(const tinygltf::Model& model) {
   add(skins, "skins (meshes are drawn as they are stored)");
   add(morphs, "weights of morph targets");
   add(wraps, "samplers that clamp or mirror (textures repeat)");
+  add(faint, "KHR_materials_transmission below 0.5 (it is drawn opaque)");
   add(frosted, "rough KHR_materials_transmission (what is behind the glass is sharp)");
   add(blended, "blending from an alpha of 0.5 on (it is drawn opaque)");
   add(orthographic, "orthographic cameras (views are perspective)");

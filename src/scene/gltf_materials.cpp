@@ -37,14 +37,13 @@ TextureUse texture_use(const TextureInfo& texture) {
   return use;
 }
 
-/// The fraction of light that passes, by KHR_materials_transmission.
+}  // namespace
+
 double transmission_of(const tinygltf::Material& material) {
   const auto found = material.extensions.find("KHR_materials_transmission");
   if (found == material.extensions.end() || !found->second.Has("transmissionFactor")) return 0;
   return found->second.Get("transmissionFactor").GetNumberAsDouble();
 }
-
-}  // namespace
 
 GltfMaterials::GltfMaterials(const GltfDocument& document, SceneBuilder& builder)
     : document_(document), builder_(builder) {}

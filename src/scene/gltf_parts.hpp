@@ -11,6 +11,9 @@
 
 namespace brume::scene {
 
+/// The fraction of light that passes a material, by KHR_materials_transmission.
+double transmission_of(const tinygltf::Material& material);
+
 class GltfMaterials {
  public:
   GltfMaterials(const GltfDocument& document, SceneBuilder& builder);

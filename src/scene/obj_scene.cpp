@@ -210,6 +210,14 @@ Role role_of(const MtlMaterial& source, const Material& material, const SceneBui
   return role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
 }
 
+/// What of a file would be drawn in another way if it were supported.
+void warn_of_ignored(const Libraries& materials, const std::string& name) {
+  for (const auto& entry : materials.by_name)
+    if (entry.second.opacity >= 0.5f && entry.second.opacity < 1)
+      return log_warning(name + ": not supported, and ignored: opacities from 0.5 on, as of the material " +
+                         in_quotes(entry.first) + " (it is drawn opaque)");
+}
+
 }  // namespace
 
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name) {
@@ -222,6 +230,8 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
   if (!model) return model.failure();
   const auto materials = read_libraries(*model, files);
   if (!materials) return materials.failure();
+
+  warn_of_ignored(*materials, name);
 
   SceneBuilder builder(files, name);
   std::vector<Mesh> meshes = part_meshes(*model);

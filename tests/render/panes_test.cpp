@@ -168,6 +168,33 @@ TEST_F(PanesTest, SmokeIsTintedWhereItIsBehind) {
   }
 }
 
+// Whatever their order in the file.
+TEST_F(PanesTest, ArePlacedByTheirDistance) {
+  std::vector<glm::vec4> found;
+  for (const bool inner_first : {false, true}) {
+    Hall hall;
+    hall.panes = 0;
+    auto scenario = scenario_of_hall(hall);
+    scene::Scene& scene = scenario.scene;
+    scenario.timeline.sky.ambient = glm::vec3(1);
+    for (const bool inner : {inner_first, !inner_first}) {
+      const float half = inner ? 0.5f : 1.2f;
+      add_box(scene.meshes.emplace_back(), glm::vec3(3, 3, 6) - half, glm::vec3(3, 3, 6) + half);
+      scene::Material& film =
+          scene.materials.emplace_back(glass(inner ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
+      film.blended = true;
+      film.transmission = 0;
+      film.opacity = 0.45f;
+      scene::Object box{inner ? "inner" : "outer", static_cast<std::uint32_t>(scene.meshes.size() - 1),
+                        static_cast<std::uint32_t>(scene.materials.size() - 1)};
+      box.role = Role::glass;
+      scene.objects.push_back(box);
+    }
+    found.push_back(middle(picture(scenario)));
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
 TEST_F(PanesTest, ReflectTheSkyThatTheyFace) {
   Hall hall;
   hall.emission = glm::vec3(0);

@@ -291,6 +291,11 @@ TEST(Gltf, SaysWhatIsNotSupported) {
                    ""),
             "")
       << "a pane";
+  EXPECT_EQ(
+      warned(R"(, "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.3}},
+                          "pbrMetallicRoughness": {"roughnessFactor": 0}}])",
+             ""),
+      begin + "KHR_materials_transmission below 0.5 (it is drawn opaque)");
   EXPECT_EQ(warned(R"(, "cameras": [{"type": "orthographic",
                           "orthographic": {"xmag": 1, "ymag": 1, "zfar": 10, "znear": 0.1}}])",
                    ""),
