@@ -66,7 +66,7 @@ struct DenseDepth {
   float all;  // of all media
 };
 
-/// Of a ray of `distance` metres; ends beyond `most`.
+/// Along the first `distance` metres of a ray; stops once the depth exceeds `most`.
 DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance, float most) {
   const float part = own_part(volume, p_world, direction, distance);
   DenseDepth depth;

@@ -108,7 +108,7 @@ class ChannelColors {
   }
 
  private:
-  /// Of a part at the place of a voxel of the first; nullopt: no voxel around it is active.
+  /// The value of one channel where the first has this voxel; nullopt: no voxel around it is active.
   std::optional<double> value_at(Lookup& part, glm::ivec3 index) const {
     const Grid& grid = part.grid();
     if (grid.world_from_index == first_) {

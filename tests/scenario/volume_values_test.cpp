@@ -5,39 +5,12 @@
 
 #include "grids/files.hpp"
 #include "scenario/volumes.hpp"
+#include "tests/scenario/volume_folder.hpp"
 
 namespace brume::scenario {
 namespace {
 
-/// A folder of its own with volume files.
-class VolumeValuesTest : public testing::Test {
- protected:
-  VolumeValuesTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("brume_volume_values_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~VolumeValuesTest() override { std::filesystem::remove_all(folder_); }
-
-  /// A brick full of one value.
-  static grids::Grid cube(const std::string& name, float value) {
-    grids::Grid grid;
-    grid.name = name;
-    grid.bricks.emplace_back().active.fill(~std::uint64_t{0});
-    grid.values.resize(grids::kBrickVoxels * sizeof value);
-    for (std::size_t i = 0; i < grid.values.size(); i += sizeof value)
-      std::memcpy(&grid.values[i], &value, sizeof value);
-    return grid;
-  }
-  std::filesystem::path save(const std::string& name, std::vector<grids::Grid> grids) const {
-    const std::filesystem::path path = folder_ / name;
-    grids::save_grid_file(path, {std::move(grids), {}}).value_or_throw();
-    return path;
-  }
-
-  std::filesystem::path folder_;
-};
+class VolumeValuesTest : public VolumeFolder {};
 
 TEST_F(VolumeValuesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
   grids::Grid grid = cube("pressure", -0.5f);

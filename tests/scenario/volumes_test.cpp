@@ -10,41 +10,12 @@
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "scenario/scenario.hpp"
+#include "tests/scenario/volume_folder.hpp"
 
 namespace brume::scenario {
 namespace {
 
-/// A folder of its own with volume files.
-class VolumesTest : public testing::Test {
- protected:
-  VolumesTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("brume_volumes_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~VolumesTest() override { std::filesystem::remove_all(folder_); }
-
-  /// A brick full of one value.
-  static grids::Grid cube(const std::string& name, float value) {
-    grids::Grid grid;
-    grid.name = name;
-    grid.grid_class = grids::GridClass::fog_volume;
-    grid.bricks.emplace_back().active.fill(~std::uint64_t{0});
-    for (std::size_t voxel = 0; voxel < grids::kBrickVoxels; ++voxel) {
-      const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
-      grid.values.insert(grid.values.end(), bytes, bytes + sizeof value);
-    }
-    return grid;
-  }
-  std::filesystem::path save(const std::string& name, std::vector<grids::Grid> grids) const {
-    const std::filesystem::path path = folder_ / name;
-    grids::save_grid_file(path, {std::move(grids), {}}).value_or_throw();
-    return path;
-  }
-
-  std::filesystem::path folder_;
-};
+class VolumesTest : public VolumeFolder {};
 
 TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
   for (const int number : {3, 4, 6})

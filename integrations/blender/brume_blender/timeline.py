@@ -21,7 +21,7 @@ _AHEAD = 5.0  # Distance from the camera to its target [m].
 
 # Events of one tick happen in this order.
 _ORDER = ("DOOR", "SMOKE", "SHOT", "WORD", "BLAST")
-# Types of events in timelines that are not called as those of empties are.
+# Event types whose names in timelines differ from those of empties.
 NAMES = {"WORD": "text"}
 
 
