@@ -1,4 +1,5 @@
-// Tracking through media whose transmittance and emission are known.
+// Tracking through media whose transmittance and emission are known, and bounds of them.
+#include "reference/volume_medium.hpp"
 #include "tests/path_tracer/box_medium.hpp"
 #include "tests/path_tracer/statistics.hpp"
 
@@ -185,6 +186,26 @@ TEST(MajorantsTest, RaysVisitTheCellsThatTheyCross) {
     }
     EXPECT_NEAR(inside, stepped, 2.5 * double{ray.end} / kSteps + 1e-4);
   }
+}
+
+// Null collisions stand on it: no value of an interval is more opaque than the interval's bound.
+TEST(TransferCurveTest, TheBoundOfAnIntervalHoldsForAllOfItsValues) {
+  planning::TransferInput transfer;
+  transfer.range = {-1, 3};
+  transfer.opacity = {{0, 0.2f}, {0.1f, 0}, {0.5f, 1}, {0.501f, 0.1f}, {1, 0.7f}};
+  const TransferCurve curve(transfer, glm::vec3(0.9f));
+  ASSERT_TRUE(curve.has_opacity());
+  constexpr int kValues = 67;
+  const auto value = [](int i) { return -1.5f + 5.0f * static_cast<float>(i) / kValues; };
+  for (int low = 0; low < kValues; ++low)
+    for (int high = low; high < kValues; ++high) {
+      const float bound = curve.largest_opacity(value(low), value(high));
+      EXPECT_LE(bound, 1 + 1e-4f);
+      for (int i = low; i <= high; ++i)
+        EXPECT_GE(bound, curve.at(value(i)).a - 1e-4f) << low << ' ' << high << ' ' << i;
+    }
+  // The bound says something: between the valley and the peak it follows the curve.
+  EXPECT_LT(curve.largest_opacity(-0.7f, -0.5f), 0.1f);
 }
 
 }  // namespace
