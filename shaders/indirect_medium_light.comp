@@ -7,12 +7,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/indirect_lights.glsl"
 #include "shared/scattering.h"
+#include "shared/volume.h"
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = kBindIndirectProbes) readonly buffer Probes { uint probes[]; };
 layout(scalar, binding = kBindIndirectHits) readonly buffer Hits { uint hits[]; };
 layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
 layout(binding = kBindIndirectCubeTarget, rgba16f) uniform writeonly image3D cube;
+layout(scalar, binding = kBindVolumes) uniform Volumes { VolumeInstance volumes[kMaxVolumes]; };
+#include "lib/glow_field.glsl"
 
 /// Points of a cell: light falls off too fast from its border for the mean to be that of the middle. Along each axis
 /// half of them are at each point of the Gauss-Legendre rule.
@@ -33,6 +36,13 @@ float escape_at(uint probe, uint phase, vec3 p_cells) {
   for (uint i = 0u; i < kProbeRays; ++i)
     sum += exp(-medium_depth(p_cells, probe_direction(i, phase), hit_cells(hits[i * params.probe_count + probe])));
   return sum / float(kProbeRays);
+}
+
+/// The albedo of what lies in a cell, of which a similar medium that scatters evenly is known (indirect_medium.comp).
+vec3 albedo_in(vec4 matter) {
+  const vec3 similar = min(matter.rgb / matter.a, 1.0);
+  const float mean = dot(similar, vec3(1.0 / 3.0)), own_mean = mean / (1.0 - params.g + params.g * mean);
+  return min(similar * ((1.0 - params.g * own_mean) / (1.0 - params.g)), 1.0);
 }
 
 struct Arriving {
@@ -69,6 +79,29 @@ Arriving light_in_cell(Light light, vec3 p_cells, Formula formula) {
   return sum;
 }
 
+/// The light of volumes in view that glow, in the volumes themselves.
+struct OwnGlow {
+  uint of;  // bit n: the cell lies in the volume of number n
+  vec3 straight, scattered;
+};
+
+OwnGlow own_glow_in(vec3 p_cells) {
+  OwnGlow sum = OwnGlow(0u, vec3(0.0), vec3(0.0));
+  for (uint v = 0u; v < frame.media.volume_count; ++v) {
+    const vec3 low = volumes[v].bounds_min, high = volumes[v].bounds_max;
+    const vec3 middle = volumes[v].voxel_from_world * vec4(world_from_indirect(p_cells), 1.0);
+    if (!glows(volumes[v]) || any(lessThan(middle, low)) || any(greaterThan(middle, high))) continue;
+    sum.of |= 1u << volumes[v].number;
+    for (uint k = 0u; k < kPoints; ++k) {
+      const vec3 p_world = world_from_indirect(p_cells + point_of_cell(k));
+      const vec3 p_voxel = volumes[v].voxel_from_world * vec4(p_world, 1.0);
+      sum.straight += own_glow(v, kGlowStraight, p_voxel) / float(kPoints);
+      sum.scattered += own_glow(v, kGlowScattered, p_voxel) / float(kPoints);
+    }
+  }
+  return sum;
+}
+
 void main() {
   const uint probe = gl_GlobalInvocationID.x;
   if (probe >= params.probe_count) return;
@@ -77,24 +110,28 @@ void main() {
   if (matter.a <= 0.0) return;
   const vec3 p_cells = vec3(cell) + 0.5;
   // Of the medium itself, which the cells replace by a similar one.
-  const float similar = 1.0 - params.g * dot(params.albedo, vec3(1.0 / 3.0));
+  const vec3 albedo = albedo_in(matter);
+  const float similar = 1.0 - params.g * dot(albedo, vec3(1.0 / 3.0));
   Formula formula;
   vec3 sky = vec3(0.0);
   for (uint k = 0u; k < kPoints; ++k) {
     const float escape = escape_at(probe, probe_phase(cell), p_cells + point_of_cell(k));
     sky += scattered_sky(min(matter.rgb / matter.a, 1.0), 1.0, 0.0, escape) / float(kPoints);
-    const ManyScatterings many = multiple_scattering(many_fit(), params.albedo, params.g, pow(escape, 1.0 / similar));
+    const ManyScatterings many = multiple_scattering(many_fit(), albedo, params.g, pow(escape, 1.0 / similar));
     formula.fraction[k] = many.fraction;
     formula.decay = many.decay / similar;
   }
   Arriving sum = Arriving(vec3(0.0), vec3(0.0));
+  const OwnGlow own = own_glow_in(p_cells);
   for (uint i = 0u; i < params.light_count; ++i) {
+    if (lights[i].glow_of > 0u && (own.of >> (lights[i].glow_of - 1u) & 1u) != 0u) continue;
     const Arriving here = light_in_cell(lights[i], p_cells, formula);
     sum.direct += here.direct;
     sum.formula += here.formula;
   }
   const float per_sphere = 0.25 / 3.14159265;
-  imageStore(target, cell, vec4(sum.direct * per_sphere, 1.0));
+  imageStore(target, cell, vec4(sum.direct * per_sphere + own.straight, 1.0));
   imageStore(cube, cell + ivec3(0, 0, int(kSkySlab) * frame.indirect.size.z), vec4(sky, 1.0));
-  imageStore(cube, cell + ivec3(0, 0, int(kFormulaSlab) * frame.indirect.size.z), vec4(sum.formula * per_sphere, 1.0));
+  imageStore(cube, cell + ivec3(0, 0, int(kFormulaSlab) * frame.indirect.size.z),
+             vec4(sum.formula * per_sphere + own.scattered, 1.0));
 }

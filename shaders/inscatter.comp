@@ -24,14 +24,22 @@ layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
 
-/// Mean transmittance out of the smoke, over all directions.
-float escape_of(uint block, uint local) {
-  float escape = 0.0;
+/// Means over all directions.
+struct SkyThroughSmoke {
+  float escape;  // transmittance out of the smoke
+  vec2 seen;     // seen_around, through it
+};
+
+SkyThroughSmoke sky_through_smoke(uint block, uint local, vec3 p_world) {
+  const vec4 around = sky_around(p_world);
+  SkyThroughSmoke sum = SkyThroughSmoke(0.0, vec2(0.0));
   for (uint k = 0u; k < kSkyPages; ++k) {
-    const vec2 depths = unpackHalf2x16(blocks[(block + k) * kTexelsPerBrick + local]);
-    escape += (exp(-depths.x) + exp(-depths.y)) / float(kSkyRays);
+    const vec2 passed = exp(-unpackHalf2x16(blocks[(block + k) * kTexelsPerBrick + local]));
+    sum.escape += passed.x + passed.y;
+    sum.seen += passed.x * seen_around(around, sky_ray(2u * k)) +
+                passed.y * seen_around(around, sky_ray(2u * k + 1u));
   }
-  return escape;
+  return SkyThroughSmoke(sum.escape / float(kSkyRays), sum.seen / float(kSkyRays));
 }
 
 /// Mean overestimate of exp(-k depth) by linear interpolation between texels an optical depth of `step` apart:
@@ -40,12 +48,13 @@ vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * ste
 
 struct ScatteredLights {
   vec3 once, often;
+  vec3 on_ground;  // irradiance of suns on a level surface here, without smoke
   vec3 side;  // sum of the directions to the lights, each times the sum of the channels of its light
 };
 
 /// Light of all lights of a brick at a texel, scattered towards the eye.
 ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, vec3 to_eye, ManyScatterings many) {
-  ScatteredLights sum = ScatteredLights(vec3(0.0), vec3(0.0), vec3(0.0));
+  ScatteredLights sum = ScatteredLights(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   for (uint k = 0u; k < brick.light_count; ++k) {
     const uvec2 light = brick_lights[brick.first_light + k];
     const vec2 depth_lit = unpackHalf2x16(blocks[light.y * kTexelsPerBrick + local]);
@@ -56,6 +65,7 @@ ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, ve
     const vec3 arriving = incident.irradiance * depth_lit.y;
     const vec3 once = arriving * (exp(-depth_lit.x) * phase_value(frame.look.phase, cos_angle));
     const vec3 often = arriving * scattered_often(many, depth_lit.x, cos_angle);
+    if (lights[light.x].kind == kLightDirectional) sum.on_ground += arriving * max(incident.to_light.y, 0.0);
     sum.once += once;
     sum.often += often;
     // What is scattered often depends less on the depth.
@@ -92,20 +102,20 @@ void light_texel(LightGather brick, uint local) {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
-  const float escape = escape_of(brick.sky_page, local);
+  const SkyThroughSmoke sky = sky_through_smoke(brick.sky_page, local, p_world);
   const float density = max(texelFetch(filtered_density_atlas, at, 0).r, 0.0);
   const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
-  ManyScatterings many = multiple_scattering(frame.look, escape);
+  ManyScatterings many = multiple_scattering(frame.look, sky.escape);
   many.fraction *= excess / interpolation_excess(many.decay, texel_depth);
   const ScatteredLights lights = scattered_lights(brick, local, p_world, to_eye, many);
   vec3 light = lights.once / excess;
   if (frame.indirect.bounces > 0u)
-    light += indirect_at(p_world, to_eye, lights.often / excess, escape);
+    light += indirect_at(p_world, to_eye, lights.often / excess, sky.escape);
   else
-    light += lights.often / excess + frame.sky.ambient * sky_visibility(p_world) *
-                                         scattered_sky(frame.look.albedo, frame.look.multiple_scattering,
-                                                       mean_cosine(frame.look.phase), escape);
+    light += lights.often / excess +
+             scattered_sky(frame.look.albedo, frame.look.multiple_scattering, mean_cosine(frame.look.phase),
+                           sky.escape, radiance_around(sky.seen, lights.on_ground));
   imageStore(inscatter, at, vec4(light, 1.0));
   if (frame.look.erosion > 0.0)
     imageStore(light_side, at, light_side_at(texel_position(brick.slot, local), lights.side, light * excess));

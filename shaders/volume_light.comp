@@ -20,6 +20,7 @@ layout(binding = kBindSkyDepths) uniform sampler3D sky_depths;
 layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D light_target;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/dense_volume_light.glsl"
+#include "lib/glow_field.glsl"
 #include "lib/indirect_light.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
@@ -27,9 +28,6 @@ layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 const bool kHasDense = (kMedia & kMediumDense) != 0u;
 const uint kStepsToLight = 16u;
 const float kOpaqueDepth = 1e4;
-/// Light that shines inside of a medium and is scattered often falls off as 1 / r, not as 1 / r^2 (diffusion): its
-/// ratio to what arrives straight grows with the optical depth. By how much: docs/volume-light.md#glow-in-dense-smoke.
-const float kSpreadInside = 0.4;
 const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
 
 /// Whether a sample that reads this cell can lie in a brick.
@@ -49,14 +47,17 @@ float swept_depth(sampler3D depths, uint volume, uint number, VolumeSweep sweep,
   return textureLod(depths, (first + clamp(at * edge, vec3(0.5), vec3(edge - 0.5))) / size, 0.0).r;
 }
 
-/// Mean transmittance of the directions of the sky.
-float escape_at(uint volume, vec3 p_world) {
-  float sum = 0.0;
+/// What arrives through the sweeps along the sky's directions.
+Arrivals swept_arrivals(uint volume, vec3 p_world, vec4 around) {
+  Arrivals sum = no_arrivals();
   for (uint i = 0u; i < kSkySweeps; ++i) {
     const VolumeSweep sweep = sweeps[volume * kSweepsOfVolume + 1u + i];
-    sum += exp(-swept_depth(sky_depths, volume, i, sweep, p_world));
+    const vec3 to_sky = -sweep.world_from_sweep[2] / sweep.length_m;
+    const float passed = exp(-swept_depth(sky_depths, volume, i, sweep, p_world)) / float(kSkySweeps);
+    sum.escape += passed;
+    sum.seen += passed * seen_around(around, to_sky);
   }
-  return sum / float(kSkySweeps);
+  return sum;
 }
 
 /// Optical depth of the media along a ray to a light.
@@ -79,12 +80,18 @@ float depth_to_light(uint volume, vec3 p_world, Incident incident) {
 /// Light of all lights but the sun, scattered equally in all directions: once, and more often.
 struct OtherLights {
   vec3 once, often;
+  vec3 own;  // the part of `often` that is the volume's own glow
 };
 
-OtherLights other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings many) {
-  OtherLights sum = OtherLights(vec3(0.0), vec3(0.0));
+OtherLights other_lights(uint volume, vec3 p_voxel, vec3 p_world, vec3 albedo, ManyScatterings many, float weight) {
+  OtherLights sum = OtherLights(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (glows(volumes[volume])) {
+    sum.once = albedo * own_glow(volume, kGlowStraight, p_voxel);
+    sum.often = sum.own = albedo * weight * own_glow(volume, kGlowScattered, p_voxel);
+  }
   for (uint i = 0u; i < frame.light_count; ++i) {
     if (i == params.sun) continue;
+    if (lights[i].glow_of == volumes[volume].number + 1u) continue;
     const Incident incident = light_at(lights[i], p_world);
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
     const float lit = light_visibility(lights[i], p_world);
@@ -92,9 +99,7 @@ OtherLights other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings
     const float depth = depth_to_light(volume, p_world, incident);
     const vec3 arriving = incident.irradiance * (lit * kPerSphere);
     sum.once += arriving * exp(-depth) * albedo;
-    const bool inside = lights[i].radius > 0.0 && frame.indirect.bounces == 0u;
-    const float spread = inside ? 1.0 + kSpreadInside * depth : 1.0;
-    sum.often += arriving * many.fraction * exp(-many.decay * depth) * spread;
+    sum.often += arriving * many.fraction * exp(-many.decay * depth);
   }
   return sum;
 }
@@ -114,19 +119,31 @@ vec3 mean_albedo(uint i, vec3 p_voxel, vec3 cell_voxels) {
   return extinction > 0.0 ? sum / extinction : volumes[i].look.albedo;
 }
 
+/// Scattered light of the sky and of surfaces around.
+vec3 light_from_around(VolumeLook look, vec3 albedo, ManyScatterings many, Arrivals arrivals, bool is_dense,
+                       vec3 on_ground) {
+  const vec3 arriving = radiance_around(arrivals.seen, on_ground);
+  if (!is_dense)
+    return albedo * scattered_sky(look.albedo, look.multiple_scattering, look.anisotropy, arrivals.escape, arriving);
+  vec3 often;
+  for (uint c = 0u; c < 3u; ++c) often[c] = radiance_around(arrivals.seen_often[c], on_ground)[c];
+  return albedo * arriving + many.fraction * often;
+}
+
 /// The light in a cell of a volume.
 vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
   const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
   VolumeLook look = volumes[volume].look;
   if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, cell_voxels);
-  Arrivals arrivals = Arrivals(0.0, 0.0, vec3(0.0));
+  const vec4 around = sky_around(p_world);
+  Arrivals arrivals;
   if (is_dense) {
     const vec3 decay = multiple_scattering(many_fit(), look.albedo, look.anisotropy, 0.0).decay;
-    arrivals = dense_arrivals(volume, p_world, decay);
+    arrivals = dense_arrivals(volume, p_world, around, decay);
     if (arrivals.escape < kLeastEscape) return vec4(0.0);
   } else {
-    arrivals.escape = escape_at(volume, p_world);
+    arrivals = swept_arrivals(volume, p_world, around);
   }
   // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
   const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
@@ -135,7 +152,7 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   const bool in_cells = frame.indirect.bounces > 0u && !is_dense;
   many.fraction *= look.multiple_scattering * albedo;
   vec4 light = vec4(0.0);
-  vec3 often = vec3(0.0);
+  vec3 often = vec3(0.0), on_ground = vec3(0.0);
   if (params.sun != kNoSun) {
     const Light sunlight = lights[params.sun];
     const float lit = light_visibility(sunlight, p_world);
@@ -145,21 +162,19 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
     else
       depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
     light.a = is_dense ? lit * exp(-depth) : lit;
+    on_ground = sunlight.intensity * (lit * max(-sunlight.direction.y, 0.0));
     often = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
   }
-  const OtherLights others = other_lights(volume, p_world, albedo, many);
+  const OtherLights others = other_lights(volume, p_voxel, p_world, albedo, many, look.multiple_scattering);
   often += others.often;
   light.rgb = others.once;
-  const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
-  const vec3 sky = is_dense ? albedo * arrivals.sky + many.fraction * arrivals.many
-                            : albedo * scattered_sky(look.albedo, look.multiple_scattering, look.anisotropy,
-                                                     arrivals.escape);
-  if (in_cells)
-    light.rgb += refined_by_formula(albedo * indirect_field(p_world).mean, albedo * formula_in_cells(p_world), often,
-                                    detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering,
-                                                    arrivals.escape));
-  else
-    light.rgb += often + frame.sky.ambient * open_sky * sky;
+  if (in_cells) {
+    const vec3 detail = detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering, arrivals.escape);
+    const vec3 of_cells = albedo * indirect_field(p_world).mean;
+    // A few bounces between coarse cells miss much of what glows in dense matter.
+    light.rgb += max(refined_by_formula(of_cells, albedo * formula_in_cells(p_world), often, detail), others.own);
+  } else
+    light.rgb += often + light_from_around(look, albedo, many, arrivals, is_dense, on_ground);
   return light;
 }
 

@@ -1,4 +1,5 @@
 """Writes the results of script/compare-cycles as Markdown."""
+import grids
 from report import table
 
 
@@ -37,6 +38,8 @@ def markdown(results):
                      f"{results['step_rate']:g} voxels. Mean radiance of the parts of a grid of 4x3; differences of "
                      "Brume from Cycles.\n")
         parts.append(_scenes(results))
+    if results["grids"]:
+        parts.append(grids.markdown(results["grids"]))
     if results["speed"]:
         speed = results["speed"]
         parts.append("Multiple scattering in a cloud of {}^3 voxels, {}x{}:\n".format(speed["edge"], *speed["size"]))

@@ -10,6 +10,13 @@ class Nodes:
         self._tree = owner.node_tree
         self._tree.nodes.clear()
 
+    @classmethod
+    def of(cls, material):
+        """Those that a material has, and more."""
+        made = cls.__new__(cls)
+        made._tree = material.node_tree
+        return made
+
     def add(self, kind, **settings):
         node = self._tree.nodes.new("ShaderNode" + kind)
         for name, value in settings.items():

@@ -261,7 +261,7 @@ typedef struct brume_frame_params {
   /// Moves the jitter of the march, usually up by one a frame; equal numbers give equal smoke.
   uint32_t jitter_index;
   uint32_t continues;  ///< 1: the next frame of a film (brume_renderer_params::temporal).
-  float ambient[3];    ///< Radiance of the sky that lights the smoke, [0, 10^6].
+  float ambient[3];    ///< Light of the sky, [0, 10^6]: radiance (0.75 + 0.375 y) times it from height y.
   float bounce;        ///< The fraction of it where no sky is visible, [0, 1].
   /// How often surfaces of the level, which are white, and smoke pass light on to each other, [0, 16]. 0:
   /// never, and a formula stands for light that is scattered more than once.

@@ -4,6 +4,7 @@
 #define DENSE_VOLUME_LIGHT_GLSL
 #include "lib/frame.glsl"
 #include "lib/optical_depth.glsl"
+#include "lib/sky_light.glsl"
 #include "lib/volume_depth.glsl"
 #include "lib/volume_extinction.glsl"
 #include "shared/light.h"
@@ -79,16 +80,20 @@ DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance
   return depth;
 }
 
-/// What arrives at a point of a dense volume, as means over the directions: those of the axes and the diagonals of a
-/// cube, weighted so that polynomials of up to degree 5 are integrated exactly (Lebedev 1976).
+/// What arrives at a point of a volume, as means over the directions.
 struct Arrivals {
   float escape;  // transmittance of the volume: what it holds back it may scatter again
-  float sky;     // of all media
-  vec3 many;     // the same of light that decays as after many scatterings
+  vec2 seen;     // seen_around, through all media
+  mat3x2 seen_often;  // in dense volumes the same for light that decays as after many scatterings, a column a channel
 };
 
-Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
-  Arrivals sum = Arrivals(0.0, 0.0, vec3(0.0));
+Arrivals no_arrivals() { return Arrivals(0.0, vec2(0.0), mat3x2(0.0)); }
+
+/// Those at a point of a dense volume: along the axes and the diagonals of a cube, weighted so that polynomials of up to
+/// degree 5 are integrated exactly (Lebedev 1976). `around`: sky_around.
+
+Arrivals dense_arrivals(uint volume, vec3 p_world, vec4 around, vec3 decay) {
+  Arrivals sum = no_arrivals();
   for (uint i = 0u; i < kDenseDirections; ++i) {
     const bool is_axis = i < 6u;
     const uint corner = i - 6u;
@@ -97,8 +102,9 @@ Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
     const float weight = is_axis ? 1.0 / 15.0 : 3.0 / 40.0;
     const DenseDepth depth = dense_depth(volume, p_world, direction, kFar, kMostDepth);
     sum.escape += weight * exp(-depth.own);
-    sum.sky += weight * exp(-depth.all);
-    sum.many += weight * exp(-decay * depth.all);
+    const vec2 seen = weight * seen_around(around, direction);
+    sum.seen += exp(-depth.all) * seen;
+    sum.seen_often += outerProduct(seen, exp(-decay * depth.all));
   }
   return sum;
 }

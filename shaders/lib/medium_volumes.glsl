@@ -4,13 +4,11 @@
 #define MEDIUM_VOLUMES_GLSL
 #include "lib/volume_detail.glsl"
 #include "lib/volume_disturbance.glsl"
+#include "lib/volume_glow.glsl"
 #include "lib/volume_inscatter.glsl"
 
-layout(binding = kBindMaskPairs) uniform sampler3D mask_pairs;
-
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
-const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
-const bool kHasMasks = (kMedia & kMediumMasks) != 0u, kHasGlow = kHasHeat || kHasMasks;
+const bool kIsLit = (kMedia & kMediumLit) != 0u, kHasGlow = kHasHeat || kHasMasks;
 
 /// A ray in the voxel space of a volume, and where it is inside the bounds [m].
 struct VolumeRay {
@@ -139,12 +137,6 @@ void add_volume(uint i, VolumeMatter matter, vec4 masks, LightTexels at, float p
     sum.glow += volume_effects[i].tints * masks;
     ++texture_samples;
   }
-}
-
-/// The masks of a volume at a place in its atlas.
-vec4 masks_at(uint i, vec3 uvw) {
-  if (volumes[i].colors.kind == kColorsPair) return vec4(textureLod(mask_pairs, uvw, 0.0).rg, 0.0, 0.0);
-  return textureLod(color_grids, uvw, 0.0);
 }
 
 /// Adds volume i at a point of its voxel space that noise has moved: its brick is another one at each sample.

@@ -3,14 +3,13 @@
 #ifndef VOLUME_DISTURBANCE_GLSL
 #define VOLUME_DISTURBANCE_GLSL
 #include "lib/noise_tile.glsl"
+#include "lib/volume_effects.glsl"
 #include "lib/volume_values.glsl"
 #include "shared/media.h"
 
 const bool kHasDisturbance = (kMedia & kMediumDisturbed) != 0u;
 /// Of a span that is not that of a brick: noise moves each of its samples.
 const uint kDisturbedSlot = 0xfffffffdu;
-
-layout(scalar, binding = kBindVolumeEffects) readonly buffer VolumeEffects { VolumeEffect volume_effects[]; };
 
 /// The largest displacement [voxels].
 vec3 disturbance_of(uint i) { return kHasDisturbance ? volume_effects[i].amplitude : vec3(0.0); }

@@ -1,4 +1,4 @@
-// Light that volumes besides the smoke scatter and emit at a sample (shared/volume_light.h). The includer defines the
+// Light that volumes besides the smoke scatter at a sample (shared/volume_light.h). The includer defines the
 // constant kMedia.
 #ifndef VOLUME_INSCATTER_GLSL
 #define VOLUME_INSCATTER_GLSL
@@ -12,7 +12,6 @@ const bool kHasSun = (kMedia & kMediumSun) != 0u, kHasDense = (kMedia & kMediumD
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
 layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
-layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
 
 /// Phase function of the sun's light towards the eye.
 float volume_phase(uint i, WorldRay world) {
@@ -47,15 +46,6 @@ vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
   const float depth = is_dense ? 0.0 : textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r;
   const float arrives = light.a * exp(-depth);
   return light.rgb + albedo * frame.media.sun_irradiance * (arrives * phase);
-}
-
-/// What a volume's heat emits at a point, per metre and per look.extinction.
-vec3 volume_glow(uint i, vec3 p_world) {
-  const float heat = volume_value(volumes[i].heat.bricks, volumes[i].heat.voxel_from_world * vec4(p_world, 1.0));
-  if (heat <= 0.0) return vec3(0.0);
-  const vec2 size = vec2(textureSize(volume_colors, 0));
-  const float column = clamp(heat * volumes[i].heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
-  return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
 }
 
 #endif

@@ -28,7 +28,7 @@ SHARED_SIZE(Camera, 124);
 struct Sky {
   vec3 zenith;   // radiance
   vec3 horizon;  // radiance
-  vec3 ambient;  // irradiance / pi, from all directions
+  vec3 ambient;  // radiance, times sky_shape (shared/sky_light.h)
   float stars;   // radiance of the brightest star
   float bounce;  // fraction of ambient that surfaces reflect to where no sky is visible, [0, 1]
 };

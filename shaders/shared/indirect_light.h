@@ -48,10 +48,9 @@ struct IndirectParams {
   uint patch_count, probe_count, light_count;
   uint first_probe, end_probe;  // that gather in a dispatch
   float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
-  vec3 albedo;       // of the medium that the formula stands for
-  float g;           // mean cosine of its phase function
+  float g;           // mean cosine of the phase function of media
 };
-SHARED_SIZE(IndirectParams, 64);
+SHARED_SIZE(IndirectParams, 52);
 
 /// Slabs of the cube, those of light, and those of the formulas.
 SHARED_CONST uint kIndirectSlabs = 8u;

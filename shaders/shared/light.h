@@ -26,7 +26,7 @@ struct Light {
   uint shadow_layer;
   float radius;   // of a ball that shines like the point [m]: inside of it all is lit as at its edge, and nothing casts
                   // shadows
-  float padding;  // to a multiple of 16 bytes
+  uint glow_of;   // of what glows in a volume: VolumeInstance::number + 1; 0: of anything else
 };
 SHARED_SIZE(Light, 64);
 

@@ -25,7 +25,7 @@ struct RaycastView {
   float near_z;                // of the depth image [m]
   vec3 sun_direction;          // towards the sun, unit [view space]
   vec3 sun_irradiance;         // on a surface that faces the sun
-  vec3 ambient;                // irradiance / pi, from all directions
+  vec3 ambient;                // mean radiance from all directions
   Phase phase;
   float opaque_transmittance;  // below it a ray is opaque
 };

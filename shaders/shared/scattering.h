@@ -64,6 +64,11 @@ SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float g, float p) 
   return pow(vec3(max(p, 1e-30f)), sqrt((vec3(1.0f) - again) * (vec3(1.0f) - g * again)));
 }
 
+/// The same for light from around that is not uniform, of which `arrival` arrives directly, in the place of p.
+SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float g, float p, vec3 arrival) {
+  return scattered_sky(albedo, weight, g, p) * (arrival / max(p, 1e-30f));
+}
+
 /// The part of `scattered` that is scattered more than once.
 SHARED_FUNCTION vec3 scattered_often(ManyScatterings many, float depth, float cos_angle) {
   return many.fraction * exp(-many.decay * depth) * henyey_greenstein(many.g, cos_angle);

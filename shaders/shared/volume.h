@@ -140,8 +140,17 @@ struct VolumeInstance {
   VolumeColors colors;
   uint is_dense;  // 1: opaque within a voxel or two, like a surface; else 0
   VolumeDetail detail;
+  uint number;  // in the frame's list of volumes, in view or not
 };
-SHARED_SIZE(VolumeInstance, 488);
+SHARED_SIZE(VolumeInstance, 492);
+
+/// Whether a volume can glow.
+SHARED_FUNCTION bool glows(VolumeInstance volume) {
+  vec3 emission = volume.look.emission;
+  bool by_transfer = volume.transfer.kind != kTransferNone && volume.transfer.emitted > 0.0f;
+  return volume.heat.per_value > 0.0f || volume.colors.kind >= kColorsMasks || by_transfer ||
+         max(emission.r, max(emission.g, emission.b)) > 0.0f;
+}
 
 /// What few volumes have: tints of their masks, noise that moves the places at which they are sampled, and the place of
 /// their detail's.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "brume_shaders.hpp"
+#include "shared/glow_field.h"
 #include "shared/media.h"
 #include "shared/noise.h"
 #include "shared/sky_light.h"
@@ -121,7 +122,6 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
   params_.patch_count = patch_count_;
   params_.probe_count = probe_count_;
   params_.light_count = static_cast<std::uint32_t>(lights.size());
-  params_.albedo = in.albedo;
   params_.g = in.g;
   upload_list(recorder, lights_, lights);
   recorder.clear(next_cube_, {});
@@ -172,6 +172,8 @@ void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) 
   dispatch_lit(recorder, in, medium_light_pass_, {probe_count_, 1, 1},
                gpu::BoundResource{shared::kBindIndirectProbes, gpu::read(probes_)},
                gpu::BoundResource{shared::kBindIndirectHits, gpu::read(hits_)},
+               gpu::BoundResource{shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+               gpu::BoundResource{shared::kBindGlowField, gpu::sampled(in.glow_field, linear_)},
                gpu::BoundResource{shared::kBindIndirectTarget, gpu::stored(medium_direct_)},
                gpu::BoundResource{shared::kBindIndirectCubeTarget, gpu::stored(noisy_cube_)});
 }

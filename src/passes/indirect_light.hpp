@@ -33,8 +33,8 @@ class IndirectLightPass {
     const gpu::Image& noise;
     VolumeResources volumes;
     std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
-    glm::vec3 albedo{0};        ///< Of the smoke, or of the first volume,
-    float g = 0;                ///< and the mean cosine of its phase function.
+    float g = 0;  ///< Mean cosine of the phase function of the smoke, or of the first volume.
+    const gpu::Image& glow_field;  ///< GlowFieldPass::field.
   };
   /// Uploads the level of the last `reserve`.
   void upload(gpu::Recorder& recorder, const reference::LightCells& level) const;

@@ -1,6 +1,7 @@
 #include "passes/volume_light.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/glow_field.h"
 #include "shared/indirect_light.h"
 
 namespace brume::passes {
@@ -95,6 +96,7 @@ void VolumeLightPass::record_light(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindSweeps, gpu::read(sweeps_)},
                     {shared::kBindSunDepths, gpu::sampled(sun_depths_, linear_)},
                     {shared::kBindSkyDepths, gpu::sampled(sky_depths_, linear_)},
+                    {shared::kBindGlowField, gpu::sampled(in.glow_field, linear_)},
                     {shared::kBindVolumeLightTarget, gpu::stored(light_)},
                 },
                 light);

@@ -23,6 +23,7 @@ class VolumeLightPass {
     const SmokeResources& smoke;
     const HoleResources& holes;
     const VolumeResources& volumes;
+    const gpu::Image& glow_field;  ///< GlowFieldPass::field, of the same volumes.
   };
 
   explicit VolumeLightPass(gpu::Context& context);

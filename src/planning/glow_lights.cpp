@@ -32,14 +32,15 @@ shared::Light light_at_ball(const glm::vec3& middle_world, double radius, const 
 
 /// The fraction of what a homogeneous ball emits that leaves it, by its optical radius. What it scatters has
 /// the same chances again (Case, de Hoffmann and Placzek 1953, 8.3).
-glm::dvec3 leaving_ball(const scene::VolumeOptions& options, double optical_radius) {
+glm::dvec3 leaving_ball(const scene::VolumeOptions& options, double optical_radius, bool scattered) {
   const double escape = grids::escape_from_ball(optical_radius);
+  if (!scattered) return glm::dvec3(escape);
   const glm::dvec3 albedo = glm::dvec3(options.albedo) * double{options.multiple_scattering};
   return escape / (1.0 - albedo * (1 - escape));
 }
 
 shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                       const grids::GlowBall& ball, double exposure) {
+                       const grids::GlowBall& ball, double exposure, bool scattered) {
   const scenario::VolumeFrame& frame = *volume.frame;
   const double voxel_volume = std::abs(glm::determinant(glm::dmat3(glm::dmat4(volume.world_from_heat))));
   const double radius = ball.radius * std::cbrt(voxel_volume);
@@ -52,7 +53,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   const glm::dvec3 color =
       glm::dvec3(blackbody_color(static_cast<float>(mean))) / std::pow(mean / double{kUnitGlow}, 4);
   const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
-  const glm::dvec3 leaves = leaving_ball(options, extinction * radius);
+  const glm::dvec3 leaves = leaving_ball(options, extinction * radius, scattered);
 
   const glm::vec3 middle(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
   return light_at_ball(middle, radius, color * leaves * std::min(glow * voxel_volume, kMostIntensity),
@@ -61,7 +62,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
 
 /// What leaves a ball of a mask; the extinction that dims it is that of the volume where all masks are 1.
 void add_mask_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
-                     double exposure, std::vector<shared::Light>& lights) {
+                     double exposure, bool scattered, std::vector<shared::Light>& lights) {
   const scenario::VolumeFrame& frame = *volume.frame;
   const glm::dmat4 world_from_file =
       glm::dmat4(volume.world_from_density) * glm::inverse(frame.density.world_from_voxel);
@@ -69,7 +70,7 @@ void add_mask_lights(const scene::VolumeOptions& options, const scenario::Volume
   for (const scenario::MaskGlow& ball : frame.mask_glow) {
     const glm::dvec3 glow(scene::glow_at(options.masks[ball.mask], seconds));
     const double radius = ball.radius * scale;
-    const glm::dvec3 leaves = leaving_ball(options, double{options.extinction} * radius);
+    const glm::dvec3 leaves = leaving_ball(options, double{options.extinction} * radius, scattered);
     const glm::vec3 middle(world_from_file * glm::dvec4(ball.middle, 1));
     lights.push_back(light_at_ball(middle, radius, glow * leaves * (ball.integral * cubed), exposure));
   }
@@ -78,13 +79,13 @@ void add_mask_lights(const scene::VolumeOptions& options, const scenario::Volume
 }  // namespace
 
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                                       double seconds, float exposure) {
+                                       double seconds, float exposure, bool scattered) {
   std::vector<shared::Light> lights;
   if (!volume.frame) return lights;
   if (volume.frame->heat && options.emission > 0 && options.kelvin > 0)
     for (const grids::GlowBall& ball : volume.frame->glow)
-      lights.push_back(light_of(options, volume, ball, double{exposure}));
-  add_mask_lights(options, volume, seconds, double{exposure}, lights);
+      lights.push_back(light_of(options, volume, ball, double{exposure}, scattered));
+  add_mask_lights(options, volume, seconds, double{exposure}, scattered, lights);
   std::erase_if(lights, [](const shared::Light& light) { return !(light.range > light.radius); });
   return lights;
 }

@@ -98,7 +98,7 @@ glm::vec3 detail_per_voxel(const VolumeDetailInput& detail) {
   return 1.0f / (cells * size);
 }
 
-shared::VolumeInstance instance_of(const VolumeInput& volume) {
+shared::VolumeInstance instance_of(const VolumeInput& volume, std::size_t number) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   shared::VolumeHeat heat{};
   if (has_heat(volume)) heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
@@ -113,7 +113,8 @@ shared::VolumeInstance instance_of(const VolumeInput& volume) {
           device_transfer(volume.transfer),
           {{}, colors_of(volume)},
           is_dense(volume) ? 1u : 0u,
-          volume_detail(volume)};
+          volume_detail(volume),
+          static_cast<std::uint32_t>(number)};
 }
 
 /// Displacements of at most `amplitude` voxels along each axis.
@@ -215,7 +216,7 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
     if (!in_view && !(volume.look.extinction > 0)) continue;
     const bool preview = !previews.empty() && previews[i];
     const VolumeInput shown = shown_volume(volume, preview);
-    plan.volumes.push_back({i, world, instance_of(shown), volume_effect(shown), preview});
+    plan.volumes.push_back({i, world, instance_of(shown, i), volume_effect(shown), preview});
     plan.casters |= media_of(shown);
     if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
     if (!in_view) continue;
@@ -296,7 +297,7 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes, std:
   for (PlacedVolume& placed : plan.volumes) {
     placed.is_preview = !previews.empty() && previews[placed.index];
     const VolumeInput shown = shown_volume(volumes[placed.index], placed.is_preview);
-    placed.instance = instance_of(shown);
+    placed.instance = instance_of(shown, placed.index);
     placed.effect = volume_effect(shown);
   }
 }

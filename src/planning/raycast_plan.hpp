@@ -14,7 +14,7 @@ namespace brume::planning {
 struct RaycastLight {
   glm::vec3 to_sun{0, 1, 0};    ///< Unit.
   glm::vec3 sun_irradiance{0};  ///< On a surface that faces the sun.
-  glm::vec3 ambient{0};         ///< Irradiance / pi.
+  glm::vec3 ambient{0};         ///< Mean radiance.
   shared::Phase phase = shared::phase_of_hg(0);
 };
 

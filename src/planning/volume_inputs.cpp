@@ -105,8 +105,12 @@ ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::
 
 void add_glow(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
               FrameInput& input) {
-  for (const shared::Light& light : glow_lights(options, volume, seconds, input.view.exposure))
+  // With indirect light, what is scattered leaves by its cells.
+  const bool scattered = input.environment.bounces == 0;
+  for (shared::Light light : glow_lights(options, volume, seconds, input.view.exposure, scattered)) {
+    light.glow_of = static_cast<std::uint32_t>(input.volumes.size());
     input.environment.glow.push_back(light);
+  }
 }
 
 }  // namespace

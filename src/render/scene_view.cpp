@@ -77,14 +77,12 @@ void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::F
                                        .hole_cells = media.hole_cells,
                                        .noise = media.noise,
                                        .volumes = media.volumes,
-                                       .casters = plan.media.casters};
-  if (plan.input.smoke.volume && plan.input.smoke.volume->slot_count() > 0) {
-    in.albedo = plan.input.smoke.look.albedo;
+                                       .casters = plan.media.casters,
+                                       .glow_field = media.glow_field};
+  if (plan.input.smoke.volume && plan.input.smoke.volume->slot_count() > 0)
     in.g = shared::mean_cosine(plan.input.smoke.look.phase);
-  } else if (!plan.media.volumes.empty()) {
-    in.albedo = plan.media.volumes.front().instance.look.albedo;
+  else if (!plan.media.volumes.empty())
     in.g = plan.media.volumes.front().instance.look.anisotropy;
-  }
   if (indirect.level_changed) indirect_light_.upload(recorder, light_cells_);
   const shared::IndirectLayout& layout = light_cells_.layout;
   Box<int> cells{glm::ivec3(0), glm::ivec3(0)};

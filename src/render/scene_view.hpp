@@ -33,6 +33,7 @@ class SceneView {
     const gpu::Buffer& hole_cells;
     const gpu::Image& noise;  ///< Its tile.
     passes::VolumeResources volumes;
+    const gpu::Image& glow_field;  ///< GlowFieldPass::field.
   };
   void record_indirect_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
                              const gpu::Buffer& frame, const MediaResources& media);

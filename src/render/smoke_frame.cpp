@@ -34,6 +34,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandStream& stream, const 
       shadow_pass_(context),
       light_pass_(context),
       fine_light_pass_(context),
+      glow_field_pass_(context),
       volume_light_pass_(context),
       raycast_(options.raycast),
       march_pass_(context,
@@ -93,8 +94,12 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
     smoke_upload_.reserve(*plan.smoke);
     noise_advection_pass_.reserve(plan.state(), *plan.smoke, plan.noise);
   }
-  if (plan.volume_light.is_lit && volume_light_pass_.reserve(plan.volume_light, plan.media.casters))
-    plan.volume_light.update = true;
+  if (plan.volume_light.is_lit) {
+    // Not short-circuited: both make room.
+    const bool field_lost = glow_field_pass_.reserve(planning::volumes_in_view(plan.media), plan.media.casters);
+    if (volume_light_pass_.reserve(plan.volume_light, plan.media.casters) || field_lost)
+      plan.volume_light.update = true;
+  }
   constexpr std::uint32_t kWithNoise = shared::kMediumDisturbed | shared::kMediumVolumeDetail;
   if ((plan.media.media & kWithNoise) != 0) make_noise();
   fine_light_pass_.reserve(plan.fine_light);
@@ -179,7 +184,14 @@ void SmokeFrame::with_volume_light_inputs(const FramePlan& plan, const FrameReso
   const passes::VolumeResources volumes = volume_upload_.lit_resources();
   const passes::LevelLight level = in.scene.level();
   record(passes::VolumeLightPass::Inputs{in.frame, plan.media.casters, in.scene.resources(),
-                                         in.scene.shadows(), level, resources(), holes(), volumes});
+                                         in.scene.shadows(), level, resources(), holes(), volumes,
+                                         glow_field()});
+}
+
+void SmokeFrame::record_glow(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) const {
+  if (!plan.volume_light.update) return;
+  glow_field_pass_.record(recorder, {in.frame, plan.media.casters, volume_upload_.lit_resources(),
+                                     planning::volumes_in_view(plan.media)});
 }
 
 void SmokeFrame::record_volume_sweeps(gpu::Recorder& recorder, const FramePlan& plan,
@@ -222,8 +234,8 @@ void SmokeFrame::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
   const shared::FrameMedia& media = plan.media.frame;
   const auto volumes = planning::volumes_in_view(plan.media);
   const float anisotropy = volumes.empty() ? 0 : volumes.front().instance.look.anisotropy;
-  const planning::RaycastLight light{media.to_sun, media.sun_irradiance, plan.input.environment.sky.ambient,
-                                     shared::phase_of_hg(anisotropy)};
+  const glm::vec3 sky = shared::sky_shape(0) * plan.input.environment.sky.ambient;
+  const planning::RaycastLight light{media.to_sun, media.sun_irradiance, sky, shared::phase_of_hg(anisotropy)};
   raycast_pass_->record(recorder, {volume_upload_.resources(), in.targets.gbuffer.depth},
                         planning::plan_raycast(plan.camera, size_px_, volumes, light, {}), in.targets.media);
 }

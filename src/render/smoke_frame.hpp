@@ -12,6 +12,7 @@
 #include "passes/resolve.hpp"
 #include "passes/smoke_light.hpp"
 #include "passes/smoke_shadow.hpp"
+#include "passes/glow_field.hpp"
 #include "passes/volume_light.hpp"
 #include "render/scene_view.hpp"
 #include "render/targets.hpp"
@@ -86,6 +87,8 @@ class SmokeFrame {
   void record_density(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   /// The smoke's shadows on surfaces, and the light in it.
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The light of what glows in volumes, in the volumes themselves.
+  void record_glow(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in) const;
   /// The light in the volumes: their sweeps, then the rest.
   void record_volume_sweeps(gpu::Recorder& recorder, const planning::FramePlan& plan,
                             const FrameResources& in);
@@ -107,6 +110,7 @@ class SmokeFrame {
   const passes::SmokeResources& resources() const { return smoke_upload_.resources(); }
   /// The volumes as light is found in them.
   passes::VolumeResources lit_volumes() const { return volume_upload_.lit_resources(); }
+  const gpu::Image& glow_field() const { return glow_field_pass_.field(); }
   /// What the light in the volumes is found from.
   const passes::VolumeLightPass& volume_light() const { return volume_light_pass_; }
   /// The tile of its noise, from the first frame with smoke on.
@@ -157,6 +161,7 @@ class SmokeFrame {
   passes::SmokeShadowPass shadow_pass_;
   passes::SmokeLightPass light_pass_;
   passes::FineLightPass fine_light_pass_;
+  passes::GlowFieldPass glow_field_pass_;
   passes::VolumeLightPass volume_light_pass_;
   std::optional<passes::RaycastForm> raycast_;
   std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.

@@ -12,6 +12,7 @@
 #include "shared/erosion.h"
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
+#include "shared/glow_field.h"
 #include "shared/hole.h"
 #include "shared/hole_clusters.h"
 #include "shared/hole_reach.h"
@@ -135,7 +136,8 @@
   X(89, SurfaceShadowParams) \
   X(90, SurfaceNormalParams) \
   X(91, VolumeDetail) \
-  X(92, PaneMaterial)
+  X(92, PaneMaterial) \
+  X(93, GlowFieldParams)
 // clang-format on
 
 #endif

@@ -54,7 +54,7 @@ const double kRadiance = 2 * double{blackbody_color(kUnitGlow).r};
 // Every point is seen: radiance per metre times volume.
 TEST(GlowLights, OfATransparentBallHaveThePowerOfItsVolume) {
   const double volume = 4.0 / 3 * 3.14159265 * kRadius * kRadius * kRadius;
-  const auto lights = glow_lights(options_of(0.02f), hot_ball(), 0, 1);
+  const auto lights = glow_lights(options_of(0.02f), hot_ball(), 0, 1, true);
   ASSERT_FALSE(lights.empty());
   // The ball is of voxels, and absorbs 3/4 of extinction times radius.
   EXPECT_NEAR(intensity_of(lights), 0.02 * kRadiance * volume, 0.05 * 0.02 * kRadiance * volume);
@@ -64,7 +64,7 @@ TEST(GlowLights, OfATransparentBallHaveThePowerOfItsVolume) {
 // eighth of the volume have twice as much.
 TEST(GlowLights, OfAnOpaqueBallHaveThePowerOfItsSurface) {
   const double disc = 3.14159265 * kRadius * kRadius;
-  const double found = intensity_of(glow_lights(options_of(40), hot_ball(), 0, 1));
+  const double found = intensity_of(glow_lights(options_of(40), hot_ball(), 0, 1, true));
   EXPECT_GT(found, 0.9 * kRadiance * disc);
   EXPECT_LT(found, 2 * kRadiance * disc);
 }
@@ -76,19 +76,19 @@ TEST(GlowLights, LoseNothingToScattering) {
     scene::VolumeOptions options = options_of(extinction);
     options.albedo = glm::vec3(1);
     const double emitted = double{extinction} * kRadiance * volume;
-    EXPECT_NEAR(intensity_of(glow_lights(options, hot_ball(), 0, 1)), emitted, 0.05 * emitted);
+    EXPECT_NEAR(intensity_of(glow_lights(options, hot_ball(), 0, 1, true)), emitted, 0.05 * emitted);
     // Half of what is scattered is absorbed: less than with all of it, more than with none.
     options.albedo = glm::vec3(0.5f);
-    const double some = intensity_of(glow_lights(options, hot_ball(), 0, 1));
-    EXPECT_LT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1)) * 2);
-    EXPECT_GT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1)));
+    const double some = intensity_of(glow_lights(options, hot_ball(), 0, 1, true));
+    EXPECT_LT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1, true)) * 2);
+    EXPECT_GT(some, intensity_of(glow_lights(options_of(extinction), hot_ball(), 0, 1, true)));
   }
 }
 
 TEST(GlowLights, LieInTheBall) {
   const scenario::VolumeAt ball = hot_ball();
   const glm::vec3 middle(0);  // as clouds are made
-  for (const shared::Light& light : glow_lights(options_of(1), ball, 0, 1)) {
+  for (const shared::Light& light : glow_lights(options_of(1), ball, 0, 1, true)) {
     EXPECT_LT(glm::distance(light.position_world, middle) + light.radius, 1.5f * static_cast<float>(kRadius));
     EXPECT_GT(light.range, 1);
   }
@@ -101,7 +101,7 @@ TEST(GlowLights, AreFiniteForAnyTemperature) {
       scene::VolumeOptions options = options_of(extinction);
       options.kelvin = kelvin;
       options.emission = 1e6f;
-      for (const shared::Light& light : glow_lights(options, ball, 0, 1)) {
+      for (const shared::Light& light : glow_lights(options, ball, 0, 1, true)) {
         EXPECT_TRUE(std::isfinite(light.intensity.r + light.intensity.g + light.intensity.b + light.range))
             << kelvin;
         EXPECT_GE(std::min({light.intensity.r, light.intensity.g, light.intensity.b}), 0) << kelvin;
@@ -113,12 +113,12 @@ TEST(GlowLights, AreNoneWhereNothingGlows) {
   scenario::VolumeAt ball = hot_ball();
   scene::VolumeOptions dark = options_of(1);
   dark.emission = 0;
-  EXPECT_TRUE(glow_lights(dark, ball, 0, 1).empty());
+  EXPECT_TRUE(glow_lights(dark, ball, 0, 1, true).empty());
   scene::VolumeOptions cold = options_of(1);
   cold.kelvin = 300;
-  EXPECT_TRUE(glow_lights(cold, ball, 0, 1).empty());
+  EXPECT_TRUE(glow_lights(cold, ball, 0, 1, true).empty());
   ball.frame.reset();
-  EXPECT_TRUE(glow_lights(options_of(1), ball, 0, 1).empty());
+  EXPECT_TRUE(glow_lights(options_of(1), ball, 0, 1, true).empty());
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// Light of what glows in volumes, in the volumes themselves (shaders/shared/glow_field.h).
+#pragma once
+
+#include <map>
+
+#include "passes/volume_upload.hpp"
+#include "shared/glow_field.h"
+
+namespace brume::passes {
+
+class GlowFieldPass {
+ public:
+  struct Inputs {
+    const gpu::Buffer& frame;   ///< FrameConstants.
+    std::uint32_t casters = 0;  ///< MediaPlan::casters.
+    const VolumeResources& volumes;
+    std::span<const planning::PlacedVolume> in_view;
+  };
+
+  explicit GlowFieldPass(gpu::Context& context);
+  /// Makes room for these volumes. True when the light of earlier frames is lost. Outside of a recording, once
+  /// the device has finished previous ones. Throws resource_limit.
+  bool reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters);
+  /// Finds the light of all that glow.
+  void record(gpu::Recorder& recorder, const Inputs& in) const;
+  /// Two cubes along x, per volume in view along z; of volumes that do not glow undefined.
+  const gpu::Image& field() const { return field_; }
+
+ private:
+  void record_volume(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
+  void record_cells(gpu::Recorder& recorder, const Inputs& in,
+                    const shared::GlowFieldParams& params) const;
+  void record_diffusion(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
+  void record_refinement(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const;
+  void record_step(gpu::Recorder& recorder, const Inputs& in, const shared::GlowFieldParams& params) const;
+
+  gpu::Context& context_;
+  gpu::Sampler linear_;
+  std::map<std::uint32_t, gpu::ComputePipeline> cells_pipelines_;  ///< By media.
+  gpu::ComputePipeline sweep_pipeline_, gather_pipeline_, refine_pipeline_, diffuse_pipeline_, store_pipeline_;
+  gpu::Image matter_, albedo_, swept_, field_;
+  gpu::Buffer state_;
+};
+
+}  // namespace brume::passes
