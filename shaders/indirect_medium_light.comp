@@ -53,7 +53,7 @@ struct Arriving {
 Arriving light_at_place(Light light, vec3 p_cells, Formula formula, uint k) {
   const vec3 p_world = world_from_indirect(p_cells);
   const Incident incident = light_at(light, p_world);
-  if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance)
+  if (is_negligible(light, incident))
     return Arriving(vec3(0.0), vec3(0.0));
   const float lit = light_visibility(light, p_world);
   if (lit <= 0.0) return Arriving(vec3(0.0), vec3(0.0));

@@ -60,7 +60,7 @@ ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, ve
     const vec2 depth_lit = unpackHalf2x16(blocks[light.y * kTexelsPerBrick + local]);
     if (depth_lit.y <= 0.0) continue;
     const Incident incident = light_at(lights[light.x], p_world);
-    if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
+    if (is_negligible(lights[light.x], incident)) continue;
     const float cos_angle = -dot(incident.to_light, to_eye);
     const vec3 arriving = incident.irradiance * depth_lit.y;
     const vec3 once = arriving * (exp(-depth_lit.x) * phase_value(frame.look.phase, cos_angle));

@@ -74,8 +74,7 @@ float mean_visibility(Light light, vec3 p_voxel) {
 /// Visibility of a light at a texel; 0 also where the light is negligible (slightly below the threshold of
 /// inscatter.comp). Rays through voxels are for flashes, which last a few frames: they go to the centre.
 float significant_visibility(Light light, Incident incident, vec3 p_voxel) {
-  const float strongest = max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b));
-  if (strongest < 0.99 * kLeastIrradiance) return 0.0;
+  if (strongest_of(incident) < 0.99 * least_irradiance(light)) return 0.0;
   if (light.shadow_layer >= kShadowByVoxels) return light_visibility(light, world_from_voxel(p_voxel));
   return mean_visibility(light, p_voxel);
 }

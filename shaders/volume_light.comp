@@ -93,7 +93,7 @@ OtherLights other_lights(uint volume, vec3 p_voxel, vec3 p_world, vec3 albedo, M
     if (i == params.sun) continue;
     if (lights[i].glow_of == volumes[volume].number + 1u) continue;
     const Incident incident = light_at(lights[i], p_world);
-    if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
+    if (is_negligible(lights[i], incident)) continue;
     const float lit = light_visibility(lights[i], p_world);
     if (lit <= 0.0) continue;
     const float depth = depth_to_light(volume, p_world, incident);

@@ -35,6 +35,19 @@ Incident light_at(Light light, vec3 position_world) {
   return incident;
 }
 
+float strongest_of(Incident incident) {
+  return max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b));
+}
+
+/// Irradiance below which a light is ignored in media: a hundredth of that at which it would end but for its window.
+/// Lights reach farther, and are ignored later, where the exposure is high.
+float least_irradiance(Light light) {
+  const float brightest = max(light.intensity.r, max(light.intensity.g, light.intensity.b));
+  return min(kLeastIrradiance, 0.01 * brightest / max(light.range * light.range, 1e-30));
+}
+
+bool is_negligible(Light light, Incident incident) { return strongest_of(incident) < least_irradiance(light); }
+
 /// A box in world space.
 struct TileBox {
   vec3 low, high;

@@ -1,6 +1,7 @@
 #include "planning/device_lights.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace brume::planning {
 
@@ -11,7 +12,7 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
   for (const scene::Light& light : lights) {
     const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
     shared::Light l{light.position_world,
-                    shared::light_range(brightest),
+                    shared::light_range(brightest) * std::sqrt(0.01f / light.least),
                     light.intensity,
                     static_cast<std::uint32_t>(light.kind),
                     light.direction_world,

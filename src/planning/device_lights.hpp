@@ -10,8 +10,8 @@
 
 namespace brume::planning {
 
-/// Lights for the device: ranges cut off less than 1/100 of unit irradiance; shadow layers are assigned in
-/// order, up to `max_layers`.
+/// Lights for the device: ranges cut off less than scene::Light::least; shadow layers are assigned in order,
+/// up to `max_layers`.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
 
 /// Whether any of them is shadowed by voxels.

@@ -148,21 +148,27 @@ void scale_sky(scene::SkyOptions& sky, float factor) {
 
 /// A sun where one is given or nothing else lights the scene; a sky that matches, as bright as it is beside
 /// the usual sun or light: with exposure measured, a scene looks alike whatever the unit of its lights is.
-void choose_light(scene::Timeline& timeline, const scene::Scene& scene,
-                  const std::optional<scene::SunOptions>& sun) {
+/// Returns how bright its lights are relative to the usual ones, > 0.
+float choose_light(scene::Timeline& timeline, const scene::Scene& scene,
+                   const std::optional<scene::SunOptions>& sun) {
   timeline.sun = sun;
   if (!sun && scene.lights.empty()) timeline.sun = kUsualSun;
   if (timeline.sun) scene::dim_sky(timeline.sky, timeline.sun->elevation);
-  if (timeline.sun) return;
+  if (timeline.sun) return 1;
   scene::SkyOptions& sky = timeline.sky;
   // A clear sky gives about a fifth of what the sun does.
-  if (const float level = sun_level(scene); level > 0)
-    return scale_sky(sky, 0.5f * level / luminance(kUsualSun.irradiance));
+  if (const float level = sun_level(scene); level > 0) {
+    scale_sky(sky, 0.5f * level / luminance(kUsualSun.irradiance));
+    return level / luminance(kUsualSun.irradiance);
+  }
   sky.zenith = {0.03f, 0.05f, 0.12f};
   sky.horizon = {0.16f, 0.14f, 0.15f};
   sky.ambient = {0.04f, 0.05f, 0.075f};
   constexpr float kUsualLight = 4;  // [W/m^2]
-  if (const float level = light_level(scene); level > 0) scale_sky(sky, level / kUsualLight);
+  const float level = light_level(scene) / kUsualLight;
+  if (!(level > 0)) return 1;
+  scale_sky(sky, level);
+  return level;
 }
 
 /// Diameter of smoke that covers its fraction of the image's width where it is [m].
@@ -257,6 +263,9 @@ void apply_level_options(const scene::Timeline& timeline, scene::Scene& scene) {
   if (timeline.sun) std::erase_if(scene.lights, is_sun);
   if (timeline.sun || scene.lights.empty())
     scene.lights.push_back(sunlight(timeline.sun.value_or(scene::SunOptions{})));
+  // Brightened by more than 2 EV, a picture shows where lights would end.
+  const float brightened = std::exp2(std::max(timeline.exposure - 2, 0.0f));
+  for (scene::Light& light : scene.lights) light.least = scene::Light{}.least / brightened;
 }
 
 scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Scene& scene,
@@ -267,14 +276,15 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   // The scene itself.
   timeline.scale = chosen_scale(scene, path, options);
   timeline.origin = chosen_origin(scene, path, timeline.scale);
-  choose_light(timeline, scene, options.sun);
+  const float light = choose_light(timeline, scene, options.sun);
+  // As long as it is not measured, by the lights alone.
+  timeline.exposure = options.exposure.value_or(std::clamp(-std::log2(light), -20.0f, 20.0f));
   if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
   apply_level_options(timeline, scene);
   const Box<float> bounds = scene::world_bounds(scene);
   if (!bounds.empty() && is_line(bounds))
     log_warning(path.string() + ": nothing to see: none of its triangles has an area");
   scene::Camera camera = scene::default_camera(scene, options.aspect);
-  timeline.exposure = options.exposure.value_or(0);
   timeline.bounces = options.bounces.value_or(0);
   timeline.tone = options.tone.value_or(timeline.tone);
 

@@ -91,6 +91,7 @@ struct Light {
   /// Directional: irradiance [W/m^2].
   glm::vec3 intensity{1};
   float cos_inner = 1, cos_outer = 0;  ///< Spot: full inside the inner cone, zero outside the outer.
+  float least = 0.01f;                 ///< Point and spot: the irradiance at which it ends, > 0 [W/m^2].
 };
 
 /// A thin lens; the default is a pinhole.

@@ -238,6 +238,24 @@ TEST_F(FirstViewTest, TheSkyIsAsBrightAsTheLightsAskFor) {
   }
 }
 
+// Where a light ends depends on its brightness as little as the picture does.
+TEST_F(FirstViewTest, FaintLightsReachAsFarAsBrightOnes) {
+  const auto room = box(8);
+  const auto least = [&](float intensity) {
+    scene::Scene scene = scene::load_scene(room).value_or_throw();
+    scene::Light light;
+    light.intensity = glm::vec3(intensity);
+    light.position_world = {4, 2, 3};
+    scene.lights = {light};
+    prepare_first_view(room, scene, {});
+    return scene.lights[0].least;
+  };
+  EXPECT_EQ(least(150), scene::Light{}.least);
+  EXPECT_LT(least(0.1f), scene::Light{}.least);
+  for (const float intensity : {1e-4f, 1e-3f, 1e-2f})
+    EXPECT_NEAR(least(intensity) / intensity, least(0.1f) / 0.1f, 1e-4f * least(0.1f) / 0.1f) << intensity;
+}
+
 /// A closed room of 6 m with walls, in voxels of 0.25 m, and open air around it.
 class SmokeReportTest : public FirstViewTest {
  protected:
