@@ -2,6 +2,7 @@
 
 import json
 import os
+import struct
 import tempfile
 import tomllib
 import unittest
@@ -66,6 +67,13 @@ class AddonCase(unittest.TestCase):
         self.export()
         with open(os.path.join(self.folder, "level.txt"), encoding="utf-8") as file:
             return sorted(line.split("\t")[0] for line in file if not line.startswith("#"))
+
+    def document(self):
+        """The JSON of the exported glTF."""
+        self.export("level.glb")
+        with open(os.path.join(self.folder, "level.glb"), "rb") as file:
+            data = file.read()
+        return json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
 
     def said(self, kind=None):
         """The texts in the sidebar."""

@@ -15,6 +15,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 MODULES = (
     "addon_export_test",
+    "addon_look_test",
+    "addon_world_test",
+    "addon_composite_test",
     "addon_events_test",
     "addon_program_test",
     "addon_bake_test",

@@ -279,7 +279,8 @@ TEST_P(BlenderFormats, TimelineMatchesTheScene) {
   EXPECT_TRUE(scene::check_objects(timeline, scene));
   EXPECT_FLOAT_EQ(timeline.duration, 4);
   EXPECT_EQ(timeline.smoke.voxels, 1500u);
-  EXPECT_FLOAT_EQ(timeline.sky.ambient.b, 0.055f);
+  EXPECT_FLOAT_EQ(timeline.sky.zenith.b, 0.055f);
+  EXPECT_NEAR(timeline.sky.ambient.b, 0.055f / 0.75f, 1e-6f);
 
   ASSERT_EQ(timeline.smokes.size(), 1u);
   EXPECT_LT(glm::distance(timeline.smokes[0].at_world, glm::vec3(0.2f, 0.2f, -0.7f)), kNear);

@@ -1,12 +1,9 @@
-"""Check Scene: the checks of an export, without a file."""
+"""Check Scene: the messages of an export, without a file."""
 
 import bpy
 
-from . import checks
-from .clock import Clock, events_of
-from .level import Gathered
+from . import export_level
 from .messages import BrumeError, Message, Warnings, fail, show
-from .solids import Solids
 
 
 class BRUME_OT_check(bpy.types.Operator):
@@ -18,14 +15,7 @@ class BRUME_OT_check(bpy.types.Operator):
     def execute(self, context):
         warnings = Warnings()
         try:
-            with Gathered(context, warnings) as level:
-                if not level.things and not level.volumes:
-                    raise BrumeError("the scene has no visible mesh; add one that renders and is exported")
-                solids = Solids(level)
-                checks.check_level(level, solids, warnings)
-                frames = [thing.brume_event.frame for thing in events_of(context.scene)]
-                with Clock(context, frames) as clock:
-                    checks.check_events(context.scene, level, solids, clock, warnings)
+            export_level.check(context, warnings)
         except BrumeError as error:
             return fail(self, error, warnings.messages)
         warnings.report(self)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from mathutils import Vector
 
-from . import conversion, timeline
+from . import conversion, look_checks, timeline
 
 _SMALLEST_LEVEL = 1.0  # [m]
 _GRENADE_SPEED = 20.0  # [m/s], docs/timeline.md.
@@ -23,29 +23,7 @@ def check_level(level, solids, warnings):
         warnings.add(
             f"the level is only {extent.max():.2g} m wide; check the unit scale (Scene Properties > Units)"
         )
-    for material in {slot: None for thing in level.things for piece in thing.pieces for slot in piece.materials}:
-        if material and _emits(material):
-            warnings.note(f'the material "{material.name}" glows, but it lights nothing: add a light beside it')
-    for light in level.lights:
-        if light.data.type == "AREA":
-            warnings.note(f'the area light "{light.label}" casts hard shadows: Brume has no soft ones')
-
-
-def _emits(material):
-    """Whether a node of the material emits light."""
-    if not material.use_nodes or not material.node_tree:
-        return False
-    for node in material.node_tree.nodes:
-        if node.type == "EMISSION":
-            if any(output.is_linked for output in node.outputs) and node.inputs["Strength"].default_value > 0:
-                return True
-        elif node.type == "BSDF_PRINCIPLED":
-            color = node.inputs.get("Emission Color") or node.inputs.get("Emission")
-            strength = node.inputs.get("Emission Strength")
-            lit = color.is_linked or max(color.default_value[:3]) > 0
-            if lit and (strength is None or strength.is_linked or strength.default_value > 0):
-                return True
-    return False
+    look_checks.check(level, warnings)
 
 
 def _metres(length):

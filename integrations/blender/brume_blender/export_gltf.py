@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import conversion, files, meshes
+from . import conversion, files, gltf_materials, meshes
 from .level import WIDEST_SPOT, spot_for_area
 from .messages import BrumeError
 from .properties import BRUME_ROLES
@@ -58,8 +58,9 @@ def _blender_matrix(world_from_mesh):
 class _TemporaryScene:
     """A scene with copies of the exported objects, removed after the export."""
 
-    def __init__(self, scene):
-        self._made = []
+    def __init__(self, scene, only_shapes):
+        self._made, self._only_shapes = [], only_shapes
+        self._materials, self.material_names = {}, {}  # Stand-ins, and whose names they get.
         self.scene = bpy.data.scenes.new("brume export")
         self.names, self.roles = {}, {}
         render, own = self.scene.render, scene.render
@@ -79,7 +80,24 @@ class _TemporaryScene:
         self.names[made.name] = name
         return made
 
+    def _material(self, material):
+        """A material that the exporter can read."""
+        if material is None or self._only_shapes:
+            return material
+        if material not in self._materials:
+            made = gltf_materials.stand_in(material)
+            if made:
+                made.name = f"brume {len(self._made)}"
+                self._made.append(made)
+                self.material_names[made.name] = material.name
+            self._materials[material] = made or material
+        return self._materials[material]
+
     def add_piece(self, piece, thing):
+        for index, material in enumerate(piece.mesh.materials):
+            # A copy of the level; replaced already if another object has it.
+            if material and material.name not in self.material_names:
+                piece.mesh.materials[index] = self._material(material.original)
         mesh, matrix = piece.mesh, _blender_matrix(piece.world_from_mesh)
         linear = np.array(matrix)[:3, :3]
         if not conversion.has_orthogonal_columns(linear):
@@ -91,7 +109,7 @@ class _TemporaryScene:
             meshes.bend(mesh, side @ matrix)
             matrix = side
         made = self._add(mesh, matrix, thing.name)
-        for slot, material in zip(made.material_slots, piece.materials):
+        for slot, material in zip(made.material_slots, map(self._material, piece.materials)):
             if slot.material != material:
                 slot.link = "OBJECT"
                 slot.material = material
@@ -102,7 +120,7 @@ class _TemporaryScene:
         data = light.data.copy()
         self._made.append(data)
         data.use_nodes = False
-        data.energy = light.power
+        data.energy, data.color = light.power, light.color
         if data.type == "AREA":
             data.type = "SPOT"
             data = bpy.data.lights[data.name]  # Changing the type changes the Python class.
@@ -155,8 +173,10 @@ def _glb(document, rest):
     return struct.pack("<4sIIII", b"glTF", 2, size, len(text), 0x4E4F534A) + text + rest
 
 
-def _name_nodes(document, temporary):
-    """Sets Brume's object names and roles."""
+def _set_names(document, temporary):
+    """Sets Brume's object names and roles, and the names of materials."""
+    for material in document.get("materials", []):
+        material["name"] = temporary.material_names.get(material.get("name"), material.get("name", ""))
     shapes = document.get("meshes", [])
     for node in document.get("nodes", []):
         made = node.get("name", "")
@@ -172,7 +192,7 @@ def _name_nodes(document, temporary):
 
 def export(context, path, level, camera, only_shapes=False):
     """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera; or only points and faces."""
-    temporary = _TemporaryScene(context.scene)
+    temporary = _TemporaryScene(context.scene, only_shapes)
     try:
         for thing in level.things:
             for piece in thing.pieces:
@@ -188,5 +208,5 @@ def export(context, path, level, camera, only_shapes=False):
                 document, rest = _json_and_rest(file.read())
     finally:
         temporary.remove()
-    _name_nodes(document, temporary)
+    _set_names(document, temporary)
     files.write(path, _glb(document, rest))

@@ -1,6 +1,7 @@
 """Exports the open scene as a scene file and a timeline."""
 
 import os
+import tempfile
 from dataclasses import dataclass
 
 import bpy
@@ -36,7 +37,16 @@ def _tone(context, warnings):
     return tone if known else None
 
 
-def export(context, path, file_format, warnings, with_timeline=True, frames=()):
+def check(context, warnings):
+    """Adds the messages of an export, without a file. Raises BrumeError."""
+    file_format = context.scene.brume.format
+    with tempfile.TemporaryDirectory(prefix="brume_") as folder:
+        path = os.path.join(folder, "level" + EXTENSIONS[file_format])
+        # Blender's exporter of glTF has no messages for the sidebar.
+        export(context, path, file_format, warnings, with_level=file_format != "GLTF")
+
+
+def export(context, path, file_format, warnings, with_timeline=True, frames=(), with_level=True):
     """Writes the level to `path`, whose extension must match the format, and the timeline next to it as .toml.
 
     The timeline includes `frames` even if they are before the first frame of the scene. Raises BrumeError.
@@ -47,7 +57,9 @@ def export(context, path, file_format, warnings, with_timeline=True, frames=()):
             raise BrumeError("the scene has no visible mesh; add one that renders and is exported")
         solids = Solids(level)
         checks.check_level(level, solids, warnings)
-        if file_format == "GLTF":
+        if not with_level:
+            pass
+        elif file_format == "GLTF":
             camera = context.scene.camera
             perspective = camera and camera.type == "CAMERA" and camera.data.type == "PERSP"
             export_gltf.export(context, path, level, camera if perspective else None)
@@ -57,9 +69,9 @@ def export(context, path, file_format, warnings, with_timeline=True, frames=()):
         with Clock(context, [*starts, *frames]) as clock:
             if not with_timeline:
                 return Exported(path, clock)
+            checks.check_events(context.scene, level, solids, clock, warnings)
             writer = timeline.Writer(context, level, clock, os.path.dirname(path), warnings)
             writer.write(stem + ".toml", os.path.basename(path), _tone(context, warnings))
-            checks.check_events(context.scene, level, solids, clock, warnings)
         return Exported(stem + ".toml", clock)
 
 

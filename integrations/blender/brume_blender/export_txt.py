@@ -124,6 +124,8 @@ class _Writer:
                 name = f"{thing.name}.{names.safe(part.material.name if part.material else 'plain')}"
                 name = self._part_names.take(name)
             prefix = _PREFIXES.get(thing.role, "")
+            if thing.role == "SOLID" and textures.look_of(part.material).is_glass:
+                prefix = _PREFIXES["GLASS"]
             if not name.startswith(prefix):
                 name = prefix + name
             self._place(part, thing.pieces[0].world_from_mesh, name, shared=True)
@@ -202,7 +204,7 @@ class _Writer:
         if kind != "POINT":
             name = light.label
             self._warnings.add(f'the light "{name}" becomes a point light in Scene.txt; use glTF to keep its shape')
-        values = [light.world_from_light[:3, 3], light.data.color, [light.power]]
+        values = [light.world_from_light[:3, 3], light.color, [light.power]]
         fields = [" ".join(number(value) for value in vector) for vector in values]
         self.lines.append("\t".join(["LIGHT_SOURCE"] + fields))
 

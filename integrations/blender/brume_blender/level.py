@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import conversion, names
+from . import conversion, light_nodes, names, surfaces
 from .clock import moves
 from .properties import BRUME_ROLES
 from .visibility import AsRendered
@@ -39,6 +39,7 @@ class Light:
     data: bpy.types.Light
     world_from_light: np.ndarray  # In Brume's axes and metres.
     power: float  # [W]; for a sun [W/m^2].
+    color: tuple  # Linear, at most 1.
 
 
 @dataclass
@@ -57,6 +58,9 @@ class Level:
     volumes: list = field(default_factory=list)
     lights: list = field(default_factory=list)
     door_names: dict = field(default_factory=dict)  # Name in Blender: names of its instances in Brume.
+    # Objects of which something is not exported, by their names in Blender.
+    hairy: list = field(default_factory=list)
+    only_volumes: list = field(default_factory=list)
     metres: float = 1.0  # Length of a Blender unit.
     rendered: set = field(default_factory=set)  # Objects of the scene that Blender renders, empties included.
 
@@ -112,6 +116,11 @@ def _materials(evaluated):
     return [material.original if material else None for material in found]
 
 
+def _is_volume_alone(material):
+    """Whether Blender shows nothing of the surface of a material."""
+    return surfaces.is_linked(material, "Volume") and not surfaces.is_linked(material, "Surface")
+
+
 class Gathered:
     """`with Gathered(context, warnings) as level`: the level of the scene; removes its mesh copies on exit."""
 
@@ -152,6 +161,7 @@ class Gathered:
         self._level.rendered = {
             thing for thing in view_layer.objects if thing.visible_get(view_layer=view_layer)
         }
+        self._level.hairy = [thing.name for thing in view_layer.objects if self._has_hair(thing)]
         depsgraph = self._context.evaluated_depsgraph_get()
         depsgraph.update()
         for instance in depsgraph.object_instances:
@@ -167,10 +177,20 @@ class Gathered:
                 what = _NO_MESH[instance.object.type]
                 self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
 
+    def _has_hair(self, thing):
+        if thing not in self._level.rendered or thing.brume.role == "LEFT_OUT":
+            return False
+        settings = [particles.settings for particles in thing.particle_systems]
+        return any(hair.type == "HAIR" and hair.render_type == "PATH" for hair in settings)
+
     def _add_mesh(self, instance):
         source, role = instance.object.original, _role(instance)
         piece = self._piece(instance) if role != "LEFT_OUT" else None
         if piece is None:
+            return
+        if piece.materials and all(_is_volume_alone(material) for material in piece.materials):
+            if source.name not in self._level.only_volumes:
+                self._level.only_volumes.append(source.name)
             return
         door = _door_of(source) if role in {"SOLID", "DOOR"} else None
         if door:
@@ -250,9 +270,10 @@ class Gathered:
         if power < 0 or min(light.color) < 0:
             self._warnings.add(f'the light "{instance.object.name}" has negative power or colour and is not exported')
             return
-        self._level.lights.append(
-            Light(instance.object.name, light, conversion.matrix(instance.matrix_world, metres), power)
-        )
+        color = np.array(light.color) * np.maximum(light_nodes.factor_of(light)[0], 0)
+        most = max(1.0, float(color.max()))
+        matrix = conversion.matrix(instance.matrix_world, metres)
+        self._level.lights.append(Light(instance.object.name, light, matrix, power * most, tuple(color / most)))
 
 
 # Intensity of Blender's lights of P watts (measured by tests/blender/lights.py): P / (4 pi) W/sr for points and for

@@ -223,10 +223,11 @@ class BrumeScene(bpy.types.PropertyGroup):
     )
     sky: EnumProperty(
         items=(
-            ("BRUME", "Brume's Daylight", "Brume's own sky"),
-            ("WORLD", "World", "The colour of Blender's world in all directions"),
+            ("WORLD", "World", "The colour of Blender's world in all directions", 1),
+            ("BRUME", "Brume's Daylight", "Brume's own sky", 0),
         ),
         name="Sky",
+        default="WORLD",
         description="Light from the sky",
         options=_FIXED,
     )

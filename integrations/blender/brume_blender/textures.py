@@ -7,11 +7,8 @@ import zlib
 import bpy
 import numpy as np
 
-
-def srgb(linear):
-    """Encodes linear values as sRGB (IEC 61966-2-1)."""
-    linear = np.clip(linear, 0.0, 1.0)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+from . import image_pixels, surfaces
+from .image_pixels import srgb
 
 
 def png_bytes(pixels):
@@ -58,18 +55,11 @@ def _stored_bytes(image):
 
 def _pixels(image):
     """sRGB-encoded RGBA bytes, top row first; None if the image has no pixels."""
-    width, height = image.size
-    if width == 0 or height == 0:
+    rgba = image_pixels.read(image)
+    if rgba is None:
         return None
-    values = np.empty(width * height * image.channels, dtype=np.float32)
-    image.pixels.foreach_get(values)
-    values = values.reshape(height, width, image.channels)[::-1]
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[:, :, : image.channels] = values[:, :, :4]
-    if image.channels == 1:
-        rgba[:, :, :3] = values
-    if image.is_float:  # Float images are linear in memory, byte images encoded.
-        rgba[:, :, :3] = srgb(rgba[:, :, :3])
+    if image.is_float:
+        rgba = np.concatenate([srgb(rgba[:, :, :3]), rgba[:, :, 3:]], axis=2)
     return np.rint(np.clip(rgba, 0, 1) * 255).astype(np.uint8)
 
 
@@ -78,58 +68,31 @@ def image_file(image):
     data = _stored_bytes(image)
     if _file_kind(data):
         return _file_kind(data), data
-    pixels = _pixels(image)
-    return None if pixels is None else (".png", png_bytes(pixels))
+    found = _pixels(image)
+    return None if found is None else (".png", png_bytes(found))
 
 
 class Look:
-    """A material as Scene.txt represents it: a linear colour or an image, and a roughness."""
+    """A material as Scene.txt represents it: a linear colour or an image, a roughness, and whether it is glass."""
 
-    def __init__(self, color=(0.8, 0.8, 0.8), roughness=0.5, image=None):
+    def __init__(self, color=(0.8, 0.8, 0.8), roughness=0.5, image=None, is_glass=False):
         self.color, self.roughness, self.image = tuple(color)[:3], roughness, image
+        self.is_glass = is_glass
 
     def mean_color(self):
         """The mean colour of the image if there is one, else the plain colour."""
-        pixels = _pixels(self.image) if self.image else None
-        if pixels is None:
+        found = _pixels(self.image) if self.image else None
+        if found is None:
             return self.color
-        encoded = pixels[:, :, :3].reshape(-1, 3) / 255.0
-        linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-        return tuple(linear.mean(axis=0))
-
-
-def _image_behind(socket, depth=16):
-    """The first image texture that is connected to a socket, directly or through other nodes."""
-    if depth == 0:
-        return None
-    for link in socket.links:
-        node = link.from_node
-        if node.type == "TEX_IMAGE" and node.image:
-            return node.image
-        for entry in node.inputs:
-            found = _image_behind(entry, depth - 1) if entry.is_linked else None
-            if found:
-                return found
-    return None
-
-
-def _surface_node(material):
-    for node in material.node_tree.nodes:
-        if node.type == "OUTPUT_MATERIAL" and node.is_active_output:
-            links = node.inputs["Surface"].links
-            return links[0].from_node if links else None
-    return None
+        return tuple(image_pixels.linear(found[:, :, :3].reshape(-1, 3) / 255.0).mean(axis=0))
 
 
 def look_of(material):
-    """The look of a material: from its Principled node, else from a surface node with a colour, else from the
-    viewport settings."""
+    """The look of a material: that of its surface, else of the viewport settings."""
     if material is None:
         return Look()
-    node = _surface_node(material) if material.use_nodes and material.node_tree else None
-    inputs = node.inputs if node else {}
-    color = next((inputs[name] for name in ("Base Color", "Color") if name in inputs), None)
-    if color is None:
+    surface = surfaces.surface_of(material)
+    if surface is None:
         return Look(material.diffuse_color, material.roughness)
-    roughness = inputs["Roughness"].default_value if "Roughness" in inputs else 0.5
-    return Look(color.default_value, roughness, _image_behind(color))
+    image = surface.color.image.node.image if surface.color.image else None
+    return Look(surface.color.value, float(surface.roughness.value[0]), image, surface.is_glass)

@@ -6,7 +6,7 @@ import os
 import bpy
 from mathutils import Vector
 
-from . import conversion, files, names
+from . import conversion, files, names, world
 from .clock import events_of, frames_per_second, moves
 from .conversion import number
 from .messages import BrumeError
@@ -72,9 +72,10 @@ class Writer:
         lines += ["", "[smoke]", f"voxels = {options.smoke_voxels}"]
         lines += [f"{key} = {number(getattr(options, 'smoke_' + key))}" for key in ("bloom", "hold", "dissolve")]
         lines += [f"extinction = {number(options.smoke_extinction)}"]
-        if options.sky == "WORLD":
-            color = vector(min(max(value, 0.0), 1000.0) for value in _world_color(scene.world))
-            lines += ["", "[sky]"] + [f"{key} = {color}" for key in ("zenith", "horizon", "ambient")]
+        sky = world.sky(scene, self._warnings)
+        if sky:
+            lines += ["", "[sky]"]
+            lines += [f"{key} = {vector(color)}" for key, color in zip(("zenith", "horizon", "ambient"), sky)]
         return lines
 
     def _camera(self):
@@ -221,18 +222,6 @@ class Writer:
             lines += ["", "[[event]]", 'type = "door"', f"time = {number(time)}"]
             lines += [f"object = {quoted(name)}", f"open = {'true' if event.open else 'false'}"]
         return lines
-
-
-def _world_color(world):
-    """The colour of the background times its strength."""
-    if world is None:
-        return (0.0, 0.0, 0.0)
-    if world.use_nodes and world.node_tree:
-        for node in world.node_tree.nodes:
-            if node.type == "BACKGROUND":
-                strength = node.inputs["Strength"].default_value
-                return tuple(value * strength for value in node.inputs["Color"].default_value[:3])
-    return tuple(world.color)
 
 
 def vertical_fov(camera, scene):
