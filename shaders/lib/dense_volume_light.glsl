@@ -82,15 +82,15 @@ DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance
 
 /// What arrives at a point of a volume, as means over the directions.
 struct Arrivals {
-  float escape;  // transmittance of the volume: what it holds back it may scatter again
-  vec2 seen;     // seen_around, through all media
+  float escape;       // transmittance of the volume: what it holds back it may scatter again
+  vec2 seen;          // seen_around, through all media
   mat3x2 seen_often;  // in dense volumes the same for light that decays as after many scatterings, a column a channel
 };
 
 Arrivals no_arrivals() { return Arrivals(0.0, vec2(0.0), mat3x2(0.0)); }
 
-/// Those at a point of a dense volume: along the axes and the diagonals of a cube, weighted so that polynomials of up to
-/// degree 5 are integrated exactly (Lebedev 1976). `around`: sky_around.
+/// Those at a point of a dense volume: along the axes and the diagonals of a cube, weighted so that polynomials of up
+/// to degree 5 are integrated exactly (Lebedev 1976). `around`: sky_around.
 
 Arrivals dense_arrivals(uint volume, vec3 p_world, vec4 around, vec3 decay) {
   Arrivals sum = no_arrivals();

@@ -18,6 +18,6 @@ void main() {
   if (i >= uint(free.length())) return;
   const vec3 p = pairs[2u * i];
   free[i] = segment_visibility(p, pairs[2u * i + 1u]);
-  sky[i] = vec4(sky_light_at(p).x / sky_shape(0.0), sky_irradiance(p, vec3(0.0, 1.0, 0.0)), sky_irradiance(p, vec3(0.0, -1.0, 0.0)),
-                sky_irradiance(p, vec3(1.0, 0.0, 0.0)));
+  sky[i] = vec4(sky_light_at(p).x / sky_shape(0.0), sky_irradiance(p, vec3(0.0, 1.0, 0.0)),
+                sky_irradiance(p, vec3(0.0, -1.0, 0.0)), sky_irradiance(p, vec3(1.0, 0.0, 0.0)));
 }

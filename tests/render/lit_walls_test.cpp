@@ -17,6 +17,7 @@
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/reference/truth.hpp"
+#include "tests/render/even_light.hpp"
 #include "tests/render/truth_scenes.hpp"
 
 namespace brume::render {
@@ -266,6 +267,8 @@ TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
   for (const Wall& wall : walls()) {
     const scenario::Scenario scenario = scenario_of_wall(wall, false);
     Studio studio(scenario);
+    const voxel::BitGrid level = closed_level(scenario.voxels.grid.layout());
+    light_evenly(studio.input, level, 1);
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
       const shared::Camera camera = planning::device_camera(view.camera, kStrip);

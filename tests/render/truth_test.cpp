@@ -18,6 +18,7 @@
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/reference/truth.hpp"
+#include "tests/render/even_light.hpp"
 #include "tests/render/truth_scenes.hpp"
 
 namespace brume::render {
@@ -264,6 +265,8 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
   timeline.smokes = {{0.0, {0, 1.5f, 0}, {0, 1, 0}}};
   const scenario::Scenario scenario = scenario_of(scene, timeline, {{52, 24, 40}, 0.25f, {-6.5f, -2, -4.5f}});
   Studio studio(scenario);
+  const voxel::BitGrid level = closed_level(scenario.voxels.grid.layout());
+  light_evenly(studio.input, level, 1);
   for (const float noise : {0.0f, 0.5f}) {
     for (const float extinction : {0.1f, 1.0f, 10.0f}) {
       double darkest = 2, brightest = 0, least_left = 1;

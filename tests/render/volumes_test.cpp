@@ -3,6 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "planning/blackbody.hpp"
+#include "tests/render/even_light.hpp"
 #include "tests/render/volume_fixture.hpp"
 
 namespace brume::render {
@@ -287,8 +288,8 @@ TEST_F(VolumesTest, WithoutAbsorptionACloudIsAsBrightAsTheSky) {
   const volume::SparseVolume cube = block({3, 3, 3});
   input_.volumes = {
       {&cube, oblique(cube, {-2, -2, -2}, glm::vec3(4)), {glm::vec3(1), 6, glm::vec3(0), 0.3f, 1}, {}}};
-  input_.environment.sky.ambient = glm::vec3(0.7f);
-  input_.environment.sky.bounce = 1;
+  const voxel::BitGrid level = closed_level({{40, 40, 40}, 0.25f, glm::vec3(-5)});
+  light_evenly(input_, level, 0.7f);
   int opaque = 0;
   for (const glm::vec4& pixel : draw()) {
     if (pixel.w > 0.002f) continue;
