@@ -107,7 +107,7 @@ typedef struct brume_light {
   brume_point direction;  ///< In which the light travels, any length but 0; of a point light ignored.
   float intensity[3];     ///< Per channel, [0, 10^12]: [W/sr]; of a sun the irradiance [W/m^2].
   float inner_angle;      ///< Of a spot, from its axis [rad]: full inside, [0, outer_angle).
-  float outer_angle;      ///< None outside, (0, pi].
+  float outer_angle;      ///< None outside, (0, pi]; between them as glTF recommends (KHR_lights_punctual).
 } brume_light;
 
 /// What a renderer is created with.

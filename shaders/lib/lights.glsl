@@ -2,6 +2,7 @@
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 #include "shared/light.h"
+#include "shared/spot.h"
 
 struct Incident {
   vec3 irradiance;  // on a surface that faces the light
@@ -30,7 +31,7 @@ Incident light_at(Light light, vec3 position_world) {
   const float nearest = light.radius > 0.0 ? light.radius * light.radius : 0.01;
   incident.falloff = window * window * (d2 > nearest ? one_over * one_over : 1.0 / nearest);
   if (light.kind == kLightSpot)
-    incident.falloff *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));
+    incident.falloff *= spot_falloff(light.cos_inner, light.cos_outer, dot(-incident.to_light, light.direction));
   incident.irradiance = light.intensity * incident.falloff;
   return incident;
 }

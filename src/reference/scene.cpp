@@ -9,6 +9,7 @@
 #include "reference/smoke_medium.hpp"
 #include "reference/volume_medium.hpp"
 #include "shared/hash.h"
+#include "shared/spot.h"
 
 namespace brume::reference {
 namespace {
@@ -84,7 +85,7 @@ Incident light_at(const shared::Light& light, const glm::vec3& p_world) {
                     distance};
   if (light.kind == shared::kLightSpot)
     incident.irradiance *=
-        glm::smoothstep(light.cos_outer, light.cos_inner, glm::dot(-incident.to_light, light.direction));
+        shared::spot_falloff(light.cos_inner, light.cos_outer, glm::dot(-incident.to_light, light.direction));
   return incident;
 }
 

@@ -37,8 +37,8 @@ struct Incident {
 /// Closer than this to a point or spot light, its irradiance is what it is there [m].
 constexpr float kConstantWithin = 0.1f;
 
-/// The inverse square law from kConstantWithin on, and the cone of a spot: shaders/lib/lights.glsl without
-/// its window, which cuts lights off at their range.
+/// The inverse square law from kConstantWithin on, and the cone of a spot (shared/spot.h):
+/// shaders/lib/lights.glsl without its window, which cuts lights off at their range.
 Incident light_at(const shared::Light& light, const glm::vec3& p_world);
 
 /// A point or spot light with media nearby, for NearChords and LightPath.

@@ -12,6 +12,7 @@
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
+#include "shared/spot.h"
 #include "tests/blender/blender_fixture.hpp"
 #include "tests/cli/run_program.hpp"
 #include "tests/reference/triangle_box.hpp"
@@ -240,6 +241,20 @@ TEST_P(BlenderFormats, UnsupportedContentIsSkippedWithAWarning) {
   }
 }
 
+// An area light, a spot of 180 degrees, emits pi times its intensity along its axis.
+void expect_power_of_area_lights(const scene::Scene& scene) {
+  for (const scene::Light& light : scene.lights) {
+    if (light.kind != scene::LightKind::spot || light.cos_outer > 1e-3f) continue;
+    constexpr int kSteps = 1000;
+    double power = 0;
+    for (int i = 0; i < kSteps; ++i)
+      power += 2 * std::acos(-1.0) / kSteps *
+               double{shared::spot_falloff(light.cos_inner, light.cos_outer,
+                                           (static_cast<float>(i) + 0.5f) / kSteps)};
+    EXPECT_NEAR(power, std::acos(-1.0), 1e-3);
+  }
+}
+
 // Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / 4 of an area light along its axis.
 TEST_P(BlenderFormats, LightsMatchBlender) {
   const double pi = std::acos(-1.0);
@@ -268,6 +283,7 @@ TEST_P(BlenderFormats, LightsMatchBlender) {
     expect_light({2.3, 0.9, 3.3}, 300 * area / (4 * pi), scene::LightKind::point);
     expect_light({-5.6, -1.4, 3.9}, 0.62 * 2600 * area / (4 * pi), scene::LightKind::spot);
     expect_light({0, 3.9, 2.6}, 300 * area / (is_txt ? 4 * pi : 4), scene::LightKind::spot);
+    expect_power_of_area_lights(scene);
     if (!is_txt) expect_light({0, 0, 9}, 0.55 * 0.3, scene::LightKind::directional);
   }
 }

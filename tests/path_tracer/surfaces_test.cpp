@@ -66,6 +66,27 @@ TEST(SurfacesTest, LightsObeyTheInverseSquareLaw) {
               1e-5);
 }
 
+// KHR_lights_punctual, "Inner and Outer Cone Angles": lightAngleScale, lightAngleOffset, and their square.
+TEST(SurfacesTest, SpotsFallOffAsGltfRecommends) {
+  shared::Light spot{};
+  spot.kind = shared::kLightSpot;
+  spot.direction = {0, 0, -1};
+  spot.intensity = glm::vec3(3);
+  for (const auto& [inner, outer] : {std::pair(0.2, 0.5), {0.0, 1.5}, {0.6, 0.6}, {0.7, 2.0}}) {
+    spot.cos_inner = static_cast<float>(std::cos(inner));
+    spot.cos_outer = static_cast<float>(std::cos(outer));
+    const double scale = 1 / std::max(0.001, double{spot.cos_inner} - double{spot.cos_outer}),
+                 offset = -double{spot.cos_outer} * scale;
+    for (double angle = 0; angle < 3.1; angle += 0.05) {
+      const glm::vec3 p(glm::dvec3(2 * std::sin(angle), 0, -2 * std::cos(angle)));
+      const double ramp = std::clamp(std::cos(angle) * scale + offset, 0.0, 1.0);
+      // Cosines of single precision, divided by a difference of at least 0.001.
+      EXPECT_NEAR(double{light_at(spot, p).irradiance.r}, 3.0 / 4 * ramp * ramp, 1e-6 * scale)
+          << inner << " " << outer << " " << angle;
+    }
+  }
+}
+
 TEST(SurfacesTest, ManyLightsAddUp) {
   const scene::Scene floor = floor_of(matte(0.6f));
   std::vector<shared::Light> sources;

@@ -152,8 +152,9 @@ std::optional<Incident> light_at(const TruthScene& scene, const shared::Light& l
         window * window / std::max(d2, light.radius > 0 ? double{light.radius} * double{light.radius} : 0.01);
     if (light.kind == shared::kLightSpot) {
       const double c = glm::dot(-incident.to_light, glm::dvec3(light.direction));
-      incident.irradiance *=
-          smooth((c - double{light.cos_outer}) / (double{light.cos_inner} - double{light.cos_outer}));
+      const double ramp = std::clamp(
+          (c - double{light.cos_outer}) / (double{light.cos_inner} - double{light.cos_outer}), 0.0, 1.0);
+      incident.irradiance *= ramp * ramp;
     }
   }
   if (incident.irradiance == glm::dvec3(0)) return {};

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from . import conversion, files, gltf_materials, meshes
-from .level import WIDEST_SPOT, spot_for_area
+from .level import AREA_BLEND, WIDEST_SPOT, spot_for_area
 from .messages import BrumeError
 from .properties import BRUME_ROLES
 
@@ -124,7 +124,7 @@ class _TemporaryScene:
         if data.type == "AREA":
             data.type = "SPOT"
             data = bpy.data.lights[data.name]  # Changing the type changes the Python class.
-            data.spot_size, data.spot_blend = WIDEST_SPOT, 1.0
+            data.spot_size, data.spot_blend = WIDEST_SPOT, AREA_BLEND
             data.energy = spot_for_area(light.power)
         if data.type == "SPOT":
             data.spot_size = min(data.spot_size, WIDEST_SPOT)

@@ -279,14 +279,17 @@ class Gathered:
 # Intensity of Blender's lights of P watts (measured by tests/blender/lights.py): P / (4 pi) W/sr for points and for
 # spots inside their cone; P / 4 along the axis of area lights, times the cosine off axis.
 def spot_for_area(power):
-    """The power of a 180 degree spot with full blend that approximates an area light.
+    """The power of a 180 degree spot with AREA_BLEND that approximates an area light.
 
-    A spot of power q has the intensity q / (4 pi) along its axis. With Brume's falloff smoothstep(0, 1, cos) it emits
-    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area light emits pi * power / 4. Both
-    axis intensity and total match for q = pi * power.
+    A spot of power q has the intensity q / (4 pi) along its axis. With the falloff that glTF recommends, from an outer
+    angle of 90 degrees to an inner angle of cosine 3/4, it emits 2 pi * q / (4 pi) times the integral of
+    min(4/3 c, 1)^2 over the cosine c from 0 to 1, 1/2: q / 4. The area light emits pi * power / 4. Both axis intensity
+    and total match for q = pi * power.
     """
     return math.pi * power
 
 
 # Full angle of the widest spot [radians]: pi rounded to float32 exceeds the maximum of glTF.
 WIDEST_SPOT = math.pi - 1e-6
+# Blender's exporter writes the inner angle (1 - blend) * WIDEST_SPOT / 2.
+AREA_BLEND = 1 - math.acos(0.75) / (math.pi / 2)
