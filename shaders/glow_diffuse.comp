@@ -1,10 +1,11 @@
 // Light of what glows in a volume that has been scattered before: a step of successive over-relaxation of the diffusion
 // equation on every other cell (shared/glow_field.h).
 //
-// Of the mean radiance J: div(D grad J) - (extinction - scattering) J + scattering J0 = 0, J0 that which arrives straight,
-// with D = 1 / (3 extinction'), extinction' = extinction - g scattering. At the borders nothing arrives, and what leaves is
-// J / 2 (Marshak). As the matter ends before the cells do, the flux is limited to that everywhere: D is the inverse of the
-// root of (3 extinction')^2 + (2 |grad J| / J)^2 (after Levermore and Pomraning 1981, "A flux-limited diffusion theory").
+// Of the mean radiance J: div(D grad J) - (extinction - scattering) J + scattering J0 = 0, J0 that which arrives
+// straight, with D = 1 / (3 extinction'), extinction' = extinction - g scattering. At the borders nothing arrives, and
+// what leaves is J / 2 (Marshak). As the matter ends before the cells do, the flux is limited to that everywhere: D is
+// the inverse of the root of (3 extinction')^2 + (2 |grad J| / J)^2 (after Levermore and Pomraning 1981, "A
+// flux-limited diffusion theory").
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

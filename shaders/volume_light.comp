@@ -169,7 +169,8 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   often += others.often;
   light.rgb = others.once;
   if (in_cells) {
-    const vec3 detail = detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering, arrivals.escape);
+    const vec3 detail =
+        detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering, arrivals.escape);
     const vec3 of_cells = albedo * indirect_field(p_world).mean;
     // A few bounces between coarse cells miss much of what glows in dense matter.
     light.rgb += max(refined_by_formula(of_cells, albedo * formula_in_cells(p_world), often, detail), others.own);

@@ -31,7 +31,8 @@ def color_by_grids(material, factor):
     joined = nodes.add("CombineRGB")
     for socket, channel in zip(joined.inputs, "rgb"):
         value = nodes.add("Attribute", attribute_name=f"color_{channel}").outputs["Fac"]
-        nodes.set(socket, nodes.math("MINIMUM", nodes.math("MULTIPLY", nodes.math("DIVIDE", value, density), factor), 1))
+        scaled = nodes.math("MULTIPLY", nodes.math("DIVIDE", value, density), factor)
+        nodes.set(socket, nodes.math("MINIMUM", scaled, 1))
     shader = next(node for node in material.node_tree.nodes if node.type == "PRINCIPLED_VOLUME")
     nodes.set(shader.inputs["Color"], joined.outputs[0])
 

@@ -88,7 +88,8 @@ def compare(comparison):
                    "bright": luminance[bright].mean() / cycles[bright].mean() - 1,
                    "largest": apart[judged][abs(apart[judged]).argmax()],
                    "off": int((abs(apart[judged]) > MOST).sum()), "parts": int(judged.sum())}
-            rows.append({key: value.item() if isinstance(value, numpy.floating) else value for key, value in row.items()})
+            rows.append({key: float(value) if isinstance(value, numpy.floating) else value
+                         for key, value in row.items()})
             comparison.say(", ".join(f"{key} {value:+.3f}" if isinstance(value, float) else str(value)
                                      for key, value in row.items()))
     return rows

@@ -10,7 +10,8 @@ layout(binding = kBindSmokeShadowFaces) readonly buffer Faces { vec4 face_rows[]
 Light light_from_rows(uint i) {
   const vec4 a = light_rows[4u * i], b = light_rows[4u * i + 1u];
   const vec4 c = light_rows[4u * i + 2u], d = light_rows[4u * i + 3u];
-  return Light(a.xyz, a.w, b.xyz, floatBitsToUint(b.w), c.xyz, c.w, d.x, floatBitsToUint(d.y), d.z, floatBitsToUint(d.w));
+  return Light(a.xyz, a.w, b.xyz, floatBitsToUint(b.w), c.xyz, c.w, d.x, floatBitsToUint(d.y), d.z,
+               floatBitsToUint(d.w));
 }
 
 SmokeShadowFace face_from_rows(uint i) {

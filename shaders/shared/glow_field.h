@@ -1,6 +1,6 @@
-// Light of what glows in a volume, in the volume itself (docs/volume-light.md#glow-in-dense-smoke): what arrives straight,
-// along kSkyDirections rays through a cube of cells over the volume's bounds, and what has been scattered before, by the
-// diffusion equation with a limit of flux.
+// Light of what glows in a volume, in the volume itself (docs/volume-light.md#glow-in-dense-smoke): what arrives
+// straight, along kSkyDirections rays through a cube of cells over the volume's bounds, and what has been scattered
+// before, by the diffusion equation with a limit of flux.
 //
 //   matter    per cell rgb: radiance that a metre emits; a: extinction [1/m]
 //   albedo    per cell rgb: single-scattering albedo

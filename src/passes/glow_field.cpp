@@ -10,8 +10,8 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines of the cells differ by.
-constexpr std::uint32_t kCellsMedia = shared::kMediaOfAlbedos | shared::kMediumVolumeDetail |
-                                      shared::kMediumHeat | shared::kMediumMasks;
+constexpr std::uint32_t kCellsMedia =
+    shared::kMediaOfAlbedos | shared::kMediumVolumeDetail | shared::kMediumHeat | shared::kMediumMasks;
 constexpr std::uint32_t kEdge = shared::kGlowEdge;
 
 /// Cubes, `along_x` and `along_z` of them.

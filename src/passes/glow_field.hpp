@@ -18,8 +18,8 @@ class GlowFieldPass {
   };
 
   explicit GlowFieldPass(gpu::Context& context);
-  /// Makes room for these volumes. True when the light of earlier frames is lost. Outside of a recording, once
-  /// the device has finished previous ones. Throws resource_limit.
+  /// Makes room for these volumes. True when the light of earlier frames is lost. Outside of a recording,
+  /// once the device has finished previous ones. Throws resource_limit.
   bool reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters);
   /// Finds the light of all that glow.
   void record(gpu::Recorder& recorder, const Inputs& in) const;
@@ -28,8 +28,7 @@ class GlowFieldPass {
 
  private:
   void record_volume(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
-  void record_cells(gpu::Recorder& recorder, const Inputs& in,
-                    const shared::GlowFieldParams& params) const;
+  void record_cells(gpu::Recorder& recorder, const Inputs& in, const shared::GlowFieldParams& params) const;
   void record_diffusion(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
   void record_refinement(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const;
   void record_step(gpu::Recorder& recorder, const Inputs& in, const shared::GlowFieldParams& params) const;
@@ -37,7 +36,8 @@ class GlowFieldPass {
   gpu::Context& context_;
   gpu::Sampler linear_;
   std::map<std::uint32_t, gpu::ComputePipeline> cells_pipelines_;  ///< By media.
-  gpu::ComputePipeline sweep_pipeline_, gather_pipeline_, refine_pipeline_, diffuse_pipeline_, store_pipeline_;
+  gpu::ComputePipeline sweep_pipeline_, gather_pipeline_, refine_pipeline_, diffuse_pipeline_,
+      store_pipeline_;
   gpu::Image matter_, albedo_, swept_, field_;
   gpu::Buffer state_;
 };

@@ -10,8 +10,8 @@ namespace brume::planning {
 
 /// A light for each ball of glow in a volume (grids::find_glow), of its heat and of its masks at a time [s],
 /// that is seen beyond its edge at an exposure (View::exposure). Its intensity is that of all that the ball
-/// emits and that leaves a homogeneous ball straight, and with `scattered` of what leaves it after having been
-/// scattered, too.
+/// emits and that leaves a homogeneous ball straight, and with `scattered` of what leaves it after having
+/// been scattered, too.
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                                        double seconds, float exposure, bool scattered);
 

@@ -306,9 +306,9 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "glow", [&] { smoke_.record_glow(recorder, plan, in); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
-      scene_.record_indirect_light(
-          recorder, plan, frame_,
-          {smoke_.resources(), smoke_.holes().cells, smoke_.noise(), smoke_.lit_volumes(), smoke_.glow_field()});
+      scene_.record_indirect_light(recorder, plan, frame_,
+                                   {smoke_.resources(), smoke_.holes().cells, smoke_.noise(),
+                                    smoke_.lit_volumes(), smoke_.glow_field()});
     });
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
 }

@@ -96,7 +96,8 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   }
   if (plan.volume_light.is_lit) {
     // Not short-circuited: both make room.
-    const bool field_lost = glow_field_pass_.reserve(planning::volumes_in_view(plan.media), plan.media.casters);
+    const bool field_lost =
+        glow_field_pass_.reserve(planning::volumes_in_view(plan.media), plan.media.casters);
     if (volume_light_pass_.reserve(plan.volume_light, plan.media.casters) || field_lost)
       plan.volume_light.update = true;
   }
@@ -235,7 +236,8 @@ void SmokeFrame::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
   const auto volumes = planning::volumes_in_view(plan.media);
   const float anisotropy = volumes.empty() ? 0 : volumes.front().instance.look.anisotropy;
   const glm::vec3 sky = shared::sky_shape(0) * plan.input.environment.sky.ambient;
-  const planning::RaycastLight light{media.to_sun, media.sun_irradiance, sky, shared::phase_of_hg(anisotropy)};
+  const planning::RaycastLight light{media.to_sun, media.sun_irradiance, sky,
+                                     shared::phase_of_hg(anisotropy)};
   raycast_pass_->record(recorder, {volume_upload_.resources(), in.targets.gbuffer.depth},
                         planning::plan_raycast(plan.camera, size_px_, volumes, light, {}), in.targets.media);
 }

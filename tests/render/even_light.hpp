@@ -14,8 +14,8 @@ inline voxel::BitGrid closed_level(const voxel::GridLayout& layout) {
   return grid;
 }
 
-/// Light of radiance `ambient` from everywhere: what hides the sky reflects all of it. `level`: closed_level, which must
-/// outlive the input.
+/// Light of radiance `ambient` from everywhere: what hides the sky reflects all of it. `level`: closed_level,
+/// which must outlive the input.
 inline void light_evenly(FrameInput& input, const voxel::BitGrid& level, float ambient) {
   input.level.voxels = {&level, nullptr, &level};
   input.environment.sky.ambient = glm::vec3(ambient);
