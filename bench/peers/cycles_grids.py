@@ -13,7 +13,7 @@ from mathutils import Euler, Vector
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cycles_shaders import Nodes, world  # noqa: E402
+from cycles_shaders import Nodes, brume_world, plain_world  # noqa: E402
 from cycles_stage import Surfaces, begin, cycles_settings, light, place, quad, volume  # noqa: E402
 
 GROUND = 0.4  # its albedo
@@ -54,7 +54,7 @@ def main():
     scene.camera = place("camera", data, EYE, Euler(turn))
     scene.render.resolution_x, scene.render.resolution_y = spec["size"]
     scene.render.resolution_percentage = 100
-    scene.world = world(sky)
+    scene.world = plain_world(sky)
     scene.brume.sky, scene.brume.voxel = "WORLD", 0.25
     bpy.context.view_layer.update()
     bpy.ops.brume.export_level(filepath=stem + ".glb", format="GLTF")
@@ -63,6 +63,7 @@ def main():
         medium.location = Vector(medium.location) - Vector([spec["voxel"] / 2] * 3)
     if spec["colors"]:
         color_by_grids(medium.data.materials[0], color)
+    scene.world = brume_world(sky)
     cycles_settings(spec)
     surfaces.show("diffuse")
     scene.render.filepath = stem + "_cycles.exr"

@@ -14,7 +14,7 @@ from mathutils import Euler, Vector
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cycles_shaders import world  # noqa: E402
+from cycles_shaders import brume_world, plain_world  # noqa: E402
 from cycles_stage import Surfaces, begin, box, cycles_settings, light, place, quad, volume  # noqa: E402
 
 ROOM = (2.0, 2.0, 3.0)  # half its width, half its depth, its height [m]
@@ -104,7 +104,7 @@ def camera(spec):
     scene.camera = place("camera", data, EYE, Euler(turn))
     scene.render.resolution_x, scene.render.resolution_y = spec["size"]
     scene.render.resolution_percentage = 100
-    scene.world = world(SKY.get(spec["scene"], (0, 0, 0)))
+    scene.world = plain_world(SKY.get(spec["scene"], (0, 0, 0)))
     scene.brume.sky, scene.brume.voxel = "WORLD", 0.25
 
 
@@ -121,6 +121,7 @@ def main():
     if medium and bpy.app.version < (4, 0):
         # Cycles 3 draws volumes half a voxel beside their place (cycles_cloud.py).
         medium.location = Vector(medium.location) - Vector([spec["voxel"] / 2] * 3)
+    bpy.context.scene.world = brume_world(SKY.get(spec["scene"], (0, 0, 0)))
     cycles_settings(spec)
     for kind in spec["surfaces"]:
         surfaces.show(kind)

@@ -93,20 +93,29 @@ def hammon(nodes, roughness, facing):
     return nodes.math("DIVIDE", cosine, nodes.math("MULTIPLY_ADD", cosine, 1 - alpha, alpha))
 
 
-def world(color):
-    """The sky as Brume has it: the eye sees the colour, surfaces receive it times 0.75 + 0.375 z
-    (shaders/shared/sky_light.h)."""
+def _background(color):
     made = bpy.data.worlds.new("world")
     # Its default takes longer than a small picture.
     made.cycles.sampling_method, made.cycles.sample_map_resolution = "MANUAL", 64
     nodes = Nodes(made)
-    height = nodes.add("SeparateXYZ")
-    nodes.set(height.inputs[0], nodes.add("TexCoord").outputs["Generated"])
-    lighting = nodes.math("MULTIPLY_ADD", height.outputs["Z"], 0.375, 0.75)
-    is_eye = nodes.add("LightPath").outputs["Is Camera Ray"]
     background = nodes.add("Background")
     nodes.set(background.inputs["Color"], (*color, 1))
-    nodes.set(background.inputs["Strength"],
-              nodes.math("MULTIPLY_ADD", is_eye, nodes.math("SUBTRACT", 1.0, lighting), lighting))
     nodes.set(nodes.add("OutputWorld").inputs["Surface"], background.outputs[0])
+    return made, nodes, background.inputs["Strength"]
+
+
+def plain_world(color):
+    """As the add-on exports it: one colour from all directions."""
+    return _background(color)[0]
+
+
+def brume_world(color):
+    """What Brume makes of a plain world: the eye sees the colour; what is lit receives it times
+    1 + 0.5 z, of which 1 is the mean (shaders/shared/sky_light.h)."""
+    made, nodes, strength = _background(color)
+    height = nodes.add("SeparateXYZ")
+    nodes.set(height.inputs[0], nodes.add("TexCoord").outputs["Generated"])
+    lighting = nodes.math("MULTIPLY_ADD", height.outputs["Z"], 0.5, 1)
+    is_eye = nodes.add("LightPath").outputs["Is Camera Ray"]
+    nodes.set(strength, nodes.math("MULTIPLY_ADD", is_eye, nodes.math("SUBTRACT", 1.0, lighting), lighting))
     return made
