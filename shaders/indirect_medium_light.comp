@@ -53,8 +53,7 @@ struct Arriving {
 Arriving light_at_place(Light light, vec3 p_cells, Formula formula, uint k) {
   const vec3 p_world = world_from_indirect(p_cells);
   const Incident incident = light_at(light, p_world);
-  if (is_negligible(light, incident))
-    return Arriving(vec3(0.0), vec3(0.0));
+  if (is_negligible(light, incident)) return Arriving(vec3(0.0), vec3(0.0));
   const float lit = light_visibility(light, p_world);
   if (lit <= 0.0) return Arriving(vec3(0.0), vec3(0.0));
   const float depth = medium_depth(p_cells, incident.to_light, incident.distance / frame.indirect.cell_size);

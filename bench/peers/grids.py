@@ -15,7 +15,7 @@ MOST = 0.1  # relative difference of a part's luminance that is allowed
 DARK = 0.02  # of the brightest part: what is less is not judged
 LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])
 GROUND = 0.4  # its albedo, as in cycles_grids.py
-# Of each picture of Brume: its name, and the options.
+# The pictures of Brume: name and options.
 MODES = (("path tracer", ["--mode", "reference", "--samples", "256", "--matte"]),
          ("real time, 8 bounces", ["--bounces", "8"]),
          ("real time", []))

@@ -91,7 +91,6 @@ Arrivals no_arrivals() { return Arrivals(0.0, vec2(0.0), mat3x2(0.0)); }
 
 /// Those at a point of a dense volume: along the axes and the diagonals of a cube, weighted so that polynomials of up
 /// to degree 5 are integrated exactly (Lebedev 1976). `around`: sky_around.
-
 Arrivals dense_arrivals(uint volume, vec3 p_world, vec4 around, vec3 decay) {
   Arrivals sum = no_arrivals();
   for (uint i = 0u; i < kDenseDirections; ++i) {

@@ -5,11 +5,12 @@
 //   matter    per cell rgb: radiance that a metre emits; a: extinction [1/m]
 //   albedo    per cell rgb: single-scattering albedo
 //   swept     per direction a cube along x, rgb: radiance that travels along it, times the direction's weight
+//   cells     per level and cell a GlowCell
 //   state     per level and cell rgb: mean radiance that has been scattered, while it is solved for
 //   field     two cubes along x, per volume along z. rgb: mean radiance over all directions that arrives straight; that
 //             has been scattered
 //
-// One volume after the other uses matter, albedo, swept and state.
+// One volume after the other uses all but the field.
 #ifndef BRUME_GLOW_FIELD_H
 #define BRUME_GLOW_FIELD_H
 #include "shared/shim.h"
@@ -23,6 +24,7 @@ SHARED_BINDING(kBindGlowSwept, 111u);
 SHARED_BINDING(kBindGlowState, 112u);
 SHARED_BINDING(kBindGlowField, 113u);
 SHARED_BINDING(kBindGlowFieldTarget, 114u);
+SHARED_BINDING(kBindGlowCells, 115u);
 
 /// Cubes of the field.
 SHARED_CONST uint kGlowStraight = 0u;
@@ -31,25 +33,35 @@ SHARED_CONST uint kGlowScattered = 1u;
 SHARED_CONST uint kGlowEdge = 32u;
 /// Threads of a slice along each of its axes.
 SHARED_CONST uint kGlowThreads = 16u;
-/// Levels of the state, each of half as many cells along an axis. Each begins with the solution of the coarser one, so
-/// that light spreads far in few iterations.
+/// Levels of cells, each of half as many along an axis. Each begins with the solution of the coarser one, so that light
+/// spreads far in few iterations.
 SHARED_CONST uint kGlowLevels = 3u;
-/// Cells of all levels, and the first of one.
+/// Cells of all levels.
 SHARED_CONST uint kGlowCells = 37376u;
+/// The first cell of a level.
 SHARED_FUNCTION uint first_glow_cell(uint level) {
   return level == 0u ? 0u : level == 1u ? 32768u : 36864u;
 }
-/// Times that all cells of a level are solved for: 12, 24, 48.
+/// Times that all cells of a level are solved for.
 SHARED_FUNCTION uint glow_iterations(uint level) {
-  return 12u << level;
+  return level == 0u ? 8u : level == 1u ? 12u : 20u;
 }
+
+/// What diffusing light meets in a cell, per metre.
+struct GlowCell {
+  vec3 transport;   // extinction less what is scattered straight on
+  vec3 absorption;
+  vec3 source;      // what arrives straight and is scattered
+};
+SHARED_SIZE(GlowCell, 36);
 
 struct GlowFieldParams {
   uint volume;  // in view
   uint level;
-  uint parity;  // of the coordinates' sum: the cells that are solved for
+  uint parity;  // of the coordinates' sum: the cells that are solved for first
+  uint steps;   // how often; then the others, in turn. Above 1 where one workgroup solves for all
 };
-SHARED_SIZE(GlowFieldParams, 12);
+SHARED_SIZE(GlowFieldParams, 16);
 
 SHARED_END
 #endif

@@ -31,6 +31,7 @@ GlowFieldPass::GlowFieldPass(gpu::Context& context)
       linear_(context, {}),
       sweep_pipeline_(context, shaders::glow_sweep_comp),
       gather_pipeline_(context, shaders::glow_gather_comp),
+      coarsen_pipeline_(context, shaders::glow_coarsen_comp),
       refine_pipeline_(context, shaders::glow_refine_comp),
       diffuse_pipeline_(context, shaders::glow_diffuse_comp),
       store_pipeline_(context, shaders::glow_store_comp),
@@ -45,11 +46,14 @@ bool GlowFieldPass::reserve(std::span<const planning::PlacedVolume> in_view, std
   if (!swept_) {
     // All of them or none: where memory was refused, another try makes all.
     gpu::Image matter = cubes(context_, 1, 1), albedo = cubes(context_, 1, 1);
+    gpu::Buffer cells(context_, VkDeviceSize{shared::kGlowCells} * sizeof(shared::GlowCell),
+                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     gpu::Buffer state(context_, VkDeviceSize{shared::kGlowCells} * sizeof(glm::vec3),
                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     swept_ = cubes(context_, shared::kSkyDirections, 1);
     matter_ = std::move(matter);
     albedo_ = std::move(albedo);
+    cells_ = std::move(cells);
     state_ = std::move(state);
   }
   const auto count = static_cast<std::uint32_t>(in_view.size());
@@ -64,7 +68,7 @@ void GlowFieldPass::record(gpu::Recorder& recorder, const Inputs& in) const {
 }
 
 void GlowFieldPass::record_volume(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const {
-  const shared::GlowFieldParams params{volume, 0, 0};
+  const shared::GlowFieldParams params{volume, 0, 0, 0};
   record_cells(recorder, in, params);
   recorder.bind(sweep_pipeline_,
                 {
@@ -77,7 +81,11 @@ void GlowFieldPass::record_volume(gpu::Recorder& recorder, const Inputs& in, std
                             shared::kGlowThreads);
   recorder.bind(gather_pipeline_,
                 {
+                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                    {shared::kBindGlowMatter, gpu::sampled(matter_, linear_)},
+                    {shared::kBindGlowAlbedo, gpu::sampled(albedo_, linear_)},
                     {shared::kBindGlowSwept, gpu::sampled(swept_, linear_)},
+                    {shared::kBindGlowCells, gpu::write(cells_)},
                     {shared::kBindGlowFieldTarget, gpu::stored(field_)},
                 },
                 params);
@@ -106,19 +114,26 @@ void GlowFieldPass::record_cells(gpu::Recorder& recorder, const Inputs& in,
 }
 
 void GlowFieldPass::record_diffusion(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const {
+  for (std::uint32_t level = 1; level < shared::kGlowLevels; ++level)
+    record_coarsening(recorder, {volume, level, 0, 0});
   recorder.fill(state_, 0);
   for (std::uint32_t level = shared::kGlowLevels; level-- > 0;) {
-    if (level + 1 < shared::kGlowLevels) record_refinement(recorder, {volume, level, 0});
-    for (std::uint32_t step = 0; step < 2 * shared::glow_iterations(level); ++step)
-      record_step(recorder, in, {volume, level, step & 1});
+    if (level + 1 < shared::kGlowLevels) record_refinement(recorder, {volume, level, 0, 0});
+    record_level(recorder, in, volume, level);
   }
   recorder.bind(store_pipeline_,
                 {
                     {shared::kBindGlowState, gpu::read(state_)},
                     {shared::kBindGlowFieldTarget, gpu::stored(field_)},
                 },
-                shared::GlowFieldParams{volume, 0, 0});
+                shared::GlowFieldParams{volume, 0, 0, 0});
   recorder.dispatch_threads(store_pipeline_, kEdge, kEdge, kEdge);
+}
+
+void GlowFieldPass::record_coarsening(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const {
+  recorder.bind(coarsen_pipeline_, {{shared::kBindGlowCells, gpu::read_write(cells_)}}, params);
+  const std::uint32_t edge = kEdge >> params.level;
+  recorder.dispatch_threads(coarsen_pipeline_, edge, edge, edge);
 }
 
 void GlowFieldPass::record_refinement(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const {
@@ -127,19 +142,21 @@ void GlowFieldPass::record_refinement(gpu::Recorder& recorder, const shared::Glo
   recorder.dispatch_threads(refine_pipeline_, edge, edge, edge);
 }
 
-void GlowFieldPass::record_step(gpu::Recorder& recorder, const Inputs& in,
-                                const shared::GlowFieldParams& params) const {
-  recorder.bind(diffuse_pipeline_,
-                {
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                    {shared::kBindGlowMatter, gpu::sampled(matter_, linear_)},
-                    {shared::kBindGlowAlbedo, gpu::sampled(albedo_, linear_)},
-                    {shared::kBindGlowField, gpu::sampled(field_, linear_)},
-                    {shared::kBindGlowState, gpu::read_write(state_)},
-                },
-                params);
-  const std::uint32_t edge = kEdge >> params.level;
-  recorder.dispatch_threads(diffuse_pipeline_, edge / 2, edge, edge);
+void GlowFieldPass::record_level(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume,
+                                 std::uint32_t level) const {
+  const std::uint32_t edge = kEdge >> level, steps = 2 * shared::glow_iterations(level);
+  // One workgroup holds the coarsest level, and synchronizes its steps itself.
+  const std::uint32_t together = level + 1 == shared::kGlowLevels ? steps : 1;
+  for (std::uint32_t step = 0; step < steps; step += together) {
+    recorder.bind(diffuse_pipeline_,
+                  {
+                      {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                      {shared::kBindGlowCells, gpu::read(cells_)},
+                      {shared::kBindGlowState, gpu::read_write(state_)},
+                  },
+                  shared::GlowFieldParams{volume, level, step & 1, together});
+    recorder.dispatch_threads(diffuse_pipeline_, edge / 2, edge, edge);
+  }
 }
 
 }  // namespace brume::passes

@@ -11,7 +11,6 @@ namespace brume::passes {
 class GlowFieldPass {
  public:
   struct Inputs {
-    const gpu::Buffer& frame;   ///< FrameConstants.
     std::uint32_t casters = 0;  ///< MediaPlan::casters.
     const VolumeResources& volumes;
     std::span<const planning::PlacedVolume> in_view;
@@ -30,16 +29,18 @@ class GlowFieldPass {
   void record_volume(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
   void record_cells(gpu::Recorder& recorder, const Inputs& in, const shared::GlowFieldParams& params) const;
   void record_diffusion(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const;
+  void record_coarsening(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const;
   void record_refinement(gpu::Recorder& recorder, const shared::GlowFieldParams& params) const;
-  void record_step(gpu::Recorder& recorder, const Inputs& in, const shared::GlowFieldParams& params) const;
+  void record_level(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume,
+                    std::uint32_t level) const;
 
   gpu::Context& context_;
   gpu::Sampler linear_;
   std::map<std::uint32_t, gpu::ComputePipeline> cells_pipelines_;  ///< By media.
-  gpu::ComputePipeline sweep_pipeline_, gather_pipeline_, refine_pipeline_, diffuse_pipeline_,
-      store_pipeline_;
+  gpu::ComputePipeline sweep_pipeline_, gather_pipeline_, coarsen_pipeline_, refine_pipeline_,
+      diffuse_pipeline_, store_pipeline_;
   gpu::Image matter_, albedo_, swept_, field_;
-  gpu::Buffer state_;
+  gpu::Buffer cells_, state_;
 };
 
 }  // namespace brume::passes

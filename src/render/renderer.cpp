@@ -303,7 +303,7 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "gbuffer", [&] { record_surfaces(recorder, plan, host); });
   if (host) record_on_surfaces(recorder, plan, *host);
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
-  scope(recorder, "glow", [&] { smoke_.record_glow(recorder, plan, in); });
+  scope(recorder, "glow", [&] { smoke_.record_glow(recorder, plan); });
   if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
       scene_.record_indirect_light(recorder, plan, frame_,

@@ -189,10 +189,10 @@ void SmokeFrame::with_volume_light_inputs(const FramePlan& plan, const FrameReso
                                          glow_field()});
 }
 
-void SmokeFrame::record_glow(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) const {
+void SmokeFrame::record_glow(gpu::Recorder& recorder, const FramePlan& plan) const {
   if (!plan.volume_light.update) return;
-  glow_field_pass_.record(recorder, {in.frame, plan.media.casters, volume_upload_.lit_resources(),
-                                     planning::volumes_in_view(plan.media)});
+  glow_field_pass_.record(
+      recorder, {plan.media.casters, volume_upload_.lit_resources(), planning::volumes_in_view(plan.media)});
 }
 
 void SmokeFrame::record_volume_sweeps(gpu::Recorder& recorder, const FramePlan& plan,

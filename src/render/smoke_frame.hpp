@@ -88,7 +88,7 @@ class SmokeFrame {
   /// The smoke's shadows on surfaces, and the light in it.
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   /// The light of what glows in volumes, in the volumes themselves.
-  void record_glow(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in) const;
+  void record_glow(gpu::Recorder& recorder, const planning::FramePlan& plan) const;
   /// The light in the volumes: their sweeps, then the rest.
   void record_volume_sweeps(gpu::Recorder& recorder, const planning::FramePlan& plan,
                             const FrameResources& in);

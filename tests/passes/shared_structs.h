@@ -137,7 +137,8 @@
   X(90, SurfaceNormalParams) \
   X(91, VolumeDetail) \
   X(92, PaneMaterial) \
-  X(93, GlowFieldParams)
+  X(93, GlowFieldParams) \
+  X(94, GlowCell)
 // clang-format on
 
 #endif

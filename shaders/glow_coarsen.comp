@@ -1,0 +1,25 @@
+// What diffusing light meets in the cells of a level: the means of those of the finer one (shared/glow_field.h).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/glow_field.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(scalar, binding = kBindGlowCells) buffer Cells { GlowCell cells[]; };
+layout(scalar, push_constant) uniform Push { GlowFieldParams params; };
+
+void main() {
+  const uint edge = kGlowEdge >> params.level, fine_edge = 2u * edge;
+  const uvec3 cell = gl_GlobalInvocationID;
+  if (any(greaterThanEqual(cell, uvec3(edge)))) return;
+  GlowCell sum = GlowCell(vec3(0.0), vec3(0.0), vec3(0.0));
+  for (uint corner = 0u; corner < 8u; ++corner) {
+    const uvec3 fine = 2u * cell + uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
+    const GlowCell here =
+        cells[first_glow_cell(params.level - 1u) + fine.x + fine_edge * (fine.y + fine_edge * fine.z)];
+    sum.transport += here.transport / 8.0;
+    sum.absorption += here.absorption / 8.0;
+    sum.source += here.source / 8.0;
+  }
+  cells[first_glow_cell(params.level) + cell.x + edge * (cell.y + edge * cell.z)] = sum;
+}
