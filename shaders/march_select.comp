@@ -24,13 +24,18 @@ RayEnds ends_of(ivec2 tile, ivec2 tiles) { return ends[tile.x + tiles.x * tile.y
 
 bool is_flat(RayEnds e) { return e.near_last > e.far_first || e.near == e.far; }
 
+vec4 fetch_cut(sampler2D smoke, ivec2 tile) {
+  const vec4 found = texelFetch(smoke, tile, 0);
+  return vec4(found.rgb, usually_cut(frame.media, found.a));
+}
+
 Estimate estimate(RayEnds e, ivec2 tile, float z) {
-  return at_distance(e, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.media, frame.volume.voxel_size);
+  return at_distance(e, fetch_cut(near, tile), fetch_cut(far, tile), z, frame.media, frame.volume.voxel_size);
 }
 
 /// Largest error of the values between two depths of which only bounds are known.
 vec4 error_between(RayEnds e, ivec2 tile, float z) {
-  const vec4 fall = abs(texelFetch(far, tile, 0) - texelFetch(near, tile, 0));
+  const vec4 fall = abs(fetch_cut(far, tile) - fetch_cut(near, tile));
   return fall * min(estimate(e, tile, z).doubt / max(fall.a, 1e-4), 1.0);
 }
 
@@ -81,7 +86,7 @@ bool is_visible(vec4 smoke, vec4 error, vec3 behind) {
 bool must_march(ivec2 tile, ivec2 tiles) {
   const RayEnds e = ends_of(tile, tiles);
   vec4 error;
-  vec4 smoke = texelFetch(far, tile, 0);
+  vec4 smoke = fetch_cut(far, tile);
   if (is_flat(e)) {
     const float middle = 0.5 * (e.near + e.far);
     error = max(error_between(e, tile, middle), error_at(e, tile, tiles, middle));

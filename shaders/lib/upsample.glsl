@@ -3,6 +3,7 @@
 #define UPSAMPLE_GLSL
 #include "lib/camera.glsl"
 #include "shared/frame.h"
+#include "shared/opaque.h"
 #include "shared/resolve.h"
 
 /// Distance along the view axis to a surface from its reverse depth, clamped to the depth range of the media's
@@ -21,6 +22,12 @@ struct Estimate {
   float doubt;  // uncertainty of the transmittance
 };
 
+/// A transmittance as rays usually end with it: rays that go on, for what is bright behind or for numbers, are
+/// estimated as others are, so that the same tiles are marched pixel by pixel.
+float usually_cut(FrameMedia media, float transmittance) {
+  return media.opaque_transmittance > 0.0 && transmittance < kUsualOpaque ? 0.0 : transmittance;
+}
+
 /// The smoke between the eye and a surface at distance z, from the results of a ray up to e.near and up to e.far.
 /// Assumes constant density between them. The uncertainty follows from the upper limit 1 of the density.
 Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media, float voxel_size) {
@@ -28,21 +35,24 @@ Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media, 
   const float sigma = media.extinction;
   if (z <= e.near) {
     result.smoke = near;
-    result.doubt = min(1.0 - near.a, near.a * (exp(min(sigma * (e.near - z), 20.0)) - 1.0));
+    const float near_a = usually_cut(media, near.a);
+    result.doubt = min(1.0 - near_a, near_a * (exp(min(sigma * (e.near - z), 20.0)) - 1.0));
     return result;
   }
   if (z >= e.far) {
     result.smoke = far;
-    result.doubt = far.a * (1.0 - exp(-sigma * (z - e.far)));
+    result.doubt = usually_cut(media, far.a) * (1.0 - exp(-sigma * (z - e.far)));
     return result;
   }
   // Constant density: the transmittance falls exponentially, and the radiance grows as it falls.
   const float span = e.far - e.near, x = (z - e.near) / span;
-  const float ratio = max(far.a, 1e-3) / max(near.a, 1e-3);
+  const float near_a = usually_cut(media, near.a), far_a = usually_cut(media, far.a);
+  const float ratio = max(far_a, 1e-3) / max(near_a, 1e-3);
   const float fallen = ratio < 0.999 ? (1.0 - pow(ratio, x)) / (1.0 - ratio) : x;
   result.smoke = mix(near, far, fallen);
-  const float least = max(far.a, near.a * exp(-sigma * (z - e.near)));
-  const float most = min(near.a, max(far.a, media.opaque_transmittance) * exp(min(sigma * (e.far - z), 20.0)));
+  const float cut = media.opaque_transmittance > 0.0 ? kUsualOpaque : 0.0;
+  const float least = max(far_a, near_a * exp(-sigma * (z - e.near)));
+  const float most = min(near_a, max(far_a, cut) * exp(min(sigma * (e.far - z), 20.0)));
   result.doubt = max(most - least, 0.0) * min(span / voxel_size, 1.0);
   return result;
 }

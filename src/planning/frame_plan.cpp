@@ -5,6 +5,8 @@
 #include <iterator>
 
 #include "planning/device_camera.hpp"
+#include "planning/opaque_limit.hpp"
+#include "shared/opaque.h"
 
 namespace brume::planning {
 namespace {
@@ -59,6 +61,9 @@ void plan_visible_media(FramePlan& plan, PlanHistory& history, std::span<const s
     lit[i] = plan.residency[i].lit_by_preview;
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
+  plan.media.frame.opaque_transmittance =
+      shared::opaque_below(plan.media.frame.opaque_transmittance,
+                           plan.input.view.exposure * brightest_behind(plan.input, plan.media, plan.lights));
   plan.decals = plan_decals(plan.input, plan.frustum, memory);
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;

@@ -1,5 +1,6 @@
 #include "planning/smoke_look.hpp"
 
+#include "shared/opaque.h"
 #include "smoke/noise_look.hpp"
 
 namespace brume::planning {
@@ -11,7 +12,7 @@ shared::SmokeLook smoke_look(const scene::SmokeOptions& options, float voxel_siz
   look.phase =
       options.droplet ? shared::phase_of_droplet(*options.droplet) : shared::phase_of_hg(options.anisotropy);
   look.step_length = 0.4f * voxel_size;
-  look.opaque_transmittance = 0.004f;
+  look.opaque_transmittance = shared::kUsualOpaque;
   look.multiple_scattering = options.multiple_scattering;
   smoke::set_noise(look, {.erosion = options.erosion,
                           .noise_size = options.noise_size,

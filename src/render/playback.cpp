@@ -11,6 +11,8 @@ namespace brume::render {
 namespace {
 
 constexpr float kStepScaleOfOneSample = 0.5f;
+/// Below it a ray is opaque where colours are graded later: a stop of 5 brings out no edge.
+constexpr float kOpaqueOfNumbers = 1e-4f;
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
@@ -57,6 +59,8 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   input.quality.step_scale = step_scale_;
   input.quality.light_update_fraction = light_update_fraction_;
   input.quality.resolve_error_scale = resolve_error_scale_;
+  if (each.as_numbers)
+    input.smoke.look.opaque_transmittance = std::min(input.smoke.look.opaque_transmittance, kOpaqueOfNumbers);
   input.view.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
   if (exposure_) input.view.exposure = *exposure_;
@@ -99,7 +103,7 @@ image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_in
   LayerMean mean;
   draw_frame(seconds, frame_index,
              {[&](gpu::Recorder& recorder, bool) { layers_->record(recorder, renderer_); },
-              [&] { mean.add(layers_->image()); }});
+              [&] { mean.add(layers_->image()); }, true});
   return mean.mean();
 }
 

@@ -339,6 +339,34 @@ TEST_F(VolumesTest, HeatGlowsWithoutAnyDensity) {
   EXPECT_GT(inside, 150);
 }
 
+// What an optical depth of 6 to 9 leaves of a floor that emits 1000 is far above what a display shows.
+TEST_F(VolumesTest, ABrightFloorShowsThroughWhatIsOpaqueBeforeOthers) {
+  const volume::SparseVolume slab = block({4, 2, 4});
+  const glm::mat4 placed =
+      glm::translate(glm::mat4(1), glm::vec3(-4, -2, -4)) * glm::scale(glm::mat4(1), glm::vec3(0.25f));
+  input_.volumes = {{&slab, placed, glowing(2, glm::vec3(0))}};
+  input_.view.camera = {{0, 9, 0}, {0, 0, -0.5f}, 0.4f};
+  input_.smoke.look.opaque_transmittance = 0.004f;
+  const std::vector<double> lengths = chords(input_.volumes[0]);
+  for (const auto& form :
+       {std::optional<passes::RaycastForm>(), std::optional(passes::RaycastForm::two_pass)})
+    for (const float radiance : {1.0f, 1000.0f}) {
+      scene::Scene floor = far_floor();
+      floor.materials[0].base_color = glm::vec3(0);
+      floor.materials[0].emission = glm::vec3(0.5f * radiance, radiance, 0);
+      RendererOptions options{kSize};
+      options.smoke.raycast = form;
+      Renderer bright(context(), runner(), floor, options);
+      bright.draw(input_);
+      const auto pixels = read_back<passes::Half4>(bright.radiance());
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        ASSERT_GT(lengths[i], 3.5) << i;
+        const double expected = radiance > 1 ? double{radiance} * std::exp(-2 * lengths[i]) : 0;
+        EXPECT_NEAR(double{passes::from_half(pixels[i]).y}, expected, 0.02 * expected) << i;
+      }
+    }
+}
+
 /// A cloud of smoke in an open world.
 class VolumesWithSmokeTest : public VolumesTest {
  protected:

@@ -1,0 +1,56 @@
+#include "planning/opaque_limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "planning/blackbody.hpp"
+#include "shared/opaque.h"
+
+namespace brume::planning {
+namespace {
+
+TEST(OpaqueLimitTest, IsTheUsualOneUpToTwiceTheDisplay) {
+  for (const float displayed : {0.0f, 0.3f, 1.0f, 2.0f})
+    EXPECT_EQ(shared::opaque_below(0.004f, displayed), 0.004f);
+  for (const float displayed : {2.5f, 20.0f, 1e6f}) {
+    const float limit = shared::opaque_below(0.004f, displayed);
+    EXPECT_LE(limit * displayed, 1.001f / 1024);
+    EXPECT_LT(limit, 0.004f);
+  }
+  EXPECT_EQ(shared::opaque_below(1e-4f, 3), 1e-4f) << "never more than the usual one";
+}
+
+TEST(OpaqueLimitTest, TheBrightestCounts) {
+  FrameInput input;
+  MediaPlan media;
+  EXPECT_EQ(brightest_behind(input, media, {}), 0);
+  input.environment.sky.horizon = {0.2f, 0.3f, 0.1f};
+  input.environment.sky.zenith = {0, 0, 0.25f};
+  EXPECT_EQ(brightest_behind(input, media, {}), 0.3f);
+
+  shared::Light sun{};
+  sun.kind = shared::kLightDirectional;
+  sun.intensity = glm::vec3(1, 10, 2);
+  shared::Light point{};
+  point.kind = shared::kLightPoint;
+  point.intensity = glm::vec3(1e6f);
+  EXPECT_NEAR(brightest_behind(input, media, std::vector{point, sun}), 5 / std::numbers::pi, 1e-5);
+
+  // A fire, whose hottest part counts.
+  const volume::SparseVolume heat({{}, 1, {{sizeof(std::uint16_t)}}});
+  input.volumes.resize(1);
+  input.volumes[0].heat = {.volume = &heat, .kelvin = 2000, .high = 1.5f, .emission = 2};
+  media.volumes.push_back({0, {glm::vec3(0), glm::vec3(3, 2, 4)}});
+  EXPECT_NEAR(brightest_behind(input, media, {}), 0.3f, 1e-6f) << "not in view";
+  media.frame.volume_count = 1;
+  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 2 * blackbody_color(3000).r);
+  // A mask, along the shortest side.
+  input.volumes[0].tints = {{1, 40, 3}};
+  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 80);
+  media.volumes[0].instance.look.emission = {100, 0, 0};
+  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 100);
+}
+
+}  // namespace
+}  // namespace brume::planning
