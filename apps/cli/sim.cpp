@@ -20,6 +20,7 @@
 #include "scenario/events.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/smoke_grid.hpp"
+#include "scenario/wall_smoke.hpp"
 #include "scene/load.hpp"
 #include "scene/text_reader.hpp"
 #include "smoke/drawn_smoke.hpp"
@@ -168,10 +169,13 @@ class VolumeFiles {
  private:
   void save(const std::filesystem::path& path, const sim::World& world) {
     stop_if_interrupted();
-    grids::save_grid_file(path,
-                          {{detail_ ? drawn(world) : scenario::smoke_grid(world.state(), grid_options_)}, {}})
-        .value_or_throw();
+    grids::save_grid_file(path, {{detail_ ? drawn(world) : up_to_walls(world)}, {}}).value_or_throw();
     ++written_;
+  }
+
+  grids::Grid up_to_walls(const sim::World& world) {
+    if (!smoke_) smoke_.emplace(scenario_);
+    return smoke_->grid(world, grid_options_);
   }
 
   grids::Grid drawn(const sim::World& world) {
@@ -197,6 +201,7 @@ class VolumeFiles {
   const Schedule& schedule_;
   const scenario::Scenario& scenario_;
   std::optional<double> detail_;
+  std::optional<scenario::FollowedSmoke> smoke_;
   std::unique_ptr<scenario::Simulation> simulation_;  // of drawn smoke, with the surfaces of doors
   std::uint32_t frame_, written_ = 0;
   scenario::SmokeGridOptions grid_options_;

@@ -84,6 +84,18 @@ TEST_F(SimVolumes, FramesAreThoseOfTheirTimes) {
   EXPECT_EQ(number_of<std::int32_t>(grid("late_10.brv"), "tick"), 5);
 }
 
+// Beside floor and walls lies what fills the solid voxels up to their surfaces; --rate has surfaces, too.
+TEST_F(SimVolumes, SmokeReachesUpToWalls) {
+  for (const char* rate : {"64", "20"}) {
+    sim_well({"--volumes", "last.brv", "--rate", rate});
+    const grids::Grid last = grid("last.brv");
+    std::vector<float> values(last.values.size() / sizeof(float));
+    std::memcpy(values.data(), last.values.data(), last.values.size());
+    EXPECT_GT(std::ranges::count_if(values, [](float value) { return value > 1.1f; }), 20) << rate;
+    EXPECT_GT(std::ranges::count(values, 1.0f), 20) << rate;
+  }
+}
+
 TEST_F(SimVolumes, TheSameThroughOpenVdb) {
   sim_well({"--volumes", "a.vdb", "--up", "z"});
   sim_well({"--volumes", "a.brv", "--up", "z"});
