@@ -6,6 +6,7 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/unit_key.hpp"
+#include "core/log.hpp"
 #include "core/progress.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/motion.hpp"
@@ -95,14 +96,18 @@ ReferenceFrames::ReferenceFrames(const scenario::Scenario& scenario,
                                  const ReferenceOptions& options, const FrameSettings& frames)
     : scenario_(scenario), simulation_(std::move(simulation)), options_(options), settings_(frames) {}
 
-void ReferenceFrames::measure_exposure() {
+/// In at most half of the time limit.
+void ReferenceFrames::measure_exposure(const Stopwatch& watch) {
   const double end = double{scenario_.timeline.duration};
   simulation_->advance_to(end);
   std::vector<shared::Hole> holes;
   planning::FrameInput frame = frame_at(end, holes);
   exposure_ = reference::measure_exposure(
       scenario_.scene, frame, &scenario_.masks,
-      static_cast<float>(settings_.size_px.x) / static_cast<float>(settings_.size_px.y));
+      static_cast<float>(settings_.size_px.x) / static_cast<float>(settings_.size_px.y), [&] {
+        return is_interrupted() || (options_.time_limit && watch.seconds() >= *options_.time_limit / 2);
+      });
+  stop_if_interrupted();
 }
 
 planning::FrameInput ReferenceFrames::frame_at(double seconds, std::vector<shared::Hole>& holes) const {
@@ -142,7 +147,7 @@ reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInpu
 }
 
 void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
-                 std::uint64_t key) {
+                 std::uint64_t key, double spent) {
   const std::string& checkpoint = options.checkpoint;
   if (!checkpoint.empty() && std::filesystem::exists(checkpoint))
     render.load(checkpoint, key).value_or_throw();
@@ -151,7 +156,7 @@ void add_samples(reference::Render& render, const ReferenceOptions& options, std
   Stopwatch since_saved;
   double interval = kLeastInterval;
   const auto is_over = [&] {
-    return is_interrupted() || (options.time_limit && sampling.seconds() >= *options.time_limit);
+    return is_interrupted() || (options.time_limit && spent + sampling.seconds() >= *options.time_limit);
   };
   for (bool done = false; !done && !is_over();) {
     done = render.advance(0.1, is_over);
@@ -164,6 +169,12 @@ void add_samples(reference::Render& render, const ReferenceOptions& options, std
     since_saved = {};
   }
   stop_if_interrupted();
+  if (const double without = render.without_samples(); without > 0) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2g", 100 * without);
+    log_warning("--time-limit " + exact_text(*options.time_limit) + ": ended before " + text +
+                " % of the picture had a sample, which is black");
+  }
 }
 
 std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::uint32_t> samples,
@@ -174,7 +185,11 @@ std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::u
 
 Picture ReferenceFrames::draw(double seconds) {
   const Stopwatch watch;
-  if (scenario_.measure_exposure && !exposure_) measure_exposure();
+  double measuring = 0;
+  if (scenario_.measure_exposure && !exposure_) {
+    measure_exposure(watch);
+    measuring = watch.seconds();
+  }
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   planning::FrameInput frame = frame_at(seconds, holes);
@@ -183,7 +198,7 @@ Picture ReferenceFrames::draw(double seconds) {
   const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte, later);
   const reference::RenderSettings settings = settings_of(frame, later);
   reference::Render render(*scene, settings);
-  add_samples(render, options_, settings.samples, settings_.key);
+  add_samples(render, options_, settings.samples, settings_.key, measuring);
   ++frames_;
   samples_ += render.samples();
   error_ = std::max(error_, render.error());

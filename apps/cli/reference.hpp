@@ -7,6 +7,7 @@
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/json.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "apps/cli/targets.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/render.hpp"
@@ -27,9 +28,11 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options);
 std::vector<std::string> texts_of(const ReferenceOptions& options);
 
 /// Adds samples to a picture until the limits of the options, with progress. Saves and continues the
-/// checkpoint, whose key is `key`. `samples`: those of the render's settings. Throws Error and Interrupted.
+/// checkpoint, whose key is `key`. `samples`: those of the render's settings; `spent`: how much of the time
+/// limit is over [s]. Warns where parts of the picture have no sample at the end. Throws Error and
+/// Interrupted.
 void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
-                 std::uint64_t key);
+                 std::uint64_t key, double spent = 0);
 
 /// --samples, or `usual` ones where nothing else ends a picture; 0: no limit.
 std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::uint32_t> samples,
@@ -61,7 +64,7 @@ class ReferenceFrames {
   Json statistics() const;
 
  private:
-  void measure_exposure();
+  void measure_exposure(const Stopwatch& watch);
   planning::FrameInput frame_at(double seconds, std::vector<shared::Hole>& holes) const;
   std::vector<planning::FrameInput> frames_after(double seconds, const planning::FrameInput& frame) const;
   reference::RenderSettings settings_of(const planning::FrameInput& frame,

@@ -31,8 +31,8 @@
 namespace brume::cli {
 namespace {
 
-// After a signal: a step of the path tracer, and a checkpoint, take their time [s].
-constexpr double kReferenceGrace = 8;
+// After a signal a checkpoint takes its time [s].
+constexpr double kCheckpointGrace = 8;
 
 // What --raycast cannot draw.
 void check_raycast(const RenderOptions& options, const scenario::Scenario& scenario) {
@@ -257,7 +257,7 @@ Json write_frames(const RenderOptions& options, const Plan& plan, CommonOptions&
 
 Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   simulate(options, plan, loaded);
-  common.grace_seconds = kReferenceGrace;
+  if (!options.reference.checkpoint.empty()) common.grace_seconds = kCheckpointGrace;
   Json statistics{{"mode", options.mode}};
   statistics.update(
       write_frames(options, plan, common, loaded, {"reference"}, [&]() -> std::unique_ptr<FrameSource> {

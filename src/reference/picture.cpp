@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tasks.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/exposure.hpp"
 #include "shared/tone.h"
@@ -14,24 +15,24 @@ image::Image8 picture_of(const Render& render, glm::uvec2 size_px, const plannin
       view.tone == scene::ToneCurve::standard ? shared::kToneStandard : shared::kToneNeutral;
   const std::vector<glm::vec4> radiance = render.radiance();
   image::Image8 image{size_px.x, size_px.y, std::vector<std::uint8_t>(4 * radiance.size(), 255)};
-  for (std::uint32_t y = 0; y < size_px.y; ++y)
-    for (std::uint32_t x = 0; x < size_px.x; ++x) {
-      const std::size_t i = std::size_t{y} * size_px.x + x;
+  parallel_for(radiance.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const glm::vec3 shown = shared::srgb_from_linear(
           shared::tone_curve(tone, glm::min(glm::vec3(radiance[i]), 65504.0f) * view.exposure));
       // The first dimension is blue noise over the pixels.
-      Sampler dither({x, y}, 0);
+      Sampler dither({i % size_px.x, i / size_px.x}, 0);
       for (int c = 0; c < 3; ++c) {
         const float value = 255 * shown[c] + dither.next_1d();
         image.rgba[4 * i + static_cast<std::size_t>(c)] =
             static_cast<std::uint8_t>(std::clamp(std::floor(value), 0.0f, 255.0f));
       }
     }
+  });
   return image;
 }
 
 float measure_exposure(const scene::Scene& scene, planning::FrameInput frame, const smoke::MaskAtlas* masks,
-                       float aspect) {
+                       float aspect, const std::function<bool()>& stopped) {
   // Few samples of a small image: the mean over it is exact enough.
   constexpr float kHeight = 72;
   frame.smoke.volume = nullptr;
@@ -42,7 +43,7 @@ float measure_exposure(const scene::Scene& scene, planning::FrameInput frame, co
   settings.eyes = {{planning::device_camera(frame.view.camera, settings.size_px)}};
   settings.samples = 8;
   Render render(*small, settings);
-  while (!render.advance(1, [] { return false; }))
+  while (!render.advance(1, stopped) && !stopped())
     ;
   return planning::exposure_of(render.radiance());
 }

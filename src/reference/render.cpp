@@ -75,10 +75,32 @@ Ray Render::eye_ray(glm::uvec2 pixel, Sampler& sampler) const {
   return ray;
 }
 
-void Render::sample(Tile& tile) {
+void Render::sample(Tile& tile, const std::function<bool()>& stopped) {
+  // As the sums were, should the tile not be completed.
+  std::array<Sums, std::size_t{kTileEdge} * kTileEdge> before;
+  const std::uint32_t width = tile.end.x - tile.low.x;
+  const auto each_row = [&](const auto& copy) {
+    for (std::uint32_t y = tile.low.y; y < tile.end.y; ++y)
+      copy(sums_.begin() + static_cast<std::ptrdiff_t>(index(tile.low.x, y)),
+           before.begin() + std::ptrdiff_t{kTileEdge} * (y - tile.low.y));
+  };
+  each_row([&](auto sums, auto kept) { std::copy_n(sums, width, kept); });
+  try {
+    add_paths(tile, stopped);
+  } catch (const Sampler::Stopped&) {
+    each_row([&](auto sums, auto kept) { std::copy_n(kept, width, sums); });
+    return;
+  }
+  ++tile.samples;
+  finish(tile);
+}
+
+/// A path through each pixel of a tile.
+void Render::add_paths(const Tile& tile, const std::function<bool()>& stopped) {
   for (std::uint32_t y = tile.low.y; y < tile.end.y; ++y)
     for (std::uint32_t x = tile.low.x; x < tile.end.x; ++x) {
       Sampler sampler({x, y}, tile.samples);
+      sampler.stop_by(&stopped);
       const Ray ray = eye_ray({x, y}, sampler);
       const PathSample found = trace_(ray, sampler);
       Sums& sums = sums_[index(x, y)];
@@ -99,8 +121,6 @@ void Render::sample(Tile& tile) {
       }
       sums.passed += found.through_media ? 1.0f : 0.0f;
     }
-  ++tile.samples;
-  finish(tile);
 }
 
 void Render::finish(Tile& tile) const {
@@ -139,10 +159,17 @@ bool Render::advance(double seconds, const std::function<bool()>& stopped) {
     const auto least = std::ranges::min(open, {}, &Tile::samples)->samples;
     std::erase_if(open, [&](const Tile* tile) { return tile->samples > least; });
     parallel_for(open.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end && !stopped(); ++i) sample(*open[i]);
+      for (std::size_t i = begin; i < end && !stopped(); ++i) sample(*open[i], stopped);
     });
   } while (!is_late() && !stopped());
   return std::ranges::all_of(tiles_, &Tile::done);
+}
+
+double Render::without_samples() const {
+  double pixels = 0;
+  for (const Tile& tile : tiles_)
+    if (tile.samples == 0) pixels += (tile.end.x - tile.low.x) * (tile.end.y - tile.low.y);
+  return pixels / static_cast<double>(std::max<std::size_t>(sums_.size(), 1));
 }
 
 double Render::samples() const {

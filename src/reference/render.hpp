@@ -53,9 +53,12 @@ class Render {
   Render(Trace trace, const RenderSettings& settings);
 
   /// Adds at least a sample to each pixel that needs more, in about `seconds`; true where none does. Returns
-  /// early, with a valid state, when `stopped` returns true, which any thread may call.
+  /// early, with a valid state, soon after `stopped` returns true, which any thread may call: samples of
+  /// tiles that are not complete by then are dropped.
   bool advance(double seconds, const std::function<bool()>& stopped);
 
+  /// The fraction of the pixels that have no sample yet: they are black.
+  double without_samples() const;
   /// Mean samples of the pixels.
   double samples() const;
   /// The largest error of the tiles (RenderSettings::noise); infinite before two samples.
@@ -89,7 +92,8 @@ class Render {
     bool done = false;
   };
 
-  void sample(Tile& tile);
+  void sample(Tile& tile, const std::function<bool()>& stopped);
+  void add_paths(const Tile& tile, const std::function<bool()>& stopped);
   void finish(Tile& tile) const;
   double error_of(const Tile& tile) const;
   Ray eye_ray(glm::uvec2 pixel, Sampler& sampler) const;

@@ -58,6 +58,10 @@ std::uint32_t Sampler::point_in_sequence(std::uint32_t dimension) const {
   return shuffled << block_bits_ | mine;
 }
 
+void Sampler::throw_if_stopped() const {
+  if ((*stopped_)()) throw Stopped();
+}
+
 float Sampler::next_1d() {
   const std::uint32_t dimension = dimension_++;
   const std::uint32_t seed = mix_bits(dimension * 0x85ebca6bu ^ block_ * 0xc2b2ae35u);

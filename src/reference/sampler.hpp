@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 
 #include "shared/hash.h"
@@ -42,16 +43,24 @@ class Sampler {
     // PCG-XSH-RR (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
     // Algorithms for Random Number Generation").
     const std::uint64_t old = state_;
+    // The lowest bits run through all values: this is every 4096th number.
+    if ((old & 4095u) == 0 && stopped_) throw_if_stopped();
     state_ = old * 6364136223846793005u + increment_;
     const auto mixed = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
     const auto turn = static_cast<std::uint32_t>(old >> 59);
     return unit_float((mixed >> turn) | (mixed << ((32u - turn) & 31u)));
   }
+  /// Thrown by `random`.
+  struct Stopped {};
+  /// Makes `random` throw Stopped within 4096 numbers of the time from which on `stopped` returns true, so
+  /// that a path that may take hours ends, too. It must outlive this; null: never.
+  void stop_by(const std::function<bool()>* stopped) { stopped_ = stopped; }
   /// The dimensions that follow begin here, whatever was drawn before.
   void set_dimension(std::uint32_t dimension) { dimension_ = dimension; }
 
  private:
   std::uint32_t point_in_sequence(std::uint32_t dimension) const;
+  void throw_if_stopped() const;
 
   std::uint32_t morton_;      // of the pixel
   std::uint32_t block_;       // of the sample
@@ -59,6 +68,7 @@ class Sampler {
   std::uint32_t block_bits_;  // logarithm of the block's size
   std::uint32_t dimension_ = 0;
   std::uint64_t state_, increment_;
+  const std::function<bool()>* stopped_ = nullptr;
 };
 
 }  // namespace brume::reference

@@ -37,8 +37,8 @@ TEST_F(ReferenceMode, LayersSayWhatIsInThem) {
       image::decode_exr(read_file(folder_.path() / "a.exr").value_or_throw(), "a.exr").value_or_throw();
   std::vector<std::string> names;
   for (const image::Layer& layer : image.layers) names.push_back(layer.name);
-  for (const char* name :
-       {"R", "single.G", "multiple.B", "albedo.R", "normal.Y", "A", "Z", "error.V", "samples.V", "transmittance.V"})
+  for (const char* name : {"R", "single.G", "multiple.B", "albedo.R", "normal.Y", "A", "Z", "error.V",
+                           "samples.V", "transmittance.V"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 }
 
@@ -52,6 +52,28 @@ TEST_F(ReferenceMode, EndsAtItsLimits) {
   // Whichever comes first.
   run = render({"-o", "a.png", "--noise", "0.0001", "--samples", "2", "--json", "-"});
   EXPECT_EQ(nlohmann::json::parse(run.out)["samples_per_pixel"], 2);
+}
+
+// No path through a volume that scatters all light of an extinction of 1e9 /m ends in time.
+TEST_F(ReferenceMode, EndsAtItsTimeLimitInAMediumOfAnyExtinction) {
+  const std::vector<float> ones(16 * 16 * 16, 1.0f);
+  folder_.write("dense.raw", {reinterpret_cast<const char*>(ones.data()), ones.size() * sizeof(float)});
+  folder_.write("dense.json",
+                R"({"format": "brume raw volume", "version": 1, "raw": "dense.raw", "size": [16, 16, 16],
+                    "class": "fog volume", "type": "float32"})");
+  folder_.write("dense.toml",
+                "version = 1\nscene = \"room.obj\"\nduration = 1.0\n[sky]\nambient = [1.0, 1.0, "
+                "1.0]\n[[camera]]\ntime = 0.0\n"
+                "position = [8.0, 8.0, 40.0]\ntarget = [8.0, 8.0, 8.0]\n[[volume]]\nfile = \"dense.json\"\n"
+                "extinction = 1e9\nalbedo = [1.0, 1.0, 1.0]\n");
+  for (const char* input : {"dense.toml", "dense.json"}) {
+    const Outcome run = run_brume(folder_.path(), {"render", input, "-o", "dense.png", "--mode", "reference",
+                                                   "--time-limit", "0.5", "--size", "64x48"});
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    if (std::string(input) == "dense.toml") {
+      EXPECT_NE(run.error.find("--time-limit 0.5: ended before"), std::string::npos) << run.error;
+    }
+  }
 }
 
 TEST_F(ReferenceMode, NumberedFramesResume) {

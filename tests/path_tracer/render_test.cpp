@@ -1,6 +1,7 @@
 // Pictures: the same for any number of threads, and after any interruption.
 #include "reference/render.hpp"
 
+#include <atomic>
 #include <filesystem>
 
 #include "core/file.hpp"
@@ -80,6 +81,29 @@ TEST_F(RenderTest, GoesOnBitByBitFromACheckpoint) {
     }
     expect_equal(after.layers().layers, whole);
   }
+}
+
+// Paths in a medium of a huge majorant take for ever.
+TEST_F(RenderTest, EndsWithinAPathAndGoesOnBitByBit) {
+  std::atomic<int> paths{0}, stops{0};
+  std::atomic<bool> stopped{false};
+  Render render(
+      [&](const Ray& ray, Sampler& sampler) {
+        if (++paths % 3000 == 0) {
+          stopped = true;
+          while (true) sampler.random();
+        }
+        return trace_path(*scene_, ray, settings_.limits, sampler);
+      },
+      settings_);
+  EXPECT_EQ(render.without_samples(), 1);
+  for (bool done = false; !done; stops += done ? 0 : 1) {
+    stopped = false;
+    done = render.advance(1e9, [&] { return stopped.load(); });
+  }
+  EXPECT_GE(stops, 3);
+  EXPECT_EQ(render.without_samples(), 0);
+  expect_equal(render.layers().layers, rendered());
 }
 
 TEST_F(RenderTest, MoreSamplesGoOnFromACheckpoint) {
