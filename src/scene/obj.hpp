@@ -55,7 +55,7 @@ struct MtlMaterial {
   float roughness = 0.8f, metallic = 0;
   float opacity = 1;
   std::string diffuse_map, normal_map, opacity_map;
-  std::string diffuse_place, normal_place;  ///< "file:line" of the maps.
+  std::string diffuse_place, normal_place, opacity_place;  ///< "file:line" of the maps.
 };
 
 /// Reads newmtl, Kd, Ke, Ns (as a roughness: alpha is sqrt(2 / (Ns + 2)), its root the roughness), Pr, Pm,
@@ -65,7 +65,7 @@ Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::str
 
 /// A scene from one OBJ file: one object per name (`o`, `g`) and material, called by the name if there is
 /// one. Roles: the prefix of the object's or the material's name (role_of_prefix); else glass for an opacity
-/// below 0.5, a grille for an opacity map, or by role_of_alpha where it is the colour's image.
+/// below 0.5, a grille for an opacity map that exists, or by role_of_alpha where it is the colour's image.
 Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

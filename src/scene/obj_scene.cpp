@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "core/log.hpp"
@@ -42,7 +43,7 @@ class MtlParser {
       material.roughness = std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
     }
     if (word == "d" || word == "Tr") return read_opacity(word == "Tr", material.opacity);
-    if (std::string ignored; word == "map_d") read_map(material.opacity_map, ignored);
+    if (word == "map_d") read_map(material.opacity_map, material.opacity_place);
     if (word == "map_Kd") read_map(material.diffuse_map, material.diffuse_place);
     if (word == "norm" || word == "map_Bump" || word == "map_bump" || word == "bump")
       read_map(material.normal_map, material.normal_place);
@@ -90,7 +91,9 @@ class MtlParser {
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t", end), rest.size()));
     };
     while (rest.starts_with('-')) {
+      const bool takes_word = rest.starts_with("-imfchan ") || rest.starts_with("-type ");
       take_word();
+      if (takes_word) take_word();
       while (!rest.empty()) {
         const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
         if (word != "on" && word != "off" && !reader_.number_from(word, "an option")) break;
@@ -200,13 +203,35 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   return material;
 }
 
+/// Finds opacity maps, and warns once of each that is missing.
+class OpacityMaps {
+ public:
+  explicit OpacityMaps(const SceneFiles& files) : files_(files) {}
+
+  /// Whether the map of a material exists.
+  bool has(const MtlMaterial& source) {
+    const std::string& map = source.opacity_map;
+    if (map.empty()) return false;
+    if (find_one(files_, places_of(map, source.folder))) return true;
+    // That of the colour is missed as such.
+    if (map != source.diffuse_map && missing_.insert(source.folder + map).second)
+      log_warning(source.opacity_place + ": the image " + in_quotes(map) + " " + why_not_found(map) +
+                  "; the material counts as opaque");
+    return false;
+  }
+
+ private:
+  const SceneFiles& files_;
+  std::set<std::string> missing_;
+};
+
 /// What a mesh of a material stops. An opacity map is read only where it is the image of the colour.
 Role role_of(const MtlMaterial& source, const Material& material, const SceneBuilder& builder,
-             const Mesh& mesh) {
+             const Mesh& mesh, OpacityMaps& opacity_maps) {
   if (source.opacity < 0.5f) return Role::glass;
-  if (source.opacity_map.empty()) return Role::wall;
-  if (source.opacity_map != source.diffuse_map || builder.is_checker(material.base_color_image))
-    return Role::grille;
+  if (!opacity_maps.has(source)) return Role::wall;
+  if (source.opacity_map != source.diffuse_map) return Role::grille;
+  if (builder.is_checker(material.base_color_image)) return Role::wall;
   return role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
 }
 
@@ -234,6 +259,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
   warn_of_ignored(*materials, name);
 
   SceneBuilder builder(files, name);
+  OpacityMaps opacity_maps(files);
   std::vector<Mesh> meshes = part_meshes(*model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const ObjPart& part = model->parts[i];
@@ -253,7 +279,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     if (const auto role = role_of_prefix(part.material))
       material.role = *role;
     else if (source != materials->by_name.end())
-      material.role = role_of(source->second, material, builder, meshes[i]);
+      material.role = role_of(source->second, material, builder, meshes[i], opacity_maps);
     const Role by_material = material.role;
     builder.scene.materials.push_back(std::move(material));
 

@@ -145,16 +145,26 @@ TEST(Roles, OfMaterials) {
 
 TEST(Roles, OfObjFiles) {
   MemoryFiles files;
-  files.add_text("a.mtl",
-                 "newmtl clear\nd 0.2\nnewmtl halo\nd -halo 0.2\nnewmtl see\nTr 0.8\nnewmtl full\nd 1\nTr 0\n"
-                 "newmtl odd\nd none\nnewmtl leaf\nmap_d -imfchan m leaf.png\nnewmtl GLASS_x\n");
+  files.add_text(
+      "a.mtl",
+      "newmtl clear\nd 0.2\nnewmtl halo\nd -halo 0.2\nnewmtl see\nTr 0.8\nnewmtl full\nd 1\nTr 0\n"
+      "newmtl odd\nd none\nnewmtl leaf\nmap_d -imfchan m leaf.png\nnewmtl GLASS_x\n"
+      "newmtl bare\nmap_d gone.png\nnewmtl bald\nmap_d gone.png\nnewmtl blank\nmap_Kd none.png\nmap_d "
+      "none.png\n");
+  files.add_text("leaf.png", "read only where it is the image of the colour");
   std::string text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  for (const char* material : {"clear", "halo", "see", "full", "odd", "leaf", "GLASS_x"})
+  for (const char* material :
+       {"clear", "halo", "see", "full", "odd", "leaf", "GLASS_x", "bare", "bald", "blank"})
     text += std::string("usemtl ") + material + "\nf 1 2 3\n";
   text += "o GRILLE_gate\nusemtl clear\nf 1 2 3\n";
+  const Warnings warnings;
   const Scene scene = parse_obj_scene(text, "a.obj", files).value_or_throw();
-  EXPECT_EQ(roles_of(scene), (std::vector<Role>{Role::glass, Role::glass, Role::glass, Role::wall, Role::wall,
-                                                Role::grille, Role::glass, Role::grille}));
+  EXPECT_EQ(roles_of(scene),
+            (std::vector<Role>{Role::glass, Role::glass, Role::glass, Role::wall, Role::wall, Role::grille,
+                               Role::glass, Role::wall, Role::wall, Role::wall, Role::grille}));
+  // Each missing image is named once.
+  EXPECT_TRUE(warnings.has("the image \"gone.png\" does not exist; the material counts as opaque"));
+  EXPECT_EQ(warnings.lines.size(), 2u);
 }
 
 /// The failure of a timeline with these lines.
