@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <limits>
 
 #include "apps/cli/atlas_options.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/volumes.hpp"
+#include "grids/active_values.hpp"
 #include "grids/cut_sides.hpp"
 #include "grids/files.hpp"
 #include "grids/metadata.hpp"
@@ -37,30 +36,13 @@ bool is_odd(double value) {
   return !(std::abs(value) <= 1e30);
 }
 
-// Calls `use` with each value of active voxels, and how many voxels have it.
-void for_each_value(const Grid& grid, const std::function<void(double, std::uint64_t)>& use) {
-  const std::size_t bytes = bytes_of(grid.type);
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    const std::byte* values = grid.values_of(i).data();
-    for (std::size_t z = 0; z < grid.bricks[i].active.size(); ++z)
-      for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1) {
-        const std::size_t voxel = z * 64 + static_cast<std::size_t>(std::countr_zero(word));
-        const double value = grids::number_of(grid.type, values + voxel * bytes);
-        use(value, 1);
-      }
-  }
-  for (const grids::Tile& tile : grid.tiles) {
-    const double value = grids::number_of(grid.type, tile.value.data());
-    if (tile.active) use(value, std::uint64_t{tile.edge} * tile.edge * tile.edge);
-  }
-}
-
 Values values_of(const Grid& grid) {
   Values values{
       false, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), {}};
-  for_each_value(grid, [&](double value, std::uint64_t count) {
+  for_each_active(grid, [&](const grids::ActiveValue& active) {
+    const double value = grids::number_of(grid.type, active.value);
     if (is_odd(value)) {
-      values.odd += count;
+      values.odd += active.count();
       return;
     }
     values.any = true;
@@ -69,10 +51,11 @@ Values values_of(const Grid& grid) {
   });
   if (!values.any) return values;
   const double range = values.high - values.low;
-  for_each_value(grid, [&](double value, std::uint64_t count) {
+  for_each_active(grid, [&](const grids::ActiveValue& active) {
+    const double value = grids::number_of(grid.type, active.value);
     if (is_odd(value)) return;
     const double part = range > 0 ? (value - values.low) / range * kBins : 0;
-    values.histogram[std::min(static_cast<std::size_t>(part), kBins - 1)] += count;
+    values.histogram[std::min(static_cast<std::size_t>(part), kBins - 1)] += active.count();
   });
   return values;
 }

@@ -3,42 +3,23 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <map>
+
+#include "grids/active_values.hpp"
 
 namespace brume::grids {
 namespace {
-
-// Calls `use` with the number of each box of active voxels of one value: its low corner and its edge.
-void for_each_active(const Grid& grid, const std::function<void(double, glm::ivec3, int)>& use) {
-  const std::size_t bytes = bytes_of(grid.type);
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    const Brick& brick = grid.bricks[i];
-    const std::byte* values = grid.values_of(i).data();
-    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
-      if (!brick.is_active(voxel)) continue;
-      const auto v = static_cast<int>(voxel);
-      use(number_of(grid.type, values + voxel * bytes), brick.origin + glm::ivec3(v & 7, v >> 3 & 7, v >> 6),
-          1);
-    }
-  }
-  for (const Tile& tile : grid.tiles)
-    if (tile.active) use(number_of(grid.type, tile.value.data()), tile.origin, static_cast<int>(tile.edge));
-}
-
-double cube(int edge) {
-  return static_cast<double>(edge) * edge * edge;
-}
 
 // By the upper bits of floats, which rise as they do: a hundredth apart.
 double densest_of(const Grid& grid) {
   constexpr int kDropped = 16;
   std::map<std::uint32_t, double> counts;
   double all = 0;
-  for_each_active(grid, [&](double value, glm::ivec3, int edge) {
+  for_each_active(grid, [&](const ActiveValue& active) {
+    const double value = number_of(grid.type, active.value), count = static_cast<double>(active.count());
     if (!(value > 0) || !(value <= 1e30)) return;
-    counts[std::bit_cast<std::uint32_t>(static_cast<float>(value)) >> kDropped] += cube(edge);
-    all += cube(edge);
+    counts[std::bit_cast<std::uint32_t>(static_cast<float>(value)) >> kDropped] += count;
+    all += count;
   });
   double below = 0;
   for (const auto& [key, count] : counts) {
@@ -82,14 +63,20 @@ Sides cut_sides(const Grid& grid) {
   Sides sides{};
   if (!(least > 0)) return sides;
   std::array<Layers, 3> layers;
-  for_each_active(grid, [&](double value, glm::ivec3 low, int edge) {
+  for_each_active(grid, [&](const ActiveValue& active) {
+    const double value = number_of(grid.type, active.value);
+    const glm::ivec3 low = active.low;
+    const auto edge = static_cast<int>(active.edge);
     if (!(value > least)) return;
     for (int axis = 0; axis < 3; ++axis)
       for (int i = 0; i < edge; ++i)
         layers[static_cast<std::size_t>(axis)][low[axis] + i] += static_cast<double>(edge) * edge;
   });
   if (layers[0].empty()) return sides;
-  for_each_active(grid, [&](double value, glm::ivec3 low, int edge) {
+  for_each_active(grid, [&](const ActiveValue& active) {
+    const double value = number_of(grid.type, active.value);
+    const glm::ivec3 low = active.low;
+    const auto edge = static_cast<int>(active.edge);
     if (!(value > least)) return;
     for (int axis = 0; axis < 3; ++axis) {
       const Layers& counts = layers[static_cast<std::size_t>(axis)];

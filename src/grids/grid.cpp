@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "grids/active_values.hpp"
 
 namespace brume::grids {
 
@@ -53,20 +54,10 @@ std::uint64_t count_active(const Grid& grid) {
 }
 
 bool any_above(const Grid& grid, double value) {
-  const auto is_above = [&](const std::byte* at) {
-    const double number = number_of(grid.type, at);
-    return number > value && std::isfinite(number);
-  };
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    const std::byte* const values = grid.values_of(i).data();
-    for (std::size_t z = 0; z < grid.bricks[i].active.size(); ++z)
-      for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1)
-        if (is_above(values +
-                     (z * 64 + static_cast<std::size_t>(std::countr_zero(word))) * bytes_of(grid.type)))
-          return true;
-  }
-  return std::ranges::any_of(grid.tiles,
-                             [&](const Tile& tile) { return tile.active && is_above(tile.value.data()); });
+  return !for_each_active(grid, [&](const ActiveValue& active) {
+    const double number = number_of(grid.type, active.value);
+    return !(number > value && std::isfinite(number));
+  });
 }
 
 bool is_level_set(const Grid& grid) {
@@ -78,20 +69,13 @@ bool is_level_set(const Grid& grid) {
   // Rounding of halves.
   const double most = background * (1 + 1e-3);
   bool inside = false, outside = false;
-  const auto may_be = [&](const std::byte* at) {
-    const double value = number_of(grid.type, at);
+  const bool all_may_be = for_each_active(grid, [&](const ActiveValue& active) {
+    const double value = number_of(grid.type, active.value);
     inside = inside || value < 0;
     outside = outside || value > 0;
     return std::abs(value) <= most;
-  };
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    const std::byte* values = grid.values_of(i).data();
-    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel)
-      if (grid.bricks[i].is_active(voxel) && !may_be(values + voxel * bytes_of(grid.type))) return false;
-  }
-  for (const Tile& tile : grid.tiles)
-    if (tile.active && !may_be(tile.value.data())) return false;
-  return inside && outside;
+  });
+  return all_may_be && inside && outside;
 }
 
 Box<double> active_bounds(const Grid& grid) {
