@@ -45,11 +45,14 @@ bool grid_row(const char* label, const char* about, std::string& chosen,
 bool grid_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
   bool changed = grid_row("density grid", "what is dense", options.density, frame.number_grids);
   std::vector<std::string> heat_grids = frame.number_grids;
-  heat_grids.emplace_back(scenario::kNoHeat);
+  heat_grids.emplace_back(scenario::kNoGrid);
   changed = grid_row("heat grid", "what glows", options.heat, heat_grids) || changed;
-  if (!frame.color_grids.empty() && options.masks.empty())
-    changed = grid_row("colour grid", "colours that multiply the albedo", options.color, frame.color_grids) ||
-              changed;
+  if (!frame.color_grids.empty() && options.masks.empty()) {
+    std::vector<std::string> color_grids = frame.color_grids;
+    color_grids.emplace_back(scenario::kNoGrid);
+    changed =
+        grid_row("colour grid", "colours that multiply the albedo", options.color, color_grids) || changed;
+  }
   return changed;
 }
 

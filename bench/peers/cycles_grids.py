@@ -46,7 +46,8 @@ def main():
     quad("ground", [(-15, -15, 0), (15, -15, 0), (15, 15, 0), (-15, 15, 0)], surfaces.add("ground", [GROUND] * 3))
     light("SUN", sun, rotation=(math.radians(50), 0, math.radians(-35)))
     glow = {"Blackbody_Intensity": 1, "Temperature": kelvin} if kelvin else {}
-    medium = volume(stem + ".vdb", (-1, -1, 0.02), density, color, anisotropy, **glow)
+    colors = {"Color_Attribute": "color"} if spec["colors"] else {}
+    medium = volume(stem + ".vdb", (-1, -1, 0.02), density, color, anisotropy, **glow, **colors)
     medium.data.render.space = "WORLD"
     data = bpy.data.cameras.new("camera")
     data.sensor_fit, data.angle = "VERTICAL", math.radians(FOV)

@@ -4,26 +4,26 @@
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
 #include "lib/media.glsl"
-#include "shared/opaque.h"
 #include "shared/resolve.h"
 
 /// Infinity: a ray that does not enter the media.
 float no_entry() { return uintBitsToFloat(0x7f800000u); }
 
-/// Result of a ray so far.
+/// Result of a ray so far, times `scale`: 1 before ordinary surfaces, more before bright ones, where whatever depends on
+/// the transmittance, such as the end of the ray, comes later.
 struct Gathered {
   vec3 radiance;  // per unit of media_albedo
   float transmittance;
   uint texture_samples, steps;
-  float opaque;  // transmittance below which the ray ends
+  float scale;
   float entry;  // distance at which the transmittance falls to kEntryTransmittance [m]; no_entry() so far
 };
 
-Gathered nothing_gathered(float opaque) { return Gathered(vec3(0.0), 1.0, 0u, 0u, opaque, no_entry()); }
+Gathered nothing_gathered(float scale) { return Gathered(vec3(0.0), scale, 0u, 0u, scale, no_entry()); }
 
 /// Notes the entry if it lies in the step [begin, begin + ds), in which the extinction is constant.
 void note_entry(float begin, float ds, float passed_log2, inout Gathered gathered) {
-  const float to_entry_log2 = log2(kEntryTransmittance / gathered.transmittance);
+  const float to_entry_log2 = log2(kEntryTransmittance * gathered.scale / gathered.transmittance);
   if (to_entry_log2 <= 0.0 && to_entry_log2 > passed_log2) gathered.entry = begin + ds * to_entry_log2 / passed_log2;
 }
 
@@ -35,7 +35,7 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
   const float passed = exp2(passed_log2);
   gathered.radiance += gathered.transmittance * (1.0 - passed) * light;
   gathered.transmittance *= passed;
-  if (gathered.transmittance >= gathered.opaque) return false;
+  if (gathered.transmittance >= frame.media.opaque_transmittance) return false;
   gathered.transmittance = 0.0;
   return true;
 }
@@ -44,13 +44,10 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
 const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
 
 /// Length of the steps behind a transmittance, relative to the first: what they add to the image, and what they may be
-/// off by, counts that much less; not where what lies behind is brighter than light sources are.
-/// Through smoke alone.
-float step_factor(Gathered gathered) {
+/// off by, counts that much less. Through smoke alone.
+float step_factor(float transmittance) {
   if (!kSmokeAlone) return 1.0;
-  const float brighter = gathered.opaque > 0.0 ? kLeastDisplayed / (kSourceDisplayed * gathered.opaque) : 1.0;
-  const float counts = gathered.transmittance * max(brighter, 1.0);
-  return counts < 0.0625 ? 4.0 : counts < 0.25 ? 2.0 : 1.0;
+  return transmittance < 0.0625 ? 4.0 : transmittance < 0.25 ? 2.0 : 1.0;
 }
 
 /// Equal steps along a ray, each with its sample at `jitter`.
@@ -68,7 +65,7 @@ Steps steps_between(float begin, float end, float jitter, float factor) {
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
 /// step to step, because registers limit how many rays run at a time.
 void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
-  float factor = step_factor(gathered);
+  float factor = step_factor(gathered.transmittance);
   Steps steps = steps_between(begin, end, jitter, factor);
   for (float t = begin + jitter * steps.ds; t < steps.after_last;) {
     MediaSpan span = media_span(ray, media, t, steps.ds);
@@ -92,7 +89,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
         const vec3 light = media_inscatter(span, here, gathered.texture_samples);
         if (add_step(t - jitter * steps.ds, dt, passed_log2, light, gathered)) return;
         // From the end of this step on they may be longer; more than rounding must remain.
-        const float longer = step_factor(gathered), rest = t + (1.0 - jitter) * steps.ds;
+        const float longer = step_factor(gathered.transmittance), rest = t + (1.0 - jitter) * steps.ds;
         if (longer > factor && end - rest > 0.01 * frame.media.step_length) {
           factor = longer;
           steps = steps_between(rest, end, jitter, factor);

@@ -72,10 +72,10 @@ Result<const grids::Grid*> choose_density(GridList grids, const std::string& nam
                      (names.empty() ? "" : ", only " + names + "; name one of vectors to see its lengths")};
 }
 
-/// Whether the name of a heat is kNoHeat, and no grid's.
+/// Whether a name is kNoGrid, and no grid's.
 bool says_none(GridList grids, const std::string& name) {
-  return name == kNoHeat &&
-         std::ranges::none_of(grids, [](const grids::Grid* grid) { return grid->name == kNoHeat; });
+  return name == kNoGrid &&
+         std::ranges::none_of(grids, [](const grids::Grid* grid) { return grid->name == kNoGrid; });
 }
 
 /// Red, green and blue as a grid of numbers each.
@@ -127,6 +127,7 @@ Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options)
 
 /// A grid of vectors, else the channels of a colour.
 Result<void> choose_colors(GridList grids, const std::string& name, Chosen& chosen) {
+  if (says_none(grids, name)) return {};
   const bool has_name = std::ranges::find(grids, name, &grids::Grid::name) != grids.end();
   if (!has_name) chosen.channels = color_channels(grids, name.empty() ? kChannelName : name);
   if (chosen.channels[0] && !name.empty()) return {};

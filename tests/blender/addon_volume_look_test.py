@@ -10,9 +10,13 @@ from volume_case import VolumeCase, volume_material, write_ball
 
 class Material(VolumeCase):
     def look(self, **inputs):
+        return self.replaced(material=volume_material(**inputs))
+
+    def replaced(self, **arguments):
+        """The table of a volume in place of those before."""
         for cloud in [thing for thing in bpy.data.objects if thing.type == "VOLUME"]:
             bpy.data.objects.remove(cloud)
-        self.volume(material=volume_material(**inputs))
+        self.volume(**arguments)
         return self.table()
 
     def test_density_and_colour(self):
@@ -67,6 +71,24 @@ class Material(VolumeCase):
         self.volume(path, material=volume_material(Density_Attribute="fog"))
         self.assertEqual(self.table()["density"], "fog")
 
+    def test_colors(self):
+        self.assertNotIn("color", self.look())
+        self.assertEqual(self.look(Color_Attribute="density")["color"], "density")
+        self.assertNotIn("color", self.look(Color_Attribute="Cd"))
+        self.assertSaid('its file has no grid "Cd", the Color Attribute of its material', "WARNING")
+        material = volume_material()
+        tree = material.node_tree
+        attribute = tree.nodes.new("ShaderNodeAttribute")
+        attribute.attribute_name = "density"
+        tree.links.new(tree.nodes["Principled Volume"].inputs["Color"], attribute.outputs["Color"])
+        table = self.replaced(material=material)
+        self.assertEqual(table["color"], "density")
+        self.assertNear(table["albedo"], (1, 1, 1))
+        # What Brume would take for colours.
+        path = write_ball(os.path.join(self.folder, "files", "painted.vdb"), grid="colour")
+        table = self.replaced(path=path, material=volume_material(Density_Attribute="colour"))
+        self.assertEqual(table["color"], "none")
+
     def test_values_of_linked_nodes(self):
         material = volume_material(Density=7.0)
         tree = material.node_tree
@@ -111,7 +133,7 @@ class Material(VolumeCase):
         self.assertSkipped("no volume shader")
 
     def test_what_brume_lacks(self):
-        self.look(Anisotropy=0.97, Emission_Strength=2.0, Color_Attribute="color", Blackbody_Intensity=1.0,
+        self.look(Anisotropy=0.97, Emission_Strength=2.0, Blackbody_Intensity=1.0,
                   Blackbody_Tint=(1.0, 0.5, 0.5), Temperature_Attribute="density")
-        for part in ("Anisotropy 0.97 becomes 0.9", "Emission is", "Color Attribute is", "Blackbody Tint is"):
+        for part in ("Anisotropy 0.97 becomes 0.9", "Emission is", "Blackbody Tint is"):
             self.assertSaid(part + " not" * part.endswith("is"), "WARNING")

@@ -59,6 +59,7 @@ TEST_F(VolumeValuesTest, ThreeGridsOfChannelsAreColours) {
                                  cube("color_b", 0)};
   EXPECT_EQ(color_of(grids, ""), glm::vec3(0.5f, 0.25f, 0));
   EXPECT_EQ(color_of(grids, "color"), glm::vec3(0.5f, 0.25f, 0));
+  EXPECT_EQ(color_of(grids, "none"), glm::vec3(-1));
   grids[0].metadata.push_back({"file_base_resolution", "vec3i", std::vector<std::byte>(12)});
   EXPECT_EQ(color_of(grids, ""), glm::vec3(1, 0.5f, 0));
   grids.pop_back();

@@ -60,7 +60,7 @@ def _unlink(tree, socket):
 
 
 def _counterpart(tree, output):
-    """The output of a copied tree for that of the original."""
+    """The output in a copied tree that corresponds to one of the original."""
     return next(entry for entry in tree.nodes[output.node.name].outputs if entry.identifier == output.identifier)
 
 

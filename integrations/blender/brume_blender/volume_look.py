@@ -23,6 +23,7 @@ class Look:
     kelvin: float = 1000.0  # Where the grid of temperatures is 1.
     density: str = "density"  # Names of grids.
     temperature: str = "temperature"
+    color: str = ""  # "": one colour.
 
 
 class _Reader:
@@ -41,6 +42,12 @@ class _Reader:
             self._warn(f"its {name} is linked to the node {link.node.name}; the value of the socket is exported")
         found = socket.default_value
         return float(found) if socket.type == "VALUE" else np.array(found[:3], dtype=float)
+
+    def attribute(self, name):
+        """The grid whose colours an Attribute node gives to a socket; "" without one."""
+        link = _source(self._node.inputs[name])
+        is_attribute = link is not None and link.node.type == "ATTRIBUTE" and link.identifier == "Color"
+        return link.node.attribute_name if is_attribute else ""
 
     def text(self, name):
         socket = self._node.inputs[name]
@@ -99,7 +106,8 @@ def look_of(material, warn):
 
 def _principled(reader, warn):
     # Cycles scatters the colour and absorbs what it leaves of 1, but for the root of the absorption colour.
-    color = np.maximum(reader.value("Color"), 0.0)
+    grid = reader.attribute("Color")
+    color = np.ones(3) if grid else np.maximum(reader.value("Color"), 0.0)
     absorption = np.sqrt(np.maximum(reader.value("Absorption Color"), 0.0))
     extinctions = color + np.maximum(1 - color, 0.0) * np.maximum(1 - absorption, 0.0)
     mean = float(extinctions.mean())
@@ -107,13 +115,12 @@ def _principled(reader, warn):
         warn("light of each colour goes through it by another length; Brume takes the mean")
     density = max(reader.value("Density"), 0.0)
     look = Look(extinction=density * mean, density=reader.text("Density Attribute"))
+    look.color = grid or reader.text("Color Attribute")
     look.albedo = tuple(np.minimum(color / mean, 1.0)) if mean > 0 else (0.0, 0.0, 0.0)
     anisotropy = reader.value("Anisotropy")
     look.anisotropy = min(max(anisotropy, -0.9), 0.9)
     if look.anisotropy != anisotropy:
         warn(f"its Anisotropy {anisotropy:.2f} becomes {look.anisotropy:g}")
-    if reader.text("Color Attribute"):
-        warn("its Color Attribute is not exported: Brume has one colour per volume")
     if reader.value("Emission Strength") > 0 and max(reader.value("Emission Color")) > 0:
         warn("its Emission is not exported: in Brume only temperatures glow")
     _set_glow(look, reader, warn)

@@ -14,6 +14,7 @@ _MOST = 32  # Volumes of a frame.
 _FARTHEST = 1e6  # [m]
 _LAST_FRAME = 1_000_000_000
 _LATEST = 3600.0  # [s]
+_COLORS = ("Cd", "color", "colour")  # Usual names of grids of colours.
 # What Brume takes for the number of a frame in the name of a file.
 _NUMBER = re.compile(r"%0?\d*d")
 
@@ -156,6 +157,7 @@ class Tables:
             scale = self._level.metres / max(float(np.linalg.norm(diagonal)), 1e-30)
         keys = {"density": quoted(density)} if density else {}
         keys |= {"heat": quoted(look.temperature)} if emission > 0 else {}
+        keys |= self._color_keys(look.color, grids, warn)
         keys["extinction"] = number(min(look.extinction * scale / self._level.metres, 1e12))
         keys["albedo"] = vector(look.albedo)
         keys["anisotropy"] = number(look.anisotropy)
@@ -163,6 +165,19 @@ class Tables:
         if emission > 0:
             keys["kelvin"] = number(look.kelvin)
         return keys
+
+    def _color_keys(self, name, grids, warn):
+        """Brume finds colours by itself where a file has grids of the usual names; Blender does not."""
+        if name and not _has_colors(grids, name):
+            warn(f'its file has no grid "{name}", the Color Attribute of its material')
+        elif name:
+            return {"color": quoted(name)}
+        return {"color": quoted("none")} if any(_has_colors(grids, usual) for usual in _COLORS) else {}
+
+
+def _has_colors(grids, name):
+    """Whether a file has a grid of colours, or one for each channel as Mantaflow saves them."""
+    return name in grids or all(f"{name}_{channel}" in grids for channel in "rgb")
 
 
 def _first_file(pattern, first, last):
