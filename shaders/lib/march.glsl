@@ -9,21 +9,19 @@
 /// Infinity: a ray that does not enter the media.
 float no_entry() { return uintBitsToFloat(0x7f800000u); }
 
-/// Result of a ray so far, times `scale`: 1 before ordinary surfaces, more before bright ones, where whatever depends on
-/// the transmittance, such as the end of the ray, comes later.
+/// Result of a ray so far.
 struct Gathered {
   vec3 radiance;  // per unit of media_albedo
   float transmittance;
   uint texture_samples, steps;
-  float scale;
   float entry;  // distance at which the transmittance falls to kEntryTransmittance [m]; no_entry() so far
 };
 
-Gathered nothing_gathered(float scale) { return Gathered(vec3(0.0), scale, 0u, 0u, scale, no_entry()); }
+Gathered nothing_gathered() { return Gathered(vec3(0.0), 1.0, 0u, 0u, no_entry()); }
 
 /// Notes the entry if it lies in the step [begin, begin + ds), in which the extinction is constant.
 void note_entry(float begin, float ds, float passed_log2, inout Gathered gathered) {
-  const float to_entry_log2 = log2(kEntryTransmittance * gathered.scale / gathered.transmittance);
+  const float to_entry_log2 = log2(kEntryTransmittance / gathered.transmittance);
   if (to_entry_log2 <= 0.0 && to_entry_log2 > passed_log2) gathered.entry = begin + ds * to_entry_log2 / passed_log2;
 }
 
@@ -47,7 +45,8 @@ const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCount
 /// off by, counts that much less. Through smoke alone.
 float step_factor(float transmittance) {
   if (!kSmokeAlone) return 1.0;
-  return transmittance < 0.0625 ? 4.0 : transmittance < 0.25 ? 2.0 : 1.0;
+  const float coarse = frame.media.coarse_transmittance;
+  return transmittance < 0.25 * coarse ? 4.0 : transmittance < coarse ? 2.0 : 1.0;
 }
 
 /// Equal steps along a ray, each with its sample at `jitter`.

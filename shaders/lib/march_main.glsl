@@ -5,7 +5,6 @@
 #include "shared/frame.h"
 #include "shared/hole_clusters.h"
 #include "shared/media.h"
-#include "shared/opaque.h"
 #include "shared/resolve.h"
 
 layout(local_size_x = kHoleTilePixels, local_size_y = kHoleTilePixels) in;
@@ -20,7 +19,6 @@ layout(constant_id = 5) const uint kSplitByHoles = 0u;  // 1: two pipelines, of 
 #include "lib/pixel_ray.glsl"
 #include "lib/ray_bounds.glsl"
 
-layout(binding = kBindEmission) uniform sampler2D emission;
 layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile;
 layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
 layout(binding = kBindSmokeNear, rgba16f) uniform writeonly image2D smoke_near;
@@ -43,22 +41,7 @@ bool is_of_other_pipeline() {
   return any_hole == (kHoles == kHolesNone);
 }
 
-vec4 premultiplied(Gathered gathered) {
-  return vec4(gathered.radiance * media_albedo(), gathered.transmittance) / gathered.scale;
-}
-
-/// Gathered::scale, by the brightest surface behind a ray.
-float scale_before_surfaces(ivec2 texel) {
-  const int edge = kRays == kRaysOfTiles ? int(frame.march_scale) : 1;
-  const ivec2 first = texel * edge, last = min(first + edge, ivec2(frame.size_px)) - 1;
-  vec3 brightest = vec3(0.0);
-  for (int y = first.y; y <= last.y; ++y) {
-    for (int x = first.x; x <= last.x; ++x) brightest = max(brightest, texelFetch(emission, ivec2(x, y), 0).rgb);
-  }
-  const float usual = frame.media.opaque_transmittance;
-  const float displayed = frame.exposure * max(brightest.r, max(brightest.g, brightest.b));
-  return usual > 0.0 ? usual / opaque_below(usual, displayed) : 1.0;
-}
+vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
 
 /// Writes what is recorded of a ray for each of its pixels.
 void write_of_pixels(ivec2 texel, uint value) {
@@ -85,7 +68,7 @@ void main() {
   // compiled on its own.
   const bool of_tile = kRays == kRaysOfTiles;
   const float t_near = of_tile ? clamp(pixel.near * per_depth, inside.x, inside.y) : inside.y;
-  Gathered gathered = nothing_gathered(scale_before_surfaces(pixel.texel));
+  Gathered gathered = nothing_gathered();
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   for (uint part = 0u; part < (of_tile ? 2u : 1u) && inside.x < inside.y && gathered.transmittance > 0.0; ++part) {
     march(ray, media, jitter, part == 0u ? inside.x : t_near, part == 0u ? t_near : inside.y, gathered);

@@ -66,6 +66,7 @@ struct FrameMedia {
   float extinction;            // upper limit [1/m]
   float step_length;           // of the march, at most [m]
   float opaque_transmittance;  // below it a ray is opaque
+  float coarse_transmittance;  // below it, and again below a quarter of it, steps through smoke alone are twice as long
   uint volume_count;           // besides the smoke, in view
   uint caster_count;           // all that cast shadows, in view or not; those in view come first
   vec3 to_sun;                 // unit
@@ -73,7 +74,7 @@ struct FrameMedia {
   uint box_count;              // at least one, whose
   MediaBox box_0, box_1, box_2, box_3;  // union holds all that the bounds hold: smaller where media are far apart
 };
-SHARED_SIZE(FrameMedia, 168);
+SHARED_SIZE(FrameMedia, 172);
 
 /// Placement of the cells of indirect light (indirect_light.h).
 struct IndirectLayout {
@@ -106,7 +107,7 @@ struct FrameConstants {
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
   IndirectLayout indirect;
 };
-SHARED_SIZE(FrameConstants, 672);
+SHARED_SIZE(FrameConstants, 676);
 
 SHARED_END
 #endif

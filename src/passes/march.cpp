@@ -126,7 +126,6 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
                     {shared::kBindDetailTile, gpu::sampled(in.detail, repeat_mips_)},
                     {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
-                    {shared::kBindEmission, gpu::sampled(in.emission, nearest_)},
                     {shared::kBindBlueNoise, gpu::sampled(in.blue_noise, nearest_)},
                     {shared::kBindHoles, gpu::read(in.holes.holes)},
                     {shared::kBindSmoke, gpu::stored(rays.smoke)},

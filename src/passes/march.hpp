@@ -57,7 +57,6 @@ class MarchPass {
     const gpu::Image& noise;
     const gpu::Image& detail;  ///< Of the noise.
     const gpu::Image& depth;
-    const gpu::Image& emission;  ///< Of the surfaces: rays go on where bright ones are behind.
     const gpu::Image& blue_noise;
     const HoleResources& holes;
   };

@@ -52,6 +52,7 @@ struct SceneResources {
   Draw grenade;                           ///< Draws nothing where the scene has none.
   std::vector<shared::Light> light_list;  ///< The first ones in `lights`; temporary lights follow.
   bool has_panes = false;                 ///< Whether any of `draws` is one.
+  float brightest_surface = 0;            ///< The largest component of the radiance that materials emit.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 

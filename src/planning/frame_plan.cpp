@@ -49,8 +49,18 @@ void plan_hole_clusters(FramePlan& plan, Allocator memory) {
                  slots > 0 ? plan.smoke->layout() : shared::VolumeLayout(), slots, plan.size_px, memory);
 }
 
+/// Where rays through the media end.
+void limit_rays(FramePlan& plan, float brightest_surface) {
+  const float brightest = std::max(brightest_surface, brightest_behind(plan.input, plan.media, plan.lights));
+  shared::FrameMedia& media = plan.media.frame;
+  media.opaque_transmittance =
+      shared::opaque_below(media.opaque_transmittance, plan.input.view.exposure * brightest);
+  media.coarse_transmittance = shared::coarse_below(media.opaque_transmittance);
+}
+
 /// Which media are visible, and at which resolution.
-void plan_visible_media(FramePlan& plan, PlanHistory& history, std::span<const shared::Light> lights) {
+void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& history,
+                        std::span<const shared::Light> lights) {
   const Allocator memory = history.memory.get();
   plan.residency =
       history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
@@ -61,9 +71,7 @@ void plan_visible_media(FramePlan& plan, PlanHistory& history, std::span<const s
     lit[i] = plan.residency[i].lit_by_preview;
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
-  plan.media.frame.opaque_transmittance =
-      shared::opaque_below(plan.media.frame.opaque_transmittance,
-                           plan.input.view.exposure * brightest_behind(plan.input, plan.media, plan.lights));
+  limit_rays(plan, target.brightest_surface);
   plan.decals = plan_decals(plan.input, plan.frustum, memory);
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;
@@ -173,7 +181,7 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   const SmokeInput& smoke = plan.input.smoke;
   const FrameVector<shared::Light> lights = plan_visibility(plan, target, history);
   plan_hole_clusters(plan, history.memory.get());
-  plan_visible_media(plan, history, lights);
+  plan_visible_media(plan, target, history, lights);
   plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
   plan_level(plan, history);
   plan_noise_updates(plan, history);

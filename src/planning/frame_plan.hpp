@@ -25,6 +25,7 @@ namespace brume::planning {
 struct PlanTarget {
   std::span<const shared::Light> lights;  ///< Of the scene.
   Box<float> scene_bounds;                ///< Around all surfaces.
+  float brightest_surface = 0;            ///< The largest component of the radiance that surfaces emit.
   glm::mat4 sun_clip_from_world{1};
   glm::uvec2 size_px{1};
   glm::uvec2 smoke_shadow_atlas{0};              ///< Size of the atlas in texels.

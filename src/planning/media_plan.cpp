@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planning/transfer_table.hpp"
+#include "shared/opaque.h"
 #include "smoke/noise_tile.hpp"
 
 namespace brume::planning {
@@ -266,6 +267,7 @@ shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::
   media.extinction = look.extinction;
   media.step_length = look.step_length;
   media.opaque_transmittance = look.opaque_transmittance;
+  media.coarse_transmittance = shared::coarse_below(look.opaque_transmittance);
   media.to_sun = glm::vec3(0, 1, 0);
   media.box_count = 1;
   media.box_0 = {smoke.bounds_min, smoke.bounds_max};

@@ -8,9 +8,9 @@
 namespace brume::planning {
 
 /// The largest component of the radiance that may lie behind media: the sky, what glows in volumes in view,
-/// and paint that faces a directional light. Without stars, which are points, without surfaces that emit,
-/// which the march finds pixel by pixel, and without what point lights and spots light: the smoke before it
-/// is about as bright.
+/// and paint that faces a directional light. Without surfaces that emit (PlanTarget::brightest_surface), without
+/// stars, which are points, and without what point lights and spots light: the smoke before it is about as
+/// bright.
 float brightest_behind(const FrameInput& input, const MediaPlan& media,
                        std::span<const shared::Light> lights);
 

@@ -11,8 +11,8 @@ namespace brume::render {
 namespace {
 
 constexpr float kStepScaleOfOneSample = 0.5f;
-/// Below it a ray is opaque where colours are graded later: a stop of 5 brings out no edge.
-constexpr float kOpaqueOfNumbers = 1e-4f;
+/// Transmittance at which rays end in files that are graded later: five stops up show no edge there.
+constexpr float kOpaqueForGrading = 1e-4f;
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
@@ -59,8 +59,9 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   input.quality.step_scale = step_scale_;
   input.quality.light_update_fraction = light_update_fraction_;
   input.quality.resolve_error_scale = resolve_error_scale_;
-  if (each.as_numbers)
-    input.smoke.look.opaque_transmittance = std::min(input.smoke.look.opaque_transmittance, kOpaqueOfNumbers);
+  if (each.for_grading)
+    input.smoke.look.opaque_transmittance =
+        std::min(input.smoke.look.opaque_transmittance, kOpaqueForGrading);
   input.view.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
   if (exposure_) input.view.exposure = *exposure_;

@@ -70,7 +70,7 @@ class Playback {
   struct EachSample {
     std::function<void(gpu::Recorder&, bool is_last)> read_back;
     std::function<void()> drawn = [] {};
-    bool as_numbers = false;  ///< For files that are graded later.
+    bool for_grading = false;  ///< For files that are graded later: rays end later.
   };
   void draw_frame(double seconds, std::uint32_t frame_index, const EachSample& each);
 

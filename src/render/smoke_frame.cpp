@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "passes/noise.hpp"
-#include "shared/opaque.h"
 #include "smoke/noise_tile.hpp"
 
 namespace brume::render {
@@ -16,16 +15,6 @@ gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
   return {context, (1 + pixels) * sizeof(std::uint32_t),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-}
-
-/// The largest component of what surfaces of a scene emit.
-float brightest_surface(const SceneView& scene) {
-  float brightest = 0;
-  for (const passes::MaterialImages& material : scene.resources().materials) {
-    const glm::vec3& emission = material.constants.emission;
-    brightest = std::max({brightest, emission.r, emission.g, emission.b});
-  }
-  return brightest;
 }
 
 }  // namespace
@@ -239,7 +228,6 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
           .noise = noise_,
           .detail = detail_,
           .depth = in.targets.gbuffer.depth,
-          .emission = in.targets.gbuffer.emission,
           .blue_noise = in.blue_noise,
           .holes = holes()};
 }
@@ -253,9 +241,7 @@ void SmokeFrame::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
   const planning::RaycastLight light{media.to_sun, media.sun_irradiance, sky,
                                      shared::phase_of_hg(anisotropy)};
   planning::RaycastSteps steps;
-  steps.opaque_transmittance =
-      shared::opaque_below(std::min(steps.opaque_transmittance, media.opaque_transmittance),
-                           plan.input.view.exposure * brightest_surface(in.scene));
+  steps.opaque_transmittance = std::min(steps.opaque_transmittance, media.opaque_transmittance);
   raycast_pass_->record(recorder, {volume_upload_.resources(), in.targets.gbuffer.depth},
                         planning::plan_raycast(plan.camera, size_px_, volumes, light, steps),
                         in.targets.media);

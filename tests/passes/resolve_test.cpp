@@ -78,7 +78,6 @@ class ResolveTest : public gpu::GpuTest {
                                noise_tile_,
                                noise_tile_,
                                depth,
-                               emission,
                                blue_noise_,
                                holes.resources()};
     runner().run([&](gpu::Recorder& recorder) {

@@ -54,6 +54,16 @@ class FramePlanTest : public ::testing::Test {
   PlanHistory history_;
 };
 
+TEST_F(FramePlanTest, RaysEndLaterWhereASurfaceIsBright) {
+  input_.smoke.look.opaque_transmittance = 0.004f;
+  input_.view.exposure = 0.5f;
+  EXPECT_EQ(plan().media.frame.opaque_transmittance, 0.004f);
+  target_.brightest_surface = 4;
+  EXPECT_EQ(plan().media.frame.opaque_transmittance, 0.004f) << "twice as bright as the display";
+  target_.brightest_surface = 32;
+  EXPECT_EQ(plan().media.frame.opaque_transmittance, 1.0f / 1024 / 16);
+}
+
 TEST_F(FramePlanTest, APausedCameraThatFliesOnlyGathersLight) {
   const FramePlan first = plan();
   EXPECT_EQ(first.lights.size(), 1u);

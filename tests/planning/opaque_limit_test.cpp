@@ -21,6 +21,15 @@ TEST(OpaqueLimitTest, IsTheUsualOneUpToTwiceTheDisplay) {
   EXPECT_EQ(shared::opaque_below(1e-4f, 3), 1e-4f) << "never more than the usual one";
 }
 
+TEST(OpaqueLimitTest, StepsGrowAsUsualUnlessSourcesAreOutshone) {
+  for (const float displayed : {0.0f, 1.0f, 255.0f}) {
+    const float opaque = shared::opaque_below(0.004f, displayed);
+    EXPECT_EQ(shared::coarse_below(opaque), 0.25f) << displayed;
+  }
+  EXPECT_FLOAT_EQ(shared::coarse_below(shared::opaque_below(0.004f, 2560)), 0.025f);
+  EXPECT_EQ(shared::coarse_below(0), 0.25f) << "rays that never end";
+}
+
 TEST(OpaqueLimitTest, TheBrightestCounts) {
   FrameInput input;
   MediaPlan media;
