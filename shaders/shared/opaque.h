@@ -7,7 +7,8 @@ SHARED_BEGIN
 /// Transmittance below which a ray ends, usually: one step of 8 bits.
 SHARED_CONST float kUsualOpaque = 0.004f;
 /// What of a radiance too bright for the display may be cut, in display units before the tone curve.
-SHARED_CONST float kLeastDisplayed = 1.0f / 1024.0f;/// As bright as a light source at night is drawn, in display units.
+SHARED_CONST float kLeastDisplayed = 1.0f / 1024.0f;
+/// As bright as a light source at night is drawn, in display units.
 SHARED_CONST float kSourceDisplayed = 256.0f;
 /// Up to twice as bright as the display, what the usual transmittance cuts is not seen beside the light in the medium.
 SHARED_CONST float kBrightDisplayed = 2.0f;

@@ -164,13 +164,14 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, c
     recorder.upload(out.lights, 0, std::as_bytes(std::span(out.light_list)));
   });
   upload_images(context, stream, scene, out);
-  for (const scene::Material& material : scene.materials) {
-    out.materials.push_back(device_material(material));
-    const glm::vec3& emission = material.emission;
-    out.brightest_surface = std::max({out.brightest_surface, emission.r, emission.g, emission.b});
-  }
+  for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     out.draws.emplace_back(place(scene, geometry, scene.objects[i])).object = i;
+  for (const Draw& draw : out.draws) {
+    const glm::vec3& emission = scene.materials[draw.material].emission;
+    if (const float brightest = std::max({emission.r, emission.g, emission.b}); brightest > 0)
+      out.emitters.push_back({{draw.centre_world, draw.radius}, draw.object, brightest});
+  }
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
   out.has_panes = std::ranges::any_of(out.draws, &Draw::is_pane);

@@ -7,6 +7,7 @@
 
 #include "gpu/recorder.hpp"
 #include "planning/frame_input.hpp"
+#include "planning/opaque_limit.hpp"
 #include "scene/scene.hpp"
 #include "shared/gbuffer.h"
 #include "shared/light.h"
@@ -48,11 +49,11 @@ struct SceneResources {
   gpu::Buffer vertices, indices, lights;
   std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
   std::vector<MaterialImages> materials;
-  std::vector<Draw> draws;                ///< In order of material.
-  Draw grenade;                           ///< Draws nothing where the scene has none.
-  std::vector<shared::Light> light_list;  ///< The first ones in `lights`; temporary lights follow.
-  bool has_panes = false;                 ///< Whether any of `draws` is one.
-  float brightest_surface = 0;            ///< The largest component of the radiance that materials emit.
+  std::vector<Draw> draws;                  ///< In order of material.
+  Draw grenade;                             ///< Draws nothing where the scene has none.
+  std::vector<shared::Light> light_list;    ///< The first ones in `lights`; temporary lights follow.
+  bool has_panes = false;                   ///< Whether any of `draws` is one.
+  std::vector<planning::Emitter> emitters;  ///< Those of `draws` that emit.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "planning/device_camera.hpp"
-#include "planning/opaque_limit.hpp"
 #include "shared/opaque.h"
 
 namespace brume::planning {
@@ -50,8 +49,8 @@ void plan_hole_clusters(FramePlan& plan, Allocator memory) {
 }
 
 /// Where rays through the media end.
-void limit_rays(FramePlan& plan, float brightest_surface) {
-  const float brightest = std::max(brightest_surface, brightest_behind(plan.input, plan.media, plan.lights));
+void limit_rays(FramePlan& plan, std::span<const Emitter> emitters) {
+  const float brightest = brightest_behind(plan.input, plan.frustum, emitters, plan.media, plan.lights);
   shared::FrameMedia& media = plan.media.frame;
   media.opaque_transmittance =
       shared::opaque_below(media.opaque_transmittance, plan.input.view.exposure * brightest);
@@ -71,7 +70,7 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
     lit[i] = plan.residency[i].lit_by_preview;
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
-  limit_rays(plan, target.brightest_surface);
+  limit_rays(plan, target.emitters);
   plan.decals = plan_decals(plan.input, plan.frustum, memory);
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;

@@ -12,6 +12,7 @@
 #include "planning/indirect_light_plan.hpp"
 #include "planning/media_plan.hpp"
 #include "planning/noise_updates.hpp"
+#include "planning/opaque_limit.hpp"
 #include "planning/resident_smoke.hpp"
 #include "planning/smoke_light_cache.hpp"
 #include "planning/smoke_shadow_cache.hpp"
@@ -25,7 +26,7 @@ namespace brume::planning {
 struct PlanTarget {
   std::span<const shared::Light> lights;  ///< Of the scene.
   Box<float> scene_bounds;                ///< Around all surfaces.
-  float brightest_surface = 0;            ///< The largest component of the radiance that surfaces emit.
+  std::span<const Emitter> emitters;      ///< Surfaces that emit.
   glm::mat4 sun_clip_from_world{1};
   glm::uvec2 size_px{1};
   glm::uvec2 smoke_shadow_atlas{0};              ///< Size of the atlas in texels.

@@ -14,6 +14,14 @@ float largest(const glm::vec3& radiance) {
   return std::max({radiance.r, radiance.g, radiance.b});
 }
 
+/// What moves may be anywhere.
+bool is_in_view(const Emitter& emitter, const LevelState& level, const ViewFrustum& frustum) {
+  if (std::ranges::binary_search(level.hidden_objects, emitter.object)) return false;
+  const bool moves =
+      std::ranges::find(level.moved, emitter.object, &scenario::MovedObject::object) != level.moved.end();
+  return moves || frustum.may_intersect(emitter.bounds);
+}
+
 /// Of an opaque part of a volume, or of one as thick as the volume's shortest side.
 float brightest_in(const VolumeInput& volume, const PlacedVolume& placed) {
   float brightest = largest(placed.instance.look.emission);
@@ -28,10 +36,13 @@ float brightest_in(const VolumeInput& volume, const PlacedVolume& placed) {
 
 }  // namespace
 
-float brightest_behind(const FrameInput& input, const MediaPlan& media,
-                       std::span<const shared::Light> lights) {
+float brightest_behind(const FrameInput& input, const ViewFrustum& frustum, std::span<const Emitter> emitters,
+                       const MediaPlan& media, std::span<const shared::Light> lights) {
   const shared::Sky& sky = input.environment.sky;
   float brightest = std::max(largest(sky.horizon), largest(sky.zenith));
+  for (const Emitter& emitter : emitters)
+    if (emitter.radiance > brightest && is_in_view(emitter, input.level, frustum))
+      brightest = emitter.radiance;
   for (const shared::Light& light : lights)
     if (light.kind == shared::kLightDirectional)
       brightest = std::max(brightest, largest(light.intensity) * kPaint / std::numbers::pi_v<float>);

@@ -120,7 +120,7 @@ planning::PlanTarget Renderer::plan_target() const {
   const passes::SceneResources& scene = scene_.resources();
   return {scene.light_list,
           {scene.bounds_min, scene.bounds_max},
-          scene.brightest_surface,
+          scene.emitters,
           scene_.shadows().sun_clip_from_world,
           targets_.size_px,
           glm::uvec2(smoke_.shadows().atlas.info().size),

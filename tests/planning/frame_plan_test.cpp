@@ -54,14 +54,21 @@ class FramePlanTest : public ::testing::Test {
   PlanHistory history_;
 };
 
-TEST_F(FramePlanTest, RaysEndLaterWhereASurfaceIsBright) {
+TEST_F(FramePlanTest, RaysEndLaterWhereASurfaceInViewIsBright) {
   input_.smoke.look.opaque_transmittance = 0.004f;
   input_.view.exposure = 0.5f;
   EXPECT_EQ(plan().media.frame.opaque_transmittance, 0.004f);
-  target_.brightest_surface = 4;
+  // Before the camera, and two behind it, of which one moves.
+  std::vector<Emitter> emitters{
+      {{{8, 2, 2}, 0.5f}, 3, 4}, {{{8, 2, 60}, 0.5f}, 5, 1000}, {{{8, 2, 60}, 0.5f}, 6, 64}};
+  target_.emitters = emitters;
   EXPECT_EQ(plan().media.frame.opaque_transmittance, 0.004f) << "twice as bright as the display";
-  target_.brightest_surface = 32;
+  emitters[0].radiance = 32;
   EXPECT_EQ(plan().media.frame.opaque_transmittance, 1.0f / 1024 / 16);
+  input_.level.hidden_objects = {3};
+  EXPECT_EQ(plan().media.frame.opaque_transmittance, 0.004f);
+  input_.level.moved = {{.object = 6}};
+  EXPECT_EQ(plan().media.frame.opaque_transmittance, 1.0f / 1024 / 32);
 }
 
 TEST_F(FramePlanTest, APausedCameraThatFliesOnlyGathersLight) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planning/blackbody.hpp"
+#include "planning/device_camera.hpp"
 #include "shared/opaque.h"
 
 namespace brume::planning {
@@ -33,10 +34,11 @@ TEST(OpaqueLimitTest, StepsGrowAsUsualUnlessSourcesAreOutshone) {
 TEST(OpaqueLimitTest, TheBrightestCounts) {
   FrameInput input;
   MediaPlan media;
-  EXPECT_EQ(brightest_behind(input, media, {}), 0);
+  const ViewFrustum frustum(device_camera(input.view.camera, glm::uvec2(16, 9)));
+  EXPECT_EQ(brightest_behind(input, frustum, {}, media, {}), 0);
   input.environment.sky.horizon = {0.2f, 0.3f, 0.1f};
   input.environment.sky.zenith = {0, 0, 0.25f};
-  EXPECT_EQ(brightest_behind(input, media, {}), 0.3f);
+  EXPECT_EQ(brightest_behind(input, frustum, {}, media, {}), 0.3f);
 
   shared::Light sun{};
   sun.kind = shared::kLightDirectional;
@@ -44,21 +46,22 @@ TEST(OpaqueLimitTest, TheBrightestCounts) {
   shared::Light point{};
   point.kind = shared::kLightPoint;
   point.intensity = glm::vec3(1e6f);
-  EXPECT_NEAR(brightest_behind(input, media, std::vector{point, sun}), 5 / std::numbers::pi, 1e-5);
+  EXPECT_NEAR(brightest_behind(input, frustum, {}, media, std::vector{point, sun}), 5 / std::numbers::pi,
+              1e-5);
 
   // A fire, whose hottest part counts.
   const volume::SparseVolume heat({{}, 1, {{sizeof(std::uint16_t)}}});
   input.volumes.resize(1);
   input.volumes[0].heat = {.volume = &heat, .kelvin = 2000, .high = 1.5f, .emission = 2};
   media.volumes.push_back({0, {glm::vec3(0), glm::vec3(3, 2, 4)}});
-  EXPECT_NEAR(brightest_behind(input, media, {}), 0.3f, 1e-6f) << "not in view";
+  EXPECT_NEAR(brightest_behind(input, frustum, {}, media, {}), 0.3f, 1e-6f) << "not in view";
   media.frame.volume_count = 1;
-  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 2 * blackbody_color(3000).r);
+  EXPECT_FLOAT_EQ(brightest_behind(input, frustum, {}, media, {}), 2 * blackbody_color(3000).r);
   // A mask, along the shortest side.
   input.volumes[0].tints = {{1, 40, 3}};
-  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 80);
+  EXPECT_FLOAT_EQ(brightest_behind(input, frustum, {}, media, {}), 80);
   media.volumes[0].instance.look.emission = {100, 0, 0};
-  EXPECT_FLOAT_EQ(brightest_behind(input, media, {}), 100);
+  EXPECT_FLOAT_EQ(brightest_behind(input, frustum, {}, media, {}), 100);
 }
 
 }  // namespace
