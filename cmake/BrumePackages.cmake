@@ -67,7 +67,8 @@ endforeach()
 brume_package(development libdevel "volumetric smoke in games and servers (development files)"
   "${about}\nThis package holds the headers of both libraries, what CMake and\npkg-config find them by, and examples.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbrume0 ${exact}, libbrume-sim0 ${exact}, libvulkan-dev")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/host ${PROJECT_SOURCE_DIR}/examples/server
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/hello_host ${PROJECT_SOURCE_DIR}/examples/host
+        ${PROJECT_SOURCE_DIR}/examples/server
         DESTINATION share/doc/libbrume-dev/examples COMPONENT development EXCLUDE_FROM_ALL)
 
 if(BRUME_PYTHON_BUILT)

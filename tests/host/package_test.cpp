@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
+#include "image/decode.hpp"
 #include "tests/api/abi.hpp"
 #include "tests/work_folder.hpp"
 
@@ -59,6 +60,10 @@ TEST(VulkanAbi, IsTheOneThatIsKept) {
   }
 }
 
+constexpr const char* kValidation =
+    "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
+    "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT ";
+
 class HostExample : public testing::Test {
  protected:
   std::string picture(const std::string& program, const std::string& name, const std::string& options) {
@@ -79,23 +84,44 @@ TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
 // Its own barriers and those of the library fit together. What is valid with three frames in flight is so
 // with one, which waits more often.
 TEST_F(HostExample, IsValid) {
-  const ShellRun run = run_shell(
-      "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation "
-      "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT '" BRUME_HOST_EXAMPLE
-      "' --frames 26 --size 32x18 -o '" +
-      (folder_.path() / "valid.ppm").string() + "' --in-flight 3 2>&1");
+  const ShellRun run =
+      run_shell(std::string(kValidation) + "'" BRUME_HOST_EXAMPLE "' --frames 26 --size 32x18 -o '" +
+                (folder_.path() / "valid.ppm").string() + "' --in-flight 3 2>&1");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.output, "");
+}
+
+// Grey walls, and the smoke in front of the doorway, which light comes through.
+TEST_F(HostExample, TheSmallestIsValidAndDrawsSmoke) {
+  const fs::path file = folder_.path() / "hello.png";
+  const ShellRun run =
+      run_shell(std::string(kValidation) + "'" BRUME_HELLO_HOST "' '" + file.string() + "' 2>&1");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.output, "");
+  const image::Image8 picture = image::load_image(file).value_or_throw();
+  ASSERT_EQ(glm::uvec2(picture.width, picture.height), glm::uvec2(640, 360));
+  const auto pixel = [&](std::size_t x, std::size_t y) {
+    const std::uint8_t* const rgba = &picture.rgba[4 * (x + 640 * y)];
+    return glm::ivec3(rgba[0], rgba[1], rgba[2]);
+  };
+  // Linear 0.09, 0.0837 and 0.0738.
+  EXPECT_EQ(pixel(600, 150), glm::ivec3(85, 82, 77));
+  const glm::ivec3 doorway = pixel(275, 200), beside = pixel(360, 220);
+  EXPECT_GT(beside.g, 120);
+  EXPECT_GT(doorway.r, doorway.b + 20);
 }
 
 TEST_F(HostExample, BuildsAgainstTheInstalledPackage) {
   const std::string prefix = (folder_.path() / "installed").string(),
                     source = (folder_.path() / "source").string(),
-                    build = (folder_.path() / "build").string();
+                    build = (folder_.path() / "build").string(), hello = (folder_.path() / "hello").string();
   for (const char* component : {"sim", "host"})
     expect_runs("cmake --install '" BRUME_BUILD_DIR "' --component " + std::string(component) +
                 " --prefix '" + prefix + "'");
   fs::copy(BRUME_SOURCE_DIR "/examples/host", source);
+  fs::copy(BRUME_SOURCE_DIR "/examples/hello_host", hello);
+  expect_runs("cmake -S '" + hello + "' -B '" + hello + "/build' -D CMAKE_PREFIX_PATH='" + prefix +
+              "' && cmake --build '" + hello + "/build'");
   expect_runs("cmake -S '" + source + "' -B '" + build +
               "' -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH='" + prefix + "' && cmake --build '" +
               build + "'");
