@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/box.hpp"
@@ -31,6 +32,8 @@ class BrickField {
   /// that `at` filters there.
   template <typename Visit>
   void for_each_part(const Visit& visit) const;
+  /// The least and the largest of all values that `at` filters in a box within one brick.
+  std::pair<Value, Value> range_in(const Box<int>& voxels) const;
 
  private:
   static constexpr int kPart = 4;  // [voxels]
@@ -80,6 +83,25 @@ typename BrickField<Components>::Value BrickField<Components>::at(const glm::vec
 }
 
 template <int Components>
+std::pair<typename BrickField<Components>::Value, typename BrickField<Components>::Value>
+BrickField<Components>::range_in(const Box<int>& voxels) const {
+  const std::array<float, 65536>& halves = half_values();
+  const glm::ivec3 number(glm::floor(glm::vec3(voxels.low) * 0.125f));
+  const Brick* const brick = find(number);
+  if (!brick) return {Value(0), Value(0)};
+  if (!brick->texels) return {Value(halves[brick->uniform]), Value(halves[brick->uniform])};
+  Value low(1e30f), high(-1e30f);
+  for_each_in(Box<int>{voxels.low - 8 * number, voxels.high - 8 * number + 2}, [&](glm::ivec3 t) {
+    for (int c = 0; c < Components; ++c) {
+      const float value = halves[brick->texels[Components * (t.x + 10 * (t.y + 10 * t.z)) + c]];
+      low[c] = glm::min(low[c], value);
+      high[c] = glm::max(high[c], value);
+    }
+  });
+  return {low, high};
+}
+
+template <int Components>
 template <typename Visit>
 void BrickField<Components>::for_each_part(const Visit& visit) const {
   const std::array<float, 65536>& halves = half_values();
@@ -92,16 +114,9 @@ void BrickField<Components>::for_each_part(const Visit& visit) const {
       return;
     }
     for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(8 / kPart)}, [&](glm::ivec3 part) {
-      Value low(1e30f), high(-1e30f);
-      const glm::ivec3 texel = kPart * part;
-      for_each_in(Box<int>{texel, texel + kPart + 2}, [&](glm::ivec3 t) {
-        for (int c = 0; c < Components; ++c) {
-          const float value = halves[brick.texels[Components * (t.x + 10 * (t.y + 10 * t.z)) + c]];
-          low[c] = glm::min(low[c], value);
-          high[c] = glm::max(high[c], value);
-        }
-      });
-      visit(Box<int>{first + texel, first + texel + kPart}, low, high);
+      const Box<int> voxels{first + kPart * part, first + kPart * part + kPart};
+      const auto [low, high] = range_in(voxels);
+      visit(voxels, low, high);
     });
   });
 }

@@ -30,8 +30,7 @@ std::optional<std::uint32_t> Majorants::cell_at(const glm::vec3& p_world) const 
 }
 
 glm::vec3 Majorants::world_point(std::uint32_t cell, const glm::vec3& at) const {
-  const glm::uvec3 size(size_), corner(cell % size.x, cell / size.x % size.y, cell / size.x / size.y);
-  const glm::vec3 voxel = glm::vec3(low_voxel_) + static_cast<float>(cell_) * (glm::vec3(corner) + at);
+  const glm::vec3 voxel = glm::vec3(low_voxel_) + static_cast<float>(cell_) * (glm::vec3(place(cell)) + at);
   return glm::vec3(world_from_voxel_ * glm::vec4(voxel, 1));
 }
 

@@ -177,6 +177,33 @@ void VolumeMedium::find_majorants() {
     lower_least(part, all, low.x);
     if (bound > 0) raise(majorants_, all, {part.low - moved, part.high + moved}, bound);
   });
+  if (amplitude.x <= 0) divide_cells(all, edge);
+}
+
+void VolumeMedium::divide_cells(const Box<int>& all, float edge) {
+  // Of fewer possible collisions, dividing saves little; 64 bounds each fit into 64 MiB.
+  constexpr float kManyCollisions = 32, kMuchLess = 0.25f;
+  constexpr std::uint32_t kMostDivided = 1u << 18;
+  const int cell = majorants_.cell_voxels();
+  if (cell != kPartVoxels) return;
+  std::uint32_t divided = 0;
+  std::vector<float> bounds;
+  values_.for_each_part([&](const Box<int>& part, glm::vec1 low, glm::vec1 high) {
+    const float bound = kBoundSlack * input_.look.extinction * density_bound(0, high.x);
+    if (!(bound * edge > kManyCollisions) || low.x > kMuchLess * high.x || divided == kMostDivided) return;
+    const float least = emits_ && glows_in(part) ? 1 / edge : 0;
+    bounds.clear();
+    double sum = 0;
+    for_each_in(part, [&](glm::ivec3 voxel) {
+      const float highest = values_.range_in({voxel, voxel + 1}).second.x;
+      bounds.push_back(std::max(kBoundSlack * input_.look.extinction * density_bound(0, highest), least));
+      sum += double{bounds.back()};
+    });
+    if (bounds.size() != static_cast<std::size_t>(cell * cell * cell)) return;  // a brick of one value
+    if (sum > double{kMuchLess} * double{bound} * static_cast<double>(bounds.size())) return;
+    majorants_.divide((part.low - all.low) / cell, bounds);
+    ++divided;
+  });
 }
 
 bool VolumeMedium::sample_point(const glm::vec3& p_world, glm::vec3& p_voxel) const {

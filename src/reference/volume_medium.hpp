@@ -52,6 +52,9 @@ class VolumeMedium final : public Medium {
   glm::vec4 masks_at(const glm::vec3& p_voxel) const;
   int cell_voxels() const;
   void find_majorants();
+  /// Divides cells in which few voxels are far above the rest: every ray through them would have possible
+  /// collisions as densely as in those.
+  void divide_cells(const Box<int>& all, float edge);
   void lower_least(const Box<int>& part, const Box<int>& all, float low);
   bool glows_in(const Box<int>& voxels) const;
 

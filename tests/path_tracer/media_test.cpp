@@ -148,6 +148,36 @@ TEST(MajorantsTest, WhereNothingIsSaidTheLeastIsZero) {
   EXPECT_EQ(cells.least(1), 0);
 }
 
+TEST(MajorantsTest, DividedCellsHaveVoxelsOfTheirOwn) {
+  Majorants cells(glm::scale(glm::translate(glm::mat4(1), {1, 2, 3}), glm::vec3(0.5f)),
+                  {glm::ivec3(-4), glm::ivec3(8)}, 4);
+  for_each_in(Box<int>{glm::ivec3(0), cells.size()}, [&](glm::ivec3 at) { cells.at(at) = 7; });
+  std::vector<float> bounds(64);
+  for (std::size_t i = 0; i < 64; ++i) bounds[i] = static_cast<float>(i);
+  cells.divide({0, 1, 2}, std::vector<float>(64, 1));
+  cells.divide({1, 0, 1}, bounds);
+  for (std::uint32_t i = 0; i < 500 / kFewer; ++i) {
+    Sampler sampler({i, 9}, 0);
+    const auto random = [&] {
+      return glm::vec3(sampler.random(), sampler.random(), sampler.random()) * 2.0f - 1.0f;
+    };
+    const Ray ray{glm::vec3(2, 3, 4) + 3.0f * random(), glm::normalize(random())};
+    float last = 0;
+    cells.traverse(ray, [&](float begin, float end, float bound) {
+      EXPECT_GE(begin, last - 1e-4f);
+      last = end;
+      if (end - begin < 1e-3f) return false;
+      const glm::ivec3 voxel(glm::floor(cells.voxel_from_world(ray.at(0.5f * (begin + end))) + 4.0f));
+      const glm::ivec3 cell = voxel / 4, at = voxel % 4;
+      const float expected = cell == glm::ivec3(0, 1, 2)   ? 1
+                             : cell == glm::ivec3(1, 0, 1) ? static_cast<float>(at.x + 4 * (at.y + 4 * at.z))
+                                                           : 7;
+      EXPECT_EQ(bound, expected);
+      return false;
+    });
+  }
+}
+
 TEST(MajorantsTest, RaysVisitTheCellsThatTheyCross) {
   Majorants cells(glm::scale(glm::translate(glm::mat4(1), {1, 2, 3}), glm::vec3(0.5f, 1, 2)),
                   {glm::ivec3(-4, 0, 2), glm::ivec3(9, 7, 6)}, 2);
