@@ -66,7 +66,7 @@ static brume_renderer* make_renderer(brume_context* context, const Offscreen* o)
 // Adds the smoke to a frame whose picture and depth are drawn.
 static void record_smoke(brume_renderer* renderer, const brume_field* field, const Offscreen* o,
                          uint64_t frame, uint32_t tick) {
-  const brume_light lamp = {BRUME_LIGHT_POINT, {-0.8f, 2.5f, -1.5f}, {0, -1, 0}, {60, 30, 10}, 0, 0};
+  const brume_light light = {BRUME_LIGHT_POINT, {-0.8f, 2.5f, -1.5f}, {0, -1, 0}, {60, 30, 10}, 0, 0};
   brume_frame_params params = brume_frame_defaults();
   params.commands = o->commands;
   params.frame = frame;
@@ -77,7 +77,7 @@ static void record_smoke(brume_renderer* renderer, const brume_field* field, con
   params.picture = (brume_picture){o->picture.view, VK_FORMAT_R8G8B8A8_SRGB, 1};
   params.seconds = (double)tick / kTicksPerSecond;
   params.jitter_index = (uint32_t)frame;
-  params.lights = &lamp;
+  params.lights = &light;
   params.light_count = 1;
   check(brume_renderer_record(renderer, field, &params));
 }

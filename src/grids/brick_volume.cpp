@@ -333,12 +333,24 @@ BrickVolume volume_of(const Levels& levels, float unit, float outside, const Box
   return out;
 }
 
-/// Around the active voxels of a grid, in voxels of a level.
-Box<float> bounds_of(const Grid& grid, int halvings) {
-  const Box<double> active = active_bounds(grid);
+/// Around the active voxels of a grid, in voxels of a level counted from an origin.
+Box<float> bounds_of(const Grid& grid, const glm::ivec3& origin, int halvings) {
+  Box<double> active = active_bounds(grid);
+  active.low -= glm::dvec3(origin);
+  active.high -= glm::dvec3(origin);
   const double per_voxel = std::exp2(-halvings);
   if (active.empty()) return kEmptyBox;
   return {glm::vec3((active.low + 0.5) * per_voxel), glm::vec3((active.high + 0.5) * per_voxel)};
+}
+
+/// Where voxels are counted from, so that floats hold places between them: the grid's own origin unless that
+/// is too far [bricks].
+glm::ivec3 near_origin(const GridNumbers& numbers) {
+  constexpr int kFar = 1 << 14;
+  const Box<int> box = numbers.brick_box();
+  if (box.empty()) return glm::ivec3(0);
+  const glm::ivec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
+  return std::max({farthest.x, farthest.y, farthest.z}) > kFar ? box.low : glm::ivec3(0);
 }
 
 /// From the voxels of a level to those before it was halved: voxel i of level l has its centre at index
@@ -384,14 +396,15 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   GridNumbers numbers(grid, shift);
   const std::uint64_t odd = numbers.odd();
   const float outside = shift ? numbers.background(grid) : 0;
-  Levels levels{Level(std::move(numbers)),
-                Level(GridNumbers(options.also ? *options.also : nothing)),
-                options.may_be_uniform,
-                options.glows,
-                {},
-                {}};
+  GridNumbers also(options.also ? *options.also : nothing);
+  const glm::ivec3 origin = near_origin(numbers);
+  numbers.move(-origin);
+  also.move(-origin);
+  Levels levels{
+      Level(std::move(numbers)), Level(std::move(also)), options.may_be_uniform, options.glows, {}, {}};
   levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
-  BrickVolume out = volume_of(levels, 0, outside, shift ? bounds_of(grid, levels.halvings) : kEmptyBox);
+  BrickVolume out = volume_of(levels, 0, outside,
+                              shift ? bounds_of(grid, kBrickEdge * origin, levels.halvings) : kEmptyBox);
   if (shift) {
     out.offset = shift->offset;
     out.low += shift->offset;
@@ -401,8 +414,9 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   out.level = levels.halvings;
   out.odd = odd;
   out.rms_error = active > 0 ? std::sqrt(levels.square_error / active) : 0;
-  out.world_from_voxel =
-      grid.world_from_index * glm::translate(glm::dmat4(1), glm::dvec3(-0.5)) * scale_of(levels);
+  out.world_from_voxel = grid.world_from_index *
+                         glm::translate(glm::dmat4(1), glm::dvec3(kBrickEdge * origin) - 0.5) *
+                         scale_of(levels);
   return out;
 }
 

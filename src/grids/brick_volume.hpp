@@ -72,15 +72,15 @@ struct BrickVolume {
   std::vector<std::uint64_t> histogram;
   glm::dvec3 mean{0};     ///< Of the values' places, weighted by value [voxel space].
   int level = 0;          ///< Halvings of the resolution: 0 is the file's own.
-  std::uint64_t odd = 0;  ///< Voxels and tiles that are NaN, infinite or beyond 1e30.
+  std::uint64_t odd = 0;  ///< Voxels and tiles that are NaN, infinite, or far beyond nearly all others.
   double rms_error = 0;   ///< Of the halvings, over active voxels; 0 at level 0.
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,
 /// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). NaN becomes 0,
-/// what is infinite or beyond 1e30 the largest other value; values that half floats lack are stored in a
-/// larger or smaller unit. The background must be 0, or that of a level set. Fails with bad_input for a grid
-/// without numbers.
+/// what is infinite, or far beyond nearly all others, the largest other value; values that half floats lack
+/// are stored in a larger or smaller unit. The background must be 0, or that of a level set. Fails with
+/// bad_input for a grid without numbers.
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 
 /// The same at the first lower resolution that takes at most `max_bricks` bricks (at least

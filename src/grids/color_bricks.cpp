@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/tasks.hpp"
+#include "grids/active_values.hpp"
 
 namespace brume::grids {
 namespace {
@@ -202,6 +203,49 @@ Result<std::unique_ptr<volume::SparseVolume>> bricks_of(const Source& source, co
 }
 
 }  // namespace
+
+bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density) {
+  for (const Grid* part : parts)
+    if (part->world_from_index != density.world_from_index) return false;
+  std::array<Lookup, 3> channels{Lookup(*parts[0]), Lookup(*parts[1]), Lookup(*parts[2])};
+  const auto brightest_at = [&](glm::ivec3 index) {
+    double brightest = 0;
+    for (Lookup& channel : channels)
+      if (const std::byte* const value = channel.at(index))
+        brightest = std::max(brightest, number_of(channel.grid().type, value));
+    return brightest;
+  };
+  // Sums of the density and of the brightest channel, where the density is below its mean and above.
+  struct Sums {
+    double density = 0, color = 0, voxels = 0;
+  };
+  const auto each = [&](const auto& use) {
+    return for_each_active(density, [&](const ActiveValue& active) {
+      const double value = number_of(density.type, active.value);
+      return !(value > 0) || active.edge > 1 || use(value, brightest_at(active.low));
+    });
+  };
+  Sums all;
+  constexpr double kSlack = 1.01;
+  if (!each([&](double value, double color) {
+        all = {all.density + value, all.color + color, all.voxels + 1};
+        return color <= kSlack * value;
+      }))
+    return false;
+  const double mean = all.density / std::max(all.voxels, 1.0);
+  Sums sums[2];
+  each([&](double value, double color) {
+    Sums& of = sums[value > mean];
+    of = {of.density + value, of.color + color, of.voxels + 1};
+    return true;
+  });
+  const auto& [low, high] = sums;
+  if (!(low.color > 0 && high.color > 0)) return false;
+  // Colours of their own do not fall with the density, multiplied ones do as much.
+  const double per_density = (low.color / low.density) / (high.color / high.density);
+  const double fall = (high.density / high.voxels) / (low.density / low.voxels);
+  return per_density < std::sqrt(fall);
+}
 
 bool is_color_grid(const Grid& grid) {
   return grid.type == ValueType::vec3f || grid.type == ValueType::vec3d;

@@ -27,6 +27,10 @@ struct ColorChannels {
   const Grid* density = nullptr;       ///< By which they are multiplied, and are divided; null: by nothing.
 };
 
+/// Whether colours seem to be multiplied by a density, as Blender's solver saves them: at voxels of the same
+/// places, none exceeds it, and where it is low they are as much lower.
+bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density);
+
 /// The same of three grids: at the voxels of the first, where those of the others are filtered trilinearly if
 /// they are at other places. A voxel has a colour where one of them is active, or the density above 0.
 Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChannels& channels,

@@ -1,6 +1,8 @@
 #include "grids/grid_numbers.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -26,6 +28,49 @@ std::size_t voxel_number(glm::ivec3 v) {
   return static_cast<std::size_t>(v.x + 8 * (v.y + 8 * v.z));
 }
 
+/// What is kFarBeyond times as large as all but this part of the values decides nothing: half floats, which
+/// are relative to the largest, would have nothing left for the rest.
+constexpr double kOutliers = 1e-3, kFarBeyond = 1024;
+
+/// How many values there are of each power of two, and the largest of each.
+struct Magnitudes {
+  static constexpr int kLeast = -160, kMost = 100;
+  std::array<std::uint64_t, kMost - kLeast + 1> counts{};
+  std::array<double, kMost - kLeast + 1> largest{};
+  std::uint64_t odd = 0;  ///< NaN, infinite or beyond NumberReader::kLargest.
+
+  void add(double value) {
+    if (!(std::abs(value) <= double{NumberReader::kLargest})) {
+      ++odd;
+    } else if (value > 0) {
+      const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52) - 1023;
+      const auto power = static_cast<std::size_t>(std::clamp(exponent, kLeast, kMost) - kLeast);
+      ++counts[power];
+      largest[power] = std::max(largest[power], value);
+    }
+  }
+  void add(const Magnitudes& other) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      counts[i] += other.counts[i];
+      largest[i] = std::max(largest[i], other.largest[i]);
+    }
+    odd += other.odd;
+  }
+  /// The largest value but for outliers, whose number is added to `odd`.
+  double largest_but_outliers() {
+    std::uint64_t all = 0, above = 0;
+    for (const std::uint64_t count : counts) all += count;
+    const auto few = static_cast<std::uint64_t>(kOutliers * static_cast<double>(all));
+    std::size_t i = counts.size();
+    while (i-- > 0 && (above += counts[i]) <= few) continue;
+    if (above == 0) return 0;
+    const double limit = kFarBeyond * largest[i];
+    for (i = counts.size() - 1; std::ldexp(1.0, static_cast<int>(i) + kLeast) > limit; --i) odd += counts[i];
+    while (counts[i] == 0) --i;
+    return largest[i];
+  }
+};
+
 }  // namespace
 
 NumberReader::NumberReader(const Grid& grid, const std::optional<ValueShift>& shift)
@@ -40,25 +85,18 @@ NumberReader::NumberReader(const Grid& grid, const std::optional<ValueShift>& sh
 
 void NumberReader::find_most(const Grid& grid) {
   std::mutex mutex;
-  double most = 0;
-  const auto add = [&](const std::byte* values, std::size_t count) {
-    double largest = 0;
-    std::uint64_t odd = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double value = number(values + i * bytes_);
-      if (std::abs(value) <= double{kLargest})
-        largest = std::max(largest, value);
-      else
-        ++odd;  // NaN, too
-    }
-    const std::lock_guard lock(mutex);
-    most = std::max(most, largest);
-    odd_ += odd;
-  };
+  Magnitudes all;
   parallel_for(grid.bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) add(grid.values_of(i).data(), kBrickVoxels);
+    Magnitudes some;
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel)
+        some.add(number(grid.values_of(i).data() + voxel * bytes_));
+    const std::lock_guard lock(mutex);
+    all.add(some);
   });
-  for (const Tile& tile : grid.tiles) add(tile.value.data(), 1);
+  for (const Tile& tile : grid.tiles) all.add(number(tile.value.data()));
+  const double most = level_set_ || shift_ ? std::ranges::max(all.largest) : all.largest_but_outliers();
+  odd_ = all.odd;
   if (odd_ > 0) most_ = level_set_ ? 1 : static_cast<float>(most);
 }
 
@@ -115,6 +153,11 @@ GridNumbers::GridNumbers(const Grid& grid, const std::optional<ValueShift>& shif
     if (const float number = reader_.at(tile.value.data(), 0); number > 0)
       add_cube({tile.origin >> 3, static_cast<int>(tile.edge / 8), number});
   if (shift) add_background(grid);
+}
+
+void GridNumbers::move(const glm::ivec3& bricks) {
+  for (glm::ivec3& at : at_) at += bricks;
+  for (Cube& cube : cubes_) cube.origin += bricks;
 }
 
 void GridNumbers::add_background(const Grid& grid) {

@@ -20,7 +20,7 @@ namespace brume::grids {
 using BrickNumbers = std::array<float, kBrickVoxels>;
 
 /// Reads values of a grid as numbers >= 0: the length of vectors; of a level set a fog (brick_volume.hpp).
-/// What is infinite, or beyond kLargest, is the largest other number.
+/// What is infinite, beyond kLargest, or far beyond nearly all others, is the largest other number.
 class NumberReader {
  public:
   explicit NumberReader(const Grid& grid, const std::optional<ValueShift>& shift = {});
@@ -30,11 +30,12 @@ class NumberReader {
     std::memcpy(&value, values + index * sizeof value, sizeof value);
     return value > 0 ? std::min(value, most_) : 0.0f;
   }
-  /// Voxels and tiles whose value is NaN, infinite or beyond kLargest.
+  /// Voxels and tiles whose value is NaN, infinite, beyond kLargest or far beyond the others.
   std::uint64_t odd() const { return odd_; }
 
- private:
   static constexpr float kLargest = 1e30f;
+
+ private:
   void find_most(const Grid& grid);
   float converted(const std::byte* at) const;
   double number(const std::byte* at) const;
@@ -69,6 +70,9 @@ class GridNumbers {
   /// Means over 2^3 voxels; with `by_power` of fourth powers, whose fourth root is taken. Adds the squares of
   /// what they lose to `square_error`.
   GridNumbers halved(bool by_power, double& square_error) const;
+
+  /// Moves all bricks by a number of them.
+  void move(const glm::ivec3& bricks);
 
   /// Bricks, those of all cubes included.
   std::uint64_t brick_count() const;

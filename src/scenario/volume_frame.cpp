@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
 #include "core/log.hpp"
 #include "core/similar.hpp"
 #include "grids/color_bricks.hpp"
+#include "grids/coverage.hpp"
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
@@ -59,9 +61,17 @@ Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
   return static_cast<const grids::Grid*>(nullptr);
 }
 
+/// Whether "dens" is in a name, in any case.
+bool names_density(const std::string& name) {
+  const auto is_same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return !std::ranges::search(name, std::string_view("dens"), is_same).empty();
+}
+
 Result<const grids::Grid*> choose_density(GridList grids, const std::string& name) {
   auto grid = choose_grid(grids, name, kDensityNames);
   if (!grid || *grid) return grid;
+  for (const grids::Grid* one : grids)
+    if (is_number_grid(one) && names_density(one->name)) return one;
   for (const auto fits : {is_number_grid, is_whole_numbers})
     if (const auto first = std::ranges::find_if(grids, fits); first != grids.end()) return *first;
   std::string names;
@@ -202,6 +212,9 @@ Result<void> find_mask_glow(std::span<const grids::Grid* const> masks, VolumeFra
   return {};
 }
 
+/// What is colder does not glow for the eye [K].
+constexpr double kColdest = 600;
+
 /// Whether the heat of a file glows, and what to say about it. Solvers of smoke keep a temperature that lifts
 /// it: without a fire beside it that is no glow, unless the options give it a name or kelvin of its own, or
 /// it is in kelvin.
@@ -225,6 +238,12 @@ bool glows(const Chosen& chosen, const scene::VolumeOptions& options, VolumeFram
         "`heat` or --heat, to see it glow";
     return false;
   }
+  if (!chosen.names_heat && !has_kelvin && frame.heat_is_kelvin && !any_above(*chosen.heat, kColdest)) {
+    char text[96];
+    std::snprintf(text, sizeof text, " does not glow: as kelvin, none of its values is above %g", kColdest);
+    frame.heat_note = name + text;
+    return false;
+  }
   const float kelvin = kelvin_of(options, frame);
   char text[64];
   std::snprintf(text, sizeof text, "1 is %g K", static_cast<double>(kelvin));
@@ -235,9 +254,10 @@ bool glows(const Chosen& chosen, const scene::VolumeOptions& options, VolumeFram
 
 void warn_of_odd(const fs::path& file, const grids::Grid& grid, const grids::BrickVolume& volume) {
   if (volume.odd == 0) return;
-  log_warning(file.string() + ": grid " + grid.name + ": " + std::to_string(volume.odd) +
-              (volume.odd == 1 ? " value is" : " values are") +
-              " NaN, infinite or beyond 1e30: NaN counts as 0, the others as the largest of the rest");
+  log_warning(
+      file.string() + ": grid " + grid.name + ": " + std::to_string(volume.odd) +
+      (volume.odd == 1 ? " value is" : " values are") +
+      " NaN, infinite or far beyond the others: NaN counts as 0, the rest as the largest of the others");
 }
 
 /// About values below 0, but for those that are rounding.
@@ -266,12 +286,39 @@ std::string note_of_negative(const grids::Grid& grid) {
   return '"' + grid.name + text;
 }
 
-/// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density.
+/// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density, which files
+/// that other programs wrote again do not say.
 Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const Chosen& chosen,
                                                            const grids::BrickVolume& density) {
   if (chosen.color) return grids::make_color_bricks(*chosen.color, density);
+  const bool multiplied = is_z_up(*chosen.density) || grids::are_multiplied(chosen.channels, *chosen.density);
   return grids::make_color_bricks(
-      grids::ColorChannels{chosen.channels, is_z_up(*chosen.density) ? chosen.density : nullptr}, density);
+      grids::ColorChannels{chosen.channels, multiplied ? chosen.density : nullptr}, density);
+}
+
+/// What glows; `options` hold the room for it.
+Result<void> add_heat(const fs::path& file, const grids::Grid& heat, grids::BrickVolumeOptions options,
+                      VolumeFrame& frame) {
+  options.glows = true;
+  auto hot = grids::make_brick_volume(heat, options);
+  if (!hot) return hot.failure();
+  warn_of_level(file, heat, *hot);
+  warn_of_odd(file, heat, *hot);
+  if (!(hot->high > 0)) return {};
+  frame.heat = std::move(*hot);
+  frame.glow = grids::find_glow(*frame.heat, frame.density);
+  return {};
+}
+
+/// Where heat is in the voxels of a density of another transform.
+std::optional<grids::Grid> coverage_of_heat(const fs::path& file, const grids::Grid* heat,
+                                            const grids::Grid& density) {
+  if (!heat || heat->world_from_index == density.world_from_index) return std::nullopt;
+  auto covered = grids::coverage_of(*heat, density.world_from_index);
+  if (!covered)
+    log_warning(file.string() + ": \"" + heat->name + "\" is not drawn beyond the voxels of \"" +
+                density.name + "\", which are too small for that");
+  return covered;
 }
 
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
@@ -292,7 +339,7 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     joined = std::move(*all);
     if (!density) density = &joined;
   }
-  const bool alike = heat && heat->world_from_index == density->world_from_index;
+  const auto covered = masks.empty() ? coverage_of_heat(file, heat, *density) : std::nullopt;
   // Heat has the same room as the density.
   const auto part = [&, has_heat = heat != nullptr](std::uint64_t of, std::uint32_t fewest,
                                                     std::uint32_t most) {
@@ -301,7 +348,9 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   const std::uint32_t max_bricks = part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
   const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
   // Bricks of colours and masks have the slots of the density's, which reach wherever a mask does.
-  const grids::Grid* const also = alike ? heat : density != &joined && !masks.empty() ? &joined : nullptr;
+  const grids::Grid* also = density != &joined && !masks.empty() ? &joined : nullptr;
+  if (covered) also = &*covered;
+  if (heat && heat->world_from_index == density->world_from_index) also = heat;
   const auto shift = density == &joined ? std::nullopt : shift_of(options);
   auto bricks = grids::make_brick_volume(
       *density, {max_bricks, max_pages, also, !has_colors && masks.empty(), false, shift});
@@ -311,15 +360,9 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
   warn_of_odd(file, *density, frame->density);
-  if (heat) {
-    auto hot =
-        grids::make_brick_volume(*heat, {.max_bricks = max_bricks, .max_pages = max_pages, .glows = true});
-    if (!hot) return hot.failure();
-    warn_of_level(file, *heat, *hot);
-    warn_of_odd(file, *heat, *hot);
-    if (hot->high > 0) frame->heat = std::move(*hot);
-    if (frame->heat) frame->glow = grids::find_glow(*frame->heat, frame->density);
-  }
+  if (heat)
+    if (auto done = add_heat(file, *heat, {.max_bricks = max_bricks, .max_pages = max_pages}, *frame); !done)
+      return done.failure();
   if (has_colors) {
     auto colors = color_bricks(*chosen, frame->density);
     if (!colors) return colors.failure();

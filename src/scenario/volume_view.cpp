@@ -66,6 +66,15 @@ double chosen_extinction(const VolumeFrame& frame, const VolumeExtent& extent,
   return std::max(std::min(kViewDepth / depth, kVoxelDepth / (usual * edge)), kLeastDepth / depth);
 }
 
+/// That of daylight, or as much less as a hot fire asks for: one that is opaque is white at most in its
+/// middle [EV].
+float fire_exposure(const VolumeFrame& frame, const scene::VolumeOptions& volume) {
+  // The luminance of what is opaque (docs/volume-light.md).
+  const double kelvin = double{kelvin_of(volume, frame)} * double{frame.heat->densest};
+  const double luminance = double{volume.emission} * std::pow(kelvin / 1900, 4);
+  return -static_cast<float>(std::log2(std::max(luminance, 1.0)));
+}
+
 }  // namespace
 
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
@@ -115,7 +124,8 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   timeline.sky.horizon = {0.13f, 0.22f, 0.40f};
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
   const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
-  timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure - std::log2(dimmed));
+  timeline.exposure = options.exposure.value_or(frame.heat ? fire_exposure(frame, volume)
+                                                           : kVolumeExposure - std::log2(dimmed));
   // Clipped flames are yellow; compressed ones are pink.
   timeline.tone = options.tone.value_or(frame.heat ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
   if (options.has_ground) timeline.ground = 0.0f;

@@ -169,13 +169,13 @@ TEST(BrickVolume, ValuesThatHalfFloatsLackHaveAUnit) {
   }
 }
 
-// One infinite value leaves the others as they are.
+// One infinite or absurd value leaves the others as they are.
 TEST(BrickVolume, WhatIsNoNumberIsTheLargestOrNothing) {
   const Grid good = random_grid(5);
   const BrickVolume expected = make_brick_volume(good).value_or_throw();
   EXPECT_EQ(expected.odd, 0u);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  for (const float odd : {kInfinity, 3e38f, std::nanf(""), -kInfinity}) {
+  for (const float odd : {kInfinity, 3e38f, std::nanf(""), -kInfinity, 1e5f * expected.high}) {
     Grid grid = good;
     std::memcpy(&grid.values[4 * 100], &odd, sizeof odd);
     const BrickVolume volume = make_brick_volume(grid).value_or_throw();

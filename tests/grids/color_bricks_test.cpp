@@ -183,5 +183,28 @@ TEST(ColorBricks, ChannelsAreDividedByTheDensity) {
   EXPECT_EQ(texel(*black, {3, 4, 5}), glm::vec3(0));
 }
 
+TEST(ColorBricks, WhatFallsWithTheDensityIsMultipliedByIt) {
+  // A density of (x + 1) / 8, and colours that are so much of it, and so much beside it.
+  const auto ramp = [](float per_density, float beside) {
+    Grid grid = cube();
+    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
+      const float value = per_density * static_cast<float>((voxel & 7) + 1) / 8 + beside;
+      std::memcpy(&grid.values[voxel * sizeof value], &value, sizeof value);
+    }
+    return grid;
+  };
+  const Grid density = ramp(1, 0), none = ramp(0, 0);
+  const auto decided = [&](const Grid& color) { return are_multiplied({&none, &color, &none}, density); };
+  EXPECT_TRUE(decided(ramp(0.6f, 0)));
+  EXPECT_TRUE(decided(ramp(1, 0)));
+  EXPECT_FALSE(decided(ramp(0, 0.05f))) << "a dark colour of its own";
+  EXPECT_FALSE(decided(ramp(0, 0.5f))) << "more than the density in parts";
+  EXPECT_FALSE(decided(none));
+  Grid moved = ramp(0.6f, 0);
+  moved.world_from_index[3].x = 1;
+  EXPECT_FALSE(decided(moved));
+  EXPECT_FALSE(are_multiplied({&none, &none, &none}, none));
+}
+
 }  // namespace
 }  // namespace brume::grids

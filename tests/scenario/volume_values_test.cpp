@@ -4,6 +4,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "grids/files.hpp"
+#include "scenario/volume_view.hpp"
 #include "scenario/volumes.hpp"
 #include "tests/scenario/volume_folder.hpp"
 
@@ -41,6 +42,46 @@ TEST_F(VolumeValuesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
     std::memcpy(&grid.values[i], &tiny, sizeof tiny);
   options.file = save("b.brv", {grid});
   EXPECT_EQ(frame()->value_note, "");
+}
+
+// Voxels twice as large, a metre above the density: what glows there is drawn as if they were alike.
+TEST_F(VolumeValuesTest, HeatReachesBeyondTheDensityWhateverItsVoxels) {
+  grids::Grid heat = cube("temperature", 1500);
+  heat.world_from_index = glm::dmat4(2);
+  heat.world_from_index[3] = {0.5, 8.5, 0.5, 1};
+  scene::VolumeOptions options{save("a.brv", {cube("density", 1), heat})};
+  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  ASSERT_TRUE(frame->heat);
+  EXPECT_LE(frame->bounds.low.y, 0);
+  EXPECT_GE(frame->bounds.high.y, 8.5f + 2 * 7.5f);
+  EXPECT_GE(frame->bounds.high.x, 0.5f + 2 * 7.5f);
+}
+
+TEST_F(VolumeValuesTest, WhatIsTooColdDoesNotGlow) {
+  const auto note_of = [&](float value, const std::string& name) {
+    scene::VolumeOptions options{save("a.brv", {cube("density", 1), cube("temperature", value)})};
+    options.heat = name;
+    const auto frame = load_volume_frame(options.file, options).value_or_throw();
+    EXPECT_EQ(frame->heat.has_value(), frame->heat_note.find("does not") == std::string::npos);
+    return frame->heat_note;
+  };
+  EXPECT_EQ(note_of(333, ""), "\"temperature\" does not glow: as kelvin, none of its values is above 600");
+  EXPECT_EQ(note_of(1200, ""), "\"temperature\" glows: its values are kelvin");
+  EXPECT_EQ(note_of(333, "temperature"), "\"temperature\" glows: its values are kelvin");
+}
+
+// Fires of 1,900 K and below are as bright as the day beside them; a hotter one darkens the picture as much
+// as it outshines that.
+TEST_F(VolumeValuesTest, HotFiresAreExposedForThemselves) {
+  const auto exposure_of = [&](float kelvin) {
+    std::vector<scene::VolumeOptions> options(1);
+    options[0].file = save("a.brv", {cube("density", 1), cube("temperature", kelvin)});
+    const auto volumes = Volumes::load(options).value_or_throw();
+    return prepare_volume_view(options[0].file, volumes->typical_frame(0), volumes->extent(0), {}).exposure;
+  };
+  EXPECT_EQ(exposure_of(1200), 0);
+  EXPECT_EQ(exposure_of(1900), 0);
+  EXPECT_NEAR(exposure_of(3800), -4, 0.01f);
 }
 
 // As Mantaflow saves them, of which Blender's are multiplied by the density.
