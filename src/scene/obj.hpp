@@ -36,10 +36,12 @@ struct ObjModel {
 };
 
 /// Reads positions with or without a colour (sRGB, as programs write it), texture coordinates, normals, faces
-/// (any number of corners, negative indices too), usemtl, o, g and mtllib; corners without a normal get their
-/// face's. Other statements are ignored. The text is UTF-8, or UTF-16 with a byte order mark. Fails with
-/// bad_input and name:line:column for a word in place of a number, a number that is not finite, an index
-/// without an element above its line, or a face with fewer than 3 corners.
+/// (any number of corners, negative indices too, of vertices above or below), usemtl, o, g and mtllib;
+/// corners without a normal get their face's. Other statements of the format are ignored. An index of a
+/// texture coordinate or a normal that does not exist counts as none, with one warning; unknown statements
+/// give one each. The text is UTF-8, or UTF-16 with a byte order mark. Fails with bad_input and
+/// name:line:column for a word in place of a number, a number that is not finite, an index of a position that
+/// does not exist, or a face with fewer than 3 corners.
 Result<ObjModel> parse_obj(std::string_view text, const std::string& name);
 
 /// All parts as one mesh with tangents.

@@ -83,17 +83,18 @@ class MtlParser {
   }
 
   /// The file name after options like "-bm 1.0": an option's values are the numbers and switches that follow
-  /// it.
+  /// it, or one word.
   void read_map(std::string& file, std::string& place) {
     std::string_view rest = reader_.rest_of_line();
     const auto take_word = [&rest] {
       const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+      const std::string_view word = rest.substr(0, end);
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t", end), rest.size()));
+      return word;
     };
     while (rest.starts_with('-')) {
-      const bool takes_word = rest.starts_with("-imfchan ") || rest.starts_with("-type ");
-      take_word();
-      if (takes_word) take_word();
+      const std::string_view option = take_word();
+      if (option == "-imfchan" || option == "-type" || option == "-colorspace") take_word();
       while (!rest.empty()) {
         const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
         if (word != "on" && word != "off" && !reader_.number_from(word, "an option")) break;

@@ -112,14 +112,83 @@ TEST(Obj, ErrorsNameFileLineAndColumn) {
             "a.obj:2:7: \"0\" names no position: there are 1 above this line, and they count from 1");
   EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 -2\n"),
             "a.obj:2:7: \"-2\" names no position: there are 1 above this line, and they count from 1");
-  EXPECT_EQ(
-      obj_error("v 1 2 3\nf 1/1 1 1\n"),
-      "a.obj:2:3: \"1/1\" names no texture coordinate: there are 0 above this line, and they count from 1");
+  EXPECT_EQ(obj_error("f 1 2 3\n\nv 1 2 3\nv 1 2 3\n"),
+            "a.obj:1:7: \"3\" names no position: there are 2, and they count from 1");
   EXPECT_EQ(obj_error("v 1 2 3\nf 1 1x 1\n"),
             "a.obj:2:5: expected a face corner like 1, 1/2, 1//3 or 1/2/3, found \"1x\"");
   EXPECT_EQ(obj_error("v 1 2 3\nf 1 1\n"),
             "a.obj:2:6: expected at least 3 corners of a face, found the end of the line");
   EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 99999999999999999999\n").substr(0, 9), "a.obj:2:7");
+}
+
+// Exporters write indices of attributes that they leave out.
+TEST(Obj, AttributesThatDoNotExistCountAsNone) {
+  const Warnings warnings;
+  const auto model = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1/1/1 2/0/1 3/-4/1\nf 1//2 2//9 3//-2\n"
+      "f 1/99999999999999999999 2 3\n",
+      "a.obj");
+  ASSERT_TRUE(model) << model.failure().message;
+  ASSERT_EQ(model->parts.at(0).indices.size(), 9u);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Vertex& vertex = model->vertices[model->parts[0].indices[i]];
+    EXPECT_EQ(vertex.normal, i < 3 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)) << i;
+    EXPECT_EQ(vertex.uv, glm::vec2(0)) << i;
+  }
+  EXPECT_EQ(warnings.lines,
+            (std::vector<std::string>{"a.obj:5:3: \"1/1/1\" names no texture coordinate: there are 0, and "
+                                      "they count from 1; ignored indices of this kind: 7"}));
+}
+
+TEST(Obj, FacesMayStandAboveTheirVertices) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n";
+  const std::string faces = "o a\nf 1/1 2/2 3/3\no b\nf 2/1 3/2 4/3\n";
+  const Warnings warnings;
+  const ObjModel below = parse_obj(vertices + faces, "a.obj").value_or_throw();
+  // All above; texture coordinates alone below; and one face between that could be added at once.
+  const std::string split = "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1/1 2/2 3/3\n";
+  const std::string rest = "v 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\no b\nf -3/-3 -2/-2 -1/-1\n";
+  for (const std::string& text : {faces + vertices, split + rest}) {
+    const ObjModel above = parse_obj(text, "b.obj").value_or_throw();
+    ASSERT_EQ(above.parts.size(), 2u);
+    EXPECT_EQ(above.parts[1].object, "b");
+    ASSERT_EQ(above.vertices.size(), below.vertices.size());
+    for (std::size_t i = 0; i < below.vertices.size(); ++i) {
+      EXPECT_EQ(above.vertices[i].position, below.vertices[i].position);
+      EXPECT_EQ(above.vertices[i].uv, below.vertices[i].uv);
+      EXPECT_EQ(above.vertices[i].normal, below.vertices[i].normal);
+    }
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(above.parts[i].indices, below.parts[i].indices);
+  }
+  EXPECT_TRUE(warnings.lines.empty());
+}
+
+TEST(Obj, UnknownStatementsAreNamedOnce) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  {
+    const Warnings warnings;
+    ASSERT_TRUE(parse_obj(triangle + "s off\nl 1 2\np 1\nvp 0 0\nlod 1\nshadow_obj a\n# ff\n\n", "a.obj"));
+    EXPECT_TRUE(warnings.lines.empty());
+    ASSERT_TRUE(parse_obj(triangle + "ff 1 2 3\nvertex 1 2 3\nff 1 2 3\n", "a.obj"));
+    EXPECT_EQ(warnings.lines,
+              (std::vector<std::string>{"a.obj:5: the statement \"ff\" is unknown and ignored",
+                                        "a.obj:6: the statement \"vertex\" is unknown and ignored"}));
+  }
+  std::string prose = triangle;
+  for (int i = 0; i < 100; ++i) prose += "word" + std::to_string(i) + " 1\n";
+  const Warnings warnings;
+  ASSERT_TRUE(parse_obj(prose, "a.obj"));
+  ASSERT_EQ(warnings.lines.size(), 9u);
+  EXPECT_EQ(warnings.lines.back(), "a.obj:13: more unknown statements from here on are ignored");
+}
+
+TEST(ObjScene, OptionsOfMapsMayTakeAWord) {
+  for (const char* options : {"-colorspace sRGB", "-type sphere", "-imfchan r", "-imfchan\tl -s 1 1 1",
+                              "-clamp on -colorspace linear -bm 0.5"}) {
+    const auto materials = parse_mtl(std::string("newmtl a\nmap_Kd ") + options + " my tex.png\n", "m.mtl");
+    ASSERT_TRUE(materials);
+    EXPECT_EQ(materials->at(0).diffuse_map, "my tex.png") << options;
+  }
 }
 
 TEST(ObjScene, OneObjectPerMaterial) {

@@ -183,8 +183,8 @@ TEST(SceneTxt, BadMeshesNameBothFiles) {
             "Scene.txt:1: Meshes/Broken.obj:2:7: expected a finite number for the third component of a "
             "position, found \"nan\"");
   EXPECT_EQ(error_of("OutOfRange 0 0 0 0 0 0 1 1 1\n"),
-            "Scene.txt:1: Meshes/OutOfRange.obj:4:7: \"4\" names no position: there are 3 above this line, "
-            "and they count from 1");
+            "Scene.txt:1: Meshes/OutOfRange.obj:4:7: \"4\" names no position: there are 3, and they "
+            "count from 1");
 }
 
 TEST(SceneTxt, RejectsDistantScenes) {
