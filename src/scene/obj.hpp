@@ -49,25 +49,34 @@ Mesh merged_mesh(ObjModel model, const std::string& name);
 /// Each part as a mesh with tangents, with only the vertices that it uses.
 std::vector<Mesh> part_meshes(const ObjModel& model);
 
-/// A material of an MTL file; file names are empty if absent.
+/// An image that an MTL file names.
+struct MtlMap {
+  std::string file;   ///< Empty: none.
+  std::string place;  ///< "file:line".
+  /// Of `-s` and `-o`, for u and v as the file has them, v up.
+  glm::vec2 scale{1}, offset{0};
+};
+
+/// A material of an MTL file.
 struct MtlMaterial {
   std::string name;
   std::string folder;  ///< Folder of its MTL file relative to the scene, ending in a slash; may be empty.
   glm::vec3 diffuse{0.8f}, emission{0};
   float roughness = 0.8f, metallic = 0;
   float opacity = 1;
-  std::string diffuse_map, normal_map, opacity_map;
-  std::string diffuse_place, normal_place, opacity_place;  ///< "file:line" of the maps.
+  MtlMap diffuse_map, normal_map, opacity_map;
 };
 
 /// Reads newmtl, Kd, Ke, Ns (as a roughness: alpha is sqrt(2 / (Ns + 2)), its root the roughness), Pr, Pm,
-/// d, Tr (1 - d), map_Kd, map_d, norm, map_Bump, bump. Other statements are ignored. Same errors as
-/// parse_obj.
+/// d, Tr (1 - d), map_Kd, map_d, norm, map_Bump, bump, of maps the options -s and -o. Other statements are
+/// ignored. Same errors as parse_obj.
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name);
 
 /// A scene from one OBJ file: one object per name (`o`, `g`) and material, called by the name if there is
-/// one. Roles: the prefix of the object's or the material's name (role_of_prefix); else glass for an opacity
-/// below 0.5, a grille for an opacity map that exists, or by role_of_alpha where it is the colour's image.
+/// one. An opacity map becomes the alpha of the colour's image, cut out below 0.5 where it is not glass; the
+/// scale and offset of the colour's image apply to the texture coordinates of the material's meshes. Roles:
+/// the prefix of the object's or the material's name (role_of_prefix); else glass for an opacity below 0.5,
+/// by role_of_alpha with an opacity map.
 Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 
 #include "core/log.hpp"
+#include "scene/mesh_tools.hpp"
 #include "scene/obj.hpp"
 #include "scene/roles.hpp"
 #include "scene/scene_builder.hpp"
@@ -43,10 +44,10 @@ class MtlParser {
       material.roughness = std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
     }
     if (word == "d" || word == "Tr") return read_opacity(word == "Tr", material.opacity);
-    if (word == "map_d") read_map(material.opacity_map, material.opacity_place);
-    if (word == "map_Kd") read_map(material.diffuse_map, material.diffuse_place);
+    if (word == "map_d") material.opacity_map = read_map();
+    if (word == "map_Kd") material.diffuse_map = read_map();
     if (word == "norm" || word == "map_Bump" || word == "map_bump" || word == "bump")
-      read_map(material.normal_map, material.normal_place);
+      material.normal_map = read_map();
     return {};
   }
 
@@ -84,7 +85,8 @@ class MtlParser {
 
   /// The file name after options like "-bm 1.0": an option's values are the numbers and switches that follow
   /// it, or one word.
-  void read_map(std::string& file, std::string& place) {
+  MtlMap read_map() {
+    MtlMap map;
     std::string_view rest = reader_.rest_of_line();
     const auto take_word = [&rest] {
       const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
@@ -95,15 +97,19 @@ class MtlParser {
     while (rest.starts_with('-')) {
       const std::string_view option = take_word();
       if (option == "-imfchan" || option == "-type" || option == "-colorspace") take_word();
-      while (!rest.empty()) {
+      for (int axis = 0; !rest.empty(); ++axis) {
         const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
-        if (word != "on" && word != "off" && !reader_.number_from(word, "an option")) break;
+        const auto number = reader_.number_from(word, "an option");
+        if (word != "on" && word != "off" && !number) break;
+        if (number && axis < 2 && option == "-s") map.scale[axis] = *number;
+        if (number && axis < 2 && option == "-o") map.offset[axis] = *number;
         take_word();
       }
     }
-    file = rest;
-    std::replace(file.begin(), file.end(), '\\', '/');
-    place = reader_.line_place();
+    map.file = rest;
+    std::replace(map.file.begin(), map.file.end(), '\\', '/');
+    map.place = reader_.line_place();
+    return map;
   }
 
   TextReader reader_;
@@ -181,7 +187,43 @@ Result<Libraries> read_libraries(const ObjModel& model, const SceneFiles& files)
   return materials;
 }
 
-Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
+/// The map whose scale and offset apply to the texture coordinates, of which there is one set.
+const MtlMap& placing_map(const MtlMaterial& source) {
+  for (const MtlMap* map : {&source.diffuse_map, &source.opacity_map, &source.normal_map})
+    if (!map->file.empty()) return *map;
+  return source.diffuse_map;
+}
+
+void place_texture(const MtlMap& map, Mesh& mesh) {
+  if (map.scale == glm::vec2(1) && map.offset == glm::vec2(0)) return;
+  constexpr float kMost = std::numeric_limits<float>::max();
+  for (Vertex& vertex : mesh.vertices) {
+    const glm::vec2 up(vertex.uv.x, 1 - vertex.uv.y);
+    const glm::vec2 placed = glm::clamp(up * map.scale + map.offset, -kMost, kMost);
+    vertex.uv = glm::vec2(placed.x, 1 - placed.y);
+  }
+  compute_tangents(mesh);  // A scale below 0 mirrors the image.
+}
+
+/// Gives a material the values of its opacity map as its alpha; false: it has none that exists.
+bool add_opacity_map(const MtlMaterial& source, SceneBuilder& builder, Material& material) {
+  const MtlMap& map = source.opacity_map;
+  if (map.file.empty()) return false;
+  if (map.file == source.diffuse_map.file) {
+    if (builder.is_checker(material.base_color_image)) return false;  // It is missed as the colour.
+  } else {
+    const std::uint32_t image =
+        builder.image_with_opacity(material.base_color_image, places_of(map.file, source.folder), map.place);
+    if (image == kNone) return false;
+    material.base_color_image = image;
+  }
+  material.blended = true;
+  material.transmission = 0;
+  material.alpha_cutoff = 0.5f;
+  return true;
+}
+
+Material scene_material(const MtlMaterial& source, SceneBuilder& builder, const Mesh& mesh) {
   Material material;
   material.name = source.name;
   material.base_color = source.diffuse;
@@ -192,52 +234,33 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
     material.opacity = source.opacity;
     material.transmission = 0;
   }
-  const auto image = [&](const std::string& file, const std::string& place, const char* stand_in) {
-    return file.empty() ? kNone : builder.image_of_file(places_of(file, source.folder), place, stand_in);
+  const auto image = [&](const MtlMap& map, const char* stand_in) {
+    return map.file.empty() ? kNone
+                            : builder.image_of_file(places_of(map.file, source.folder), map.place, stand_in);
   };
-  material.base_color_image = image(source.diffuse_map, source.diffuse_place, "a magenta checker stands in");
-  material.normal_image = image(source.normal_map, source.normal_place, "it is left out");
+  material.base_color_image = image(source.diffuse_map, "a magenta checker stands in");
+  material.normal_image = image(source.normal_map, "it is left out");
   if (builder.is_checker(material.normal_image)) material.normal_image = kNone;
   // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
     material.base_color = glm::vec3(1);
+
+  const bool has_alpha = add_opacity_map(source, builder, material);
+  if (source.opacity < 0.5f)
+    material.role = Role::glass;
+  else if (has_alpha)
+    material.role = role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
   return material;
-}
-
-/// Finds opacity maps, and warns once of each that is missing.
-class OpacityMaps {
- public:
-  explicit OpacityMaps(const SceneFiles& files) : files_(files) {}
-
-  /// Whether the map of a material exists.
-  bool has(const MtlMaterial& source) {
-    const std::string& map = source.opacity_map;
-    if (map.empty()) return false;
-    if (find_one(files_, places_of(map, source.folder))) return true;
-    // That of the colour is missed as such.
-    if (map != source.diffuse_map && missing_.insert(source.folder + map).second)
-      log_warning(source.opacity_place + ": the image " + in_quotes(map) + " " + why_not_found(map) +
-                  "; the material counts as opaque");
-    return false;
-  }
-
- private:
-  const SceneFiles& files_;
-  std::set<std::string> missing_;
-};
-
-/// What a mesh of a material stops. An opacity map is read only where it is the image of the colour.
-Role role_of(const MtlMaterial& source, const Material& material, const SceneBuilder& builder,
-             const Mesh& mesh, OpacityMaps& opacity_maps) {
-  if (source.opacity < 0.5f) return Role::glass;
-  if (!opacity_maps.has(source)) return Role::wall;
-  if (source.opacity_map != source.diffuse_map) return Role::grille;
-  if (builder.is_checker(material.base_color_image)) return Role::wall;
-  return role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
 }
 
 /// What of a file would be drawn in another way if it were supported.
 void warn_of_ignored(const Libraries& materials, const std::string& name) {
+  for (const auto& [material, source] : materials.by_name) {
+    const MtlMap& placing = placing_map(source);
+    for (const MtlMap* map : {&source.opacity_map, &source.normal_map})
+      if (!map->file.empty() && (map->scale != placing.scale || map->offset != placing.offset))
+        log_warning(map->place + ": the scale and offset of " + placing.place + " apply to this map, too");
+  }
   for (const auto& entry : materials.by_name)
     if (entry.second.opacity >= 0.5f && entry.second.opacity < 1)
       return log_warning(name + ": not supported, and ignored: opacities from 0.5 on, as of the material " +
@@ -260,7 +283,6 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
   warn_of_ignored(*materials, name);
 
   SceneBuilder builder(files, name);
-  OpacityMaps opacity_maps(files);
   std::vector<Mesh> meshes = part_meshes(*model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const ObjPart& part = model->parts[i];
@@ -269,7 +291,8 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     const auto source = materials->by_name.find(part.material);
     Material material;
     if (source != materials->by_name.end()) {
-      material = scene_material(source->second, builder);
+      place_texture(placing_map(source->second), meshes[i]);
+      material = scene_material(source->second, builder, meshes[i]);
     } else {
       material.name = part.material.empty() ? "default" : part.material;
       material.base_color = glm::vec3(model->has_colors ? 1.0f : 0.6f);
@@ -277,10 +300,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
       if (!part.material.empty() && materials->has_all_files)
         log_warning(part.place + ": no material is called " + in_quotes(part.material) + "; it is grey");
     }
-    if (const auto role = role_of_prefix(part.material))
-      material.role = *role;
-    else if (source != materials->by_name.end())
-      material.role = role_of(source->second, material, builder, meshes[i], opacity_maps);
+    if (const auto role = role_of_prefix(part.material)) material.role = *role;
     const Role by_material = material.role;
     builder.scene.materials.push_back(std::move(material));
 

@@ -1,5 +1,6 @@
 #include "scene/scene_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/log.hpp"
@@ -26,6 +27,28 @@ bool all_finite(const glm::mat4& matrix) {
 
 double determinant(const glm::mat4& matrix) {
   return glm::determinant(glm::dmat3(glm::dmat4(matrix)));
+}
+
+/// The colours of one image, white for null, with the opacities of another.
+image::Image8 with_opacity(const image::Image8* color, const image::Image8& opacity) {
+  const image::Image8 white{1, 1, {255, 255, 255, 255}};
+  const image::Image8& base = color ? *color : white;
+  bool has_alpha = false;
+  for (std::size_t i = 3; i < opacity.rgba.size(); i += 4) has_alpha = has_alpha || opacity.rgba[i] < 255;
+  image::Image8 result{std::max(base.width, opacity.width), std::max(base.height, opacity.height), {}};
+  result.rgba.resize(std::size_t{4} * result.width * result.height);
+  for (std::size_t y = 0; y < result.height; ++y)
+    for (std::size_t x = 0; x < result.width; ++x) {
+      const auto nearest = [&](const image::Image8& image) {
+        const std::size_t column = x * image.width / result.width, row = y * image.height / result.height;
+        return image.rgba.data() + 4 * (row * image.width + column);
+      };
+      const std::uint8_t *from = nearest(base), *value = nearest(opacity);
+      std::uint8_t* to = result.rgba.data() + 4 * (y * result.width + x);
+      std::copy_n(from, 3, to);
+      to[3] = has_alpha ? value[3] : static_cast<std::uint8_t>((value[0] + value[1] + value[2]) / 3);
+    }
+  return result;
 }
 
 }  // namespace
@@ -63,6 +86,36 @@ std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, co
 std::uint32_t SceneBuilder::image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
                                            const std::string& place) {
   return add_image(image::decode_image(bytes, name), name, place);
+}
+
+std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<const std::string> names,
+                                               const std::string& place) {
+  const std::pair key(color, names.front());
+  if (const auto known = with_opacity_.find(key); known != with_opacity_.end()) return known->second;
+  const auto fail = [&](const std::string& why) {
+    if (missing_opacities_.insert(names.front()).second)
+      log_warning(place + ": " + why + "; the material counts as opaque");
+    return kNone;
+  };
+
+  // The file.
+  const auto found =
+      std::ranges::find_if(names, [&](const auto& name) { return files_.find(name).has_value(); });
+  if (found == names.end())
+    return fail("the image " + in_quotes(names.front()) + " " + why_not_found(names.front()));
+  const std::string file = *files_.find(*found);
+  const auto bytes = files_.read(file);
+  if (!bytes) return fail(bytes.failure().message);
+  const auto opacity = image::decode_image(*bytes, file);
+  if (!opacity) return fail(opacity.failure().message);
+
+  // The image. Its size is checked before it is made.
+  const image::Image8* base = color == kNone ? nullptr : &scene.images[color].pixels;
+  const std::uint64_t width = std::max(opacity->width, base ? base->width : 1),
+                      height = std::max(opacity->height, base ? base->height : 1);
+  if (image_bytes_ + 4 * width * height > kMostImageBytes)
+    return fail("the scene's images exceed " + std::to_string(kMostImageBytes >> 20) + " MiB with " + file);
+  return with_opacity_[key] = add_image(with_opacity(base, *opacity), file, place);
 }
 
 std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::string& name,

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -33,6 +35,11 @@ class SceneBuilder {
   /// The same from named bytes in memory.
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
                                const std::string& place);
+  /// An image with the values of the first existing file of `names` as its alpha: that file's own alpha if it
+  /// has any, else its brightness. kNone as `color` counts as white. It is as large as the larger of both.
+  /// kNone, with a warning that starts with `place`, if the file is missing or damaged.
+  std::uint32_t image_with_opacity(std::uint32_t color, std::span<const std::string> names,
+                                   const std::string& place);
   std::uint32_t checker_image();
   bool is_checker(std::uint32_t image) const { return image == checker_ && image != kNone; }
   /// The index of the stand-in cube.
@@ -56,6 +63,8 @@ class SceneBuilder {
   const SceneFiles& files_;
   std::string name_;
   std::map<std::string, std::uint32_t> images_;
+  std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> with_opacity_;
+  std::set<std::string> missing_opacities_;
   std::map<std::uint32_t, std::uint32_t> mirrored_;
   std::uint32_t checker_ = kNone, cube_ = kNone;
   std::uint64_t vertices_ = 0, indices_ = 0, image_bytes_ = 0;

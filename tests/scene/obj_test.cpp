@@ -1,10 +1,7 @@
 #include "scene/obj.hpp"
 
-#include <filesystem>
 #include <random>
 
-#include "core/file.hpp"
-#include "image/png.hpp"
 #include "scene/mesh_tools.hpp"
 #include "scene/polygon.hpp"
 #include "tests/scene/scene_test_tools.hpp"
@@ -187,7 +184,7 @@ TEST(ObjScene, OptionsOfMapsMayTakeAWord) {
                               "-clamp on -colorspace linear -bm 0.5"}) {
     const auto materials = parse_mtl(std::string("newmtl a\nmap_Kd ") + options + " my tex.png\n", "m.mtl");
     ASSERT_TRUE(materials);
-    EXPECT_EQ(materials->at(0).diffuse_map, "my tex.png") << options;
+    EXPECT_EQ(materials->at(0).diffuse_map.file, "my tex.png") << options;
   }
 }
 
@@ -277,12 +274,8 @@ TEST(ObjScene, FilesAreFoundWhereExportersMeanThem) {
 TEST(ObjScene, ImagesAreFoundFromTheirMaterialFile) {
   MemoryFiles files;
   const image::Image8 red{1, 1, {255, 0, 0, 255}};
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("brume_obj_" + std::to_string(::getpid()) + ".png");
-  image::save_png(folder, red).value_or_throw();
-  const auto png = read_file(folder).value_or_throw();
-  std::filesystem::remove(folder);
-  for (const char* name : {"quad.png", "sub/own.png"}) files.files[name] = {png.begin(), png.end()};
+  const auto png = png_of(red);
+  for (const char* name : {"quad.png", "sub/own.png"}) files.files[name] = png;
   const auto is_found = [&](const std::string& map) {
     files.add_text("sub/m.mtl", "newmtl a\nmap_Kd " + map + "\n");
     const Warnings warnings;

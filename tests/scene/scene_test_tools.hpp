@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "core/file.hpp"
 #include "core/log.hpp"
+#include "image/png.hpp"
 #include "scene/files.hpp"
 #include "scene/scene.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scene {
 
@@ -30,6 +34,13 @@ class Warnings {
   }
   std::vector<std::string> lines;
 };
+
+/// An image as the bytes of a PNG file.
+inline std::vector<std::byte> png_of(const image::Image8& image) {
+  const cli::WorkFolder folder;
+  image::save_png(folder.path() / "image.png", image).value_or_throw();
+  return read_file(folder.path() / "image.png").value_or_throw();
+}
 
 /// A cube from -1 to 1, faces counter-clockwise from outside, of quads.
 inline const char* const kCubeObj =
