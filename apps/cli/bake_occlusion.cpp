@@ -89,7 +89,7 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   const Targets targets = targets_of(bake, *parse_voxels(bake.size), outputs);
   outputs.writes("--json", bake.json, FileKind::json);
 
-  const scene::Scene scene = scene::load_scene(bake.input).value_or_throw();
+  const scene::Scene scene = scene::load_scene(bake.input, false, scene::ImageUse::none).value_or_throw();
   outputs.reads(scene.files);
   stop_if_interrupted();
   const std::vector<voxel::Triangle> triangles = chosen_triangles(scene, bake);

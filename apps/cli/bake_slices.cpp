@@ -116,7 +116,7 @@ Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
   const grids::AtlasAxes axes = axes_of(options.atlas, grids::kUprightAxes);
   const AtlasTarget target =
       atlas_target(options.atlas, size.value_or(default_size(axes)), grids::kUprightAxes, outputs);
-  const scene::Scene scene = scene::load_scene(options.input).value_or_throw();
+  const scene::Scene scene = scene::load_scene(options.input, false, scene::ImageUse::none).value_or_throw();
   outputs.reads(scene.files);
   stop_if_interrupted();
 

@@ -75,7 +75,7 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   outputs.writes("--obj", options.obj, FileKind::obj);
   outputs.writes("--json", options.json, FileKind::json);
 
-  scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
+  scene::Scene scene = scene::load_scene(options.scene, false, scene::ImageUse::roles).value_or_throw();
   if (options.scale) {
     scenario::scale_scene(scene, static_cast<float>(*options.scale));
   } else {

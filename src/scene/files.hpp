@@ -21,6 +21,10 @@ bool is_safe_relative(const std::string& name);
 /// Why a file of this name is not there, such as "does not exist".
 std::string why_not_found(const std::string& name);
 
+/// What the images of a scene are for: all, or only to decide roles, or nothing. One that is not needed gives
+/// no warning where it is missing or damaged.
+enum class ImageUse { pictures, roles, none };
+
 class SceneFiles {
  public:
   virtual ~SceneFiles() = default;

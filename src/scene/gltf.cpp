@@ -92,11 +92,11 @@ std::string ignored_features(const tinygltf::Model& model) {
 
 class GltfLoader {
  public:
-  GltfLoader(const GltfDocument& document, const SceneFiles& files, const std::string& name)
+  GltfLoader(const GltfDocument& document, const SceneFiles& files, const std::string& name, ImageUse use)
       : document_(document),
         model_(document.model()),
         name_(name),
-        builder_(files, name),
+        builder_(files, name, use),
         materials_(document, builder_),
         meshes_(document, materials_, builder_) {}
 
@@ -277,13 +277,14 @@ class GltfLoader {
 
 }  // namespace
 
-Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& name, const SceneFiles& files) {
+Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& name, const SceneFiles& files,
+                         ImageUse use) {
   try {
     const GltfDocument document(bytes, name, files);
     const std::string& version = document.model().asset.version;
     if (!version.starts_with("2."))
       document.fail(name, "asset.version: expected 2.x, found " + version.substr(0, 16));
-    return GltfLoader(document, files, name).load();
+    return GltfLoader(document, files, name, use).load();
   } catch (const Error& error) {
     return error.failure();
   } catch (const std::bad_alloc&) {

@@ -32,6 +32,7 @@ namespace brume::scene {
 ///   ignored.
 /// Fails with bad_input ("file: path of the value: expectation") for invalid documents and for those that
 /// require an unknown extension.
-Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& name, const SceneFiles& files);
+Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& name, const SceneFiles& files,
+                         ImageUse use = ImageUse::pictures);
 
 }  // namespace brume::scene

@@ -89,8 +89,8 @@ std::optional<Role> GltfMaterials::role_of_extras(const tinygltf::Value& extras,
 }
 
 Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place) {
-  const auto image = [&](const auto& texture) {
-    return texture.index < 0 ? kNone : image_of_texture(texture.index);
+  const auto image = [&](const auto& texture, ImageUse use = ImageUse::pictures) {
+    return texture.index < 0 ? kNone : image_of_texture(texture.index, use);
   };
   // A color that stands in for numbers would make no sense.
   const auto numbers = [&](const auto& texture) {
@@ -107,7 +107,8 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   material.roughness = static_cast<float>(pbr.roughnessFactor);
   material.metallic = static_cast<float>(pbr.metallicFactor);
   material.roughness_image = numbers(pbr.metallicRoughnessTexture);
-  material.base_color_image = image(pbr.baseColorTexture);
+  material.base_color_image =
+      image(pbr.baseColorTexture, source.alphaMode == "OPAQUE" ? ImageUse::pictures : ImageUse::roles);
   material.normal_image = numbers(source.normalTexture);
 
   // Emission.
@@ -162,22 +163,23 @@ GltfMaterials::Converted GltfMaterials::texture_coordinates(const tinygltf::Mate
   return {kNone, uses.front().uv_set, uses.front().image_from_uv};
 }
 
-std::uint32_t GltfMaterials::image_of_texture(int index) {
+std::uint32_t GltfMaterials::image_of_texture(int index, ImageUse use) {
   const tinygltf::Texture& texture = document_.model().textures[static_cast<std::size_t>(index)];
   const auto webp = texture.extensions.find("EXT_texture_webp");
   const int source =
       webp == texture.extensions.end() ? texture.source : webp->second.Get("source").GetNumberAsInt();
   if (source < 0) {
-    log_warning(document_.place("textures", static_cast<std::size_t>(index)) +
-                ": has no PNG, JPEG or WebP source; a magenta checker stands in");
+    builder_.warn_of_image(use, document_.place("textures", static_cast<std::size_t>(index)) +
+                                    ": has no PNG, JPEG or WebP source; " + kCheckerStandsIn);
     return builder_.checker_image();
   }
   if (const auto known = images_.find(source); known != images_.end()) return known->second;
   const tinygltf::Image& image = document_.model().images[static_cast<std::size_t>(source)];
   const std::string name = document_.place("images", static_cast<std::size_t>(source));
-  return images_[source] = image.image.empty()
-                               ? builder_.image_of_file({&image.uri, 1}, name)
-                               : builder_.image_of_bytes(std::as_bytes(std::span(image.image)), name, name);
+  return images_[source] =
+             image.image.empty()
+                 ? builder_.image_of_file({&image.uri, 1}, name, kCheckerStandsIn, use)
+                 : builder_.image_of_bytes(std::as_bytes(std::span(image.image)), name, name, use);
 }
 
 glm::vec3 GltfMaterials::mean_color(std::uint32_t image) const {

@@ -33,7 +33,7 @@ class GltfMaterials {
  private:
   Material convert(const tinygltf::Material& source, const std::string& place);
   Converted texture_coordinates(const tinygltf::Material& source, const std::string& place) const;
-  std::uint32_t image_of_texture(int texture);
+  std::uint32_t image_of_texture(int texture, ImageUse use);
   glm::vec3 mean_color(std::uint32_t image) const;
 
   const GltfDocument& document_;

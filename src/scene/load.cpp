@@ -19,18 +19,18 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 namespace {
 
-Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& files) {
+Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& files, ImageUse use) {
   const std::string extension = lower_extension(path);
   if (extension == ".txt" || extension == ".obj") {
     const auto text = read_text_file(path);
     if (!text) return text.failure();
-    return extension == ".txt" ? parse_scene_txt(*text, path.string(), files)
-                               : parse_obj_scene(*text, path.string(), files);
+    return extension == ".txt" ? parse_scene_txt(*text, path.string(), files, use)
+                               : parse_obj_scene(*text, path.string(), files, use);
   }
   if (extension == ".gltf" || extension == ".glb") {
     const auto bytes = read_file(path);
     if (!bytes) return bytes.failure();
-    return parse_gltf(*bytes, path.string(), files);
+    return parse_gltf(*bytes, path.string(), files, use);
   }
   return Failure{
       ErrorCode::bad_input,
@@ -45,10 +45,10 @@ bool has_triangle(const Scene& scene) {
 
 }  // namespace
 
-Result<Scene> load_scene(const std::filesystem::path& path, bool may_be_empty) {
+Result<Scene> load_scene(const std::filesystem::path& path, bool may_be_empty, ImageUse use) {
   const Progress job("load");
   const FolderFiles files(path.parent_path());
-  auto scene = parse_file(path, files);
+  auto scene = parse_file(path, files, use);
   if (!scene) return scene;
   if (!may_be_empty && !has_triangle(*scene))
     return Failure{ErrorCode::bad_input,

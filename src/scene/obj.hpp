@@ -77,6 +77,7 @@ Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::str
 /// scale and offset of the colour's image apply to the texture coordinates of the material's meshes. Roles:
 /// the prefix of the object's or the material's name (role_of_prefix); else glass for an opacity below 0.5,
 /// by role_of_alpha with an opacity map.
-Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
+Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files,
+                              ImageUse use = ImageUse::pictures);
 
 }  // namespace brume::scene

@@ -234,12 +234,15 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder, const 
     material.opacity = source.opacity;
     material.transmission = 0;
   }
-  const auto image = [&](const MtlMap& map, const char* stand_in) {
-    return map.file.empty() ? kNone
-                            : builder.image_of_file(places_of(map.file, source.folder), map.place, stand_in);
+  const auto image = [&](const MtlMap& map, const char* stand_in, ImageUse use) {
+    return map.file.empty()
+               ? kNone
+               : builder.image_of_file(places_of(map.file, source.folder), map.place, stand_in, use);
   };
-  material.base_color_image = image(source.diffuse_map, "a magenta checker stands in");
-  material.normal_image = image(source.normal_map, "it is left out");
+  const bool is_alpha = source.opacity_map.file == source.diffuse_map.file;
+  material.base_color_image =
+      image(source.diffuse_map, kCheckerStandsIn, is_alpha ? ImageUse::roles : ImageUse::pictures);
+  material.normal_image = image(source.normal_map, "it is left out", ImageUse::pictures);
   if (builder.is_checker(material.normal_image)) material.normal_image = kNone;
   // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
@@ -274,7 +277,8 @@ Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::str
   return MtlParser(text, name).parse();
 }
 
-Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files) {
+Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files,
+                              ImageUse use) {
   const auto model = parse_obj(text, name);
   if (!model) return model.failure();
   const auto materials = read_libraries(*model, files);
@@ -282,7 +286,7 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
 
   warn_of_ignored(*materials, name);
 
-  SceneBuilder builder(files, name);
+  SceneBuilder builder(files, name, use);
   std::vector<Mesh> meshes = part_meshes(*model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const ObjPart& part = model->parts[i];

@@ -66,26 +66,26 @@ Result<std::uint32_t> SceneBuilder::add_mesh(Mesh mesh) {
 }
 
 std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, const std::string& place,
-                                          const char* instead) {
+                                          const char* instead, ImageUse use) {
   for (const std::string& name : names) {
     const auto found = files_.find(name);
     if (!found) continue;
     if (const auto known = images_.find(*found); known != images_.end()) return known->second;
     const auto bytes = files_.read(*found);
-    if (bytes) return images_[*found] = add_image(image::decode_image(*bytes, *found), *found, place);
-    log_warning(place + ": " + bytes.failure().message + "; " + instead);
+    if (bytes) return images_[*found] = add_image(image::decode_image(*bytes, *found), *found, place, use);
+    warn_of_image(use, place + ": " + bytes.failure().message + "; " + instead);
     return images_[*found] = checker_image();
   }
   if (!images_.contains(names.front())) {
-    log_warning(place + ": the image " + in_quotes(names.front()) + " " + why_not_found(names.front()) +
-                "; " + instead);
+    warn_of_image(use, place + ": the image " + in_quotes(names.front()) + " " +
+                           why_not_found(names.front()) + "; " + instead);
   }
   return images_[names.front()] = checker_image();
 }
 
 std::uint32_t SceneBuilder::image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
-                                           const std::string& place) {
-  return add_image(image::decode_image(bytes, name), name, place);
+                                           const std::string& place, ImageUse use) {
+  return add_image(image::decode_image(bytes, name), name, place, use);
 }
 
 std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<const std::string> names,
@@ -94,7 +94,7 @@ std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<co
   if (const auto known = with_opacity_.find(key); known != with_opacity_.end()) return known->second;
   const auto fail = [&](const std::string& why) {
     if (missing_opacities_.insert(names.front()).second)
-      log_warning(place + ": " + why + "; the material counts as opaque");
+      warn_of_image(ImageUse::roles, place + ": " + why + "; the material counts as opaque");
     return kNone;
   };
 
@@ -115,25 +115,30 @@ std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<co
                       height = std::max(opacity->height, base ? base->height : 1);
   if (image_bytes_ + 4 * width * height > kMostImageBytes)
     return fail("the scene's images exceed " + std::to_string(kMostImageBytes >> 20) + " MiB with " + file);
-  return with_opacity_[key] = add_image(with_opacity(base, *opacity), file, place);
+  return with_opacity_[key] = add_image(with_opacity(base, *opacity), file, place, ImageUse::roles);
 }
 
 std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::string& name,
-                                      const std::string& place) {
+                                      const std::string& place, ImageUse use) {
   if (!pixels) {
     // An embedded image has no name but its place.
     const std::string& what = pixels.failure().message;
-    log_warning((what.starts_with(place) ? what : place + ": " + what) + "; a magenta checker stands in");
+    warn_of_image(use, (what.starts_with(place) ? what : place + ": " + what) + "; " + kCheckerStandsIn);
     return checker_image();
   }
   if (image_bytes_ + pixels->rgba.size() > kMostImageBytes) {
-    log_warning(place + ": the scene's images exceed " + std::to_string(kMostImageBytes >> 20) +
-                " MiB; a magenta checker stands in for " + name);
+    warn_of_image(use, place + ": the scene's images exceed " + std::to_string(kMostImageBytes >> 20) +
+                           " MiB; a magenta checker stands in for " + name);
     return checker_image();
   }
   image_bytes_ += pixels->rgba.size();
   scene.images.push_back({name, std::move(*pixels)});
   return last_index(scene.images.size());
+}
+
+void SceneBuilder::warn_of_image(ImageUse use, const std::string& line) const {
+  const bool is_needed = use == ImageUse::roles ? use_ != ImageUse::none : use_ == ImageUse::pictures;
+  if (is_needed) log_warning(line);
 }
 
 std::uint32_t SceneBuilder::checker_image() {

@@ -19,28 +19,34 @@ constexpr float kFarthest = 1e7f;
 /// Maximum number of vertices and indices of a scene, before instancing, and of bytes of its decoded images.
 constexpr std::uint64_t kMostVertices = 1ull << 26, kMostIndices = 1ull << 28, kMostImageBytes = 1ull << 32;
 
+constexpr const char* kCheckerStandsIn = "a magenta checker stands in";
+
 class SceneBuilder {
  public:
   /// `name` names the scene in messages. The files must outlive the builder.
-  SceneBuilder(const SceneFiles& files, std::string name) : files_(files), name_(std::move(name)) {}
+  SceneBuilder(const SceneFiles& files, std::string name, ImageUse use = ImageUse::pictures)
+      : files_(files), name_(std::move(name)), use_(use) {}
 
   Scene scene;
 
   /// resource_limit when the scene would pass kMostVertices or kMostIndices.
   Result<std::uint32_t> add_mesh(Mesh mesh);
   /// The first existing file of `names`, decoded; each file is read once. If it is missing or damaged, logs a
-  /// warning that starts with `place`, ends with `instead`, and returns the magenta checker.
+  /// warning that starts with `place`, ends with `instead`, and returns the magenta checker. `use` is that of
+  /// this image: `roles` if it decides one.
   std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place,
-                              const char* instead = "a magenta checker stands in");
+                              const char* instead = kCheckerStandsIn, ImageUse use = ImageUse::pictures);
   /// The same from named bytes in memory.
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
-                               const std::string& place);
+                               const std::string& place, ImageUse use = ImageUse::pictures);
   /// An image with the values of the first existing file of `names` as its alpha: that file's own alpha if it
   /// has any, else its brightness. kNone as `color` counts as white. It is as large as the larger of both.
   /// kNone, with a warning that starts with `place`, if the file is missing or damaged.
   std::uint32_t image_with_opacity(std::uint32_t color, std::span<const std::string> names,
                                    const std::string& place);
   std::uint32_t checker_image();
+  /// Unless images are loaded for less than `use`.
+  void warn_of_image(ImageUse use, const std::string& line) const;
   bool is_checker(std::uint32_t image) const { return image == checker_ && image != kNone; }
   /// The index of the stand-in cube.
   Result<std::uint32_t> cube_mesh();
@@ -57,11 +63,13 @@ class SceneBuilder {
 
  private:
   Result<std::uint32_t> mirrored_mesh(std::uint32_t mesh);
-  std::uint32_t add_image(Result<image::Image8> pixels, const std::string& name, const std::string& place);
+  std::uint32_t add_image(Result<image::Image8> pixels, const std::string& name, const std::string& place,
+                          ImageUse use);
   Result<void> check_object(const Object& object) const;
 
   const SceneFiles& files_;
   std::string name_;
+  ImageUse use_ = ImageUse::pictures;
   std::map<std::string, std::uint32_t> images_;
   std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> with_opacity_;
   std::set<std::string> missing_opacities_;

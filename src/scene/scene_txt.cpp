@@ -28,8 +28,8 @@ glm::mat4 world_from_mesh(glm::vec3 position, glm::vec3 rotation, glm::vec3 scal
 
 class SceneTxtParser {
  public:
-  SceneTxtParser(std::string_view text, const std::string& name, const SceneFiles& files)
-      : reader_(text, name), files_(files), builder_(files, name) {}
+  SceneTxtParser(std::string_view text, const std::string& name, const SceneFiles& files, ImageUse use)
+      : reader_(text, name), files_(files), builder_(files, name, use) {}
 
   Result<Scene> parse() {
     while (reader_.next_line()) {
@@ -173,9 +173,10 @@ class SceneTxtParser {
 
 }  // namespace
 
-Result<Scene> parse_scene_txt(std::string_view text, const std::string& name, const SceneFiles& files) {
-  if (is_utf16(text)) return parse_scene_txt(utf8_from_utf16(text), name, files);
-  return SceneTxtParser(text, name, files).parse();
+Result<Scene> parse_scene_txt(std::string_view text, const std::string& name, const SceneFiles& files,
+                              ImageUse use) {
+  if (is_utf16(text)) return parse_scene_txt(utf8_from_utf16(text), name, files, use);
+  return SceneTxtParser(text, name, files, use).parse();
 }
 
 }  // namespace brume::scene

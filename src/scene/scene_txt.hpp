@@ -20,6 +20,7 @@ namespace brume::scene {
 /// glass clear. Roughness defaults to
 /// 0.8 and is clamped to at least 0.05, because files contain 0 as a placeholder. A light is a point that
 /// emits POWER watts uniformly in all directions: intensity = rgb POWER / (4 pi).
-Result<Scene> parse_scene_txt(std::string_view text, const std::string& name, const SceneFiles& files);
+Result<Scene> parse_scene_txt(std::string_view text, const std::string& name, const SceneFiles& files,
+                              ImageUse use = ImageUse::pictures);
 
 }  // namespace brume::scene

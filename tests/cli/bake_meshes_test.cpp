@@ -78,6 +78,19 @@ TEST_F(BakeMeshes, ObjectsGoToChannelsByName) {
   }
 }
 
+// Only shapes are baked; voxels have roles, which images with alpha decide.
+TEST_F(BakeMeshes, ImagesThatAreNotUsedAreNotMissed) {
+  folder_.write("m.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd leaf.png\nmap_d leaf.png\n");
+  folder_.write("textured.obj", "mtllib m.mtl\nusemtl a\n" + box_obj("ring", {-1, 0, -1}, {1, 2, 1}) +
+                                    "usemtl b\n" + box_obj("beam", {2, 0, 0}, {3, 1, 4}, 9));
+  const std::string size = "8x8x8";
+  EXPECT_EQ(run({"bake", "slices", "textured.obj", "-o", "a.png", "--size", size}).error, "");
+  EXPECT_EQ(run({"bake", "occlusion", "textured.obj", "-o", "b.png", "--size", size}).error, "");
+  const Outcome voxels = run({"voxelize", "textured.obj", "-o", "a.vxl"});
+  EXPECT_NE(voxels.error.find("leaf.png"), std::string::npos) << voxels.error;
+  EXPECT_EQ(voxels.error.find("gone.png"), std::string::npos) << voxels.error;
+}
+
 TEST_F(BakeMeshes, ABoxChoosesWhatIsBaked) {
   const Json json = json_of({"bake", "slices", "two.obj", "-o", "a.png", "--box", "-2,-1,-2 0,1,2", "--size",
                              "16x8x24", "--json", "-"});

@@ -94,5 +94,18 @@ TEST(MtlMaps, WithoutItsOpacityMapAMaterialIsOpaque) {
     EXPECT_TRUE(line.starts_with("m.mtl:2: ") && line.ends_with("; the material counts as opaque")) << line;
 }
 
+TEST(MtlMaps, WhatIsNotUsedIsNotMissed) {
+  MemoryFiles files;
+  files.add_text("m.mtl", "newmtl a\nmap_Kd gone.png\nbump gone.png\nmap_d mask.png\n");
+  const auto warnings_of = [&](ImageUse use) {
+    const Warnings warnings;
+    parse_obj_scene(kTexturedSquare, "s.obj", files, use).value_or_throw();
+    return warnings.lines.size();
+  };
+  EXPECT_EQ(warnings_of(ImageUse::pictures), 2u);
+  EXPECT_EQ(warnings_of(ImageUse::roles), 1u);
+  EXPECT_EQ(warnings_of(ImageUse::none), 0u);
+}
+
 }  // namespace
 }  // namespace brume::scene
