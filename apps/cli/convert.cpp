@@ -52,6 +52,12 @@ void select(grids::GridFile& file, const std::string& input, const std::vector<s
 
 void save(const fs::path& path, const grids::GridFile& file) {
   if (!grids::is_raw_description(path)) return grids::save_grid_file(path, file).value_or_throw();
+  const auto has_first_name = [&](const grids::Grid& grid) { return grid.name == file.grids.front().name; };
+  if (file.grids.size() > 1 && std::ranges::all_of(file.grids, has_first_name))
+    throw Error(ErrorCode::usage, path.string() + ": a raw file holds one grid, but " +
+                                      std::to_string(file.grids.size()) + " have the name " +
+                                      printable(file.grids.front().name) +
+                                      "; convert to .vdb, .nvdb or .brv");
   if (file.grids.size() != 1)
     throw Error(ErrorCode::usage, path.string() + ": a raw file holds one grid, not " +
                                       std::to_string(file.grids.size()) + "; choose it with --grid");
@@ -160,12 +166,12 @@ Command add_convert(CommandLine& program) {
     }
     arguments.refuse("--fps", "is for a film (.mp4)");
     run_units(arguments, options->units, *common,
-              {options->input,
-               "OUTPUT",
-               options->output,
-               output_kind(options->output),
-               {},
-               array_beside(options->output)},
+              {.input = options->input,
+               .output_option = "OUTPUT",
+               .output = options->output,
+               .kind = output_kind(options->output),
+               .beside = array_beside(options->output),
+               .skips_missing = true},
               [&](const Unit& unit, Outputs& outputs) { convert_one(*options, arguments, unit, outputs); });
   };
   return command;

@@ -123,7 +123,7 @@ void Outputs::writes_frames(const std::string& option, const fs::path& pattern, 
     stop_if_interrupted();
   }
   const std::lock_guard lock(mutex_);
-  frames_ = Frames{pattern, first, last, std::vector<bool>(std::size_t{last} - first + 1)};
+  frames_ = Frames{pattern, first, last, std::vector<bool>(std::size_t{last} - first + 1), 0};
 }
 
 void Outputs::will_write(const std::string& option, const fs::path& file, FileKind kind) {
@@ -164,6 +164,16 @@ void Outputs::frame_done(std::uint32_t frame) {
   unit_.reset();
 }
 
+void Outputs::frame_skipped(std::uint32_t frame) {
+  frame_done(frame);
+  const std::lock_guard lock(mutex_);
+  ++frames_->skipped;
+}
+
+std::ptrdiff_t Outputs::Frames::written() const {
+  return std::count(done.begin(), done.end(), true) - skipped;
+}
+
 void Outputs::begin_unit(std::shared_ptr<const Outputs> unit) {
   const std::lock_guard lock(mutex_);
   unit_ = std::move(unit);
@@ -177,10 +187,10 @@ bool Outputs::is_written(const Output& output) const {
 // "6 of 144 frames written; continue with --resume or --frames 6-143"
 std::string Outputs::frame_state(const std::string& unit) const {
   const auto& done = frames_->done;
-  const auto count = std::count(done.begin(), done.end(), true);
-  std::string text = std::to_string(count) + " of " + std::to_string(done.size()) + " frames written";
+  const std::ptrdiff_t count = frames_->written(), all = std::ssize(done) - frames_->skipped;
+  std::string text = std::to_string(count) + " of " + std::to_string(all) + " frames written";
   if (!unit.empty()) text += "; of the next, " + unit;
-  if (count == std::ssize(done)) return text;
+  if (count == all) return text;
   const auto begin = std::find(done.begin(), done.end(), false) - done.begin();
   const auto next = static_cast<std::uint64_t>(begin) + frames_->first;
   const std::string rest = "--frames " + std::to_string(next) + "-" + std::to_string(frames_->last);
@@ -214,7 +224,7 @@ std::string Outputs::state() const {
   std::string frames;
   if (frames_) {
     const bool all = std::find(frames_->done.begin(), frames_->done.end(), false) == frames_->done.end();
-    const bool any = std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end();
+    const bool any = frames_->written() > 0;
     const std::string unit = unit_state();
     ++(all ? done : open);
     if (!all && (any || !unit.empty())) return frame_state(unit);
@@ -247,10 +257,8 @@ std::string Outputs::written() const {
 std::string Outputs::written_unlocked() const {
   std::string text;
   const auto add = [&](const std::string& file) { text += (text.empty() ? "" : ", ") + file; };
-  if (frames_ && std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end()) {
-    const auto count = std::count(frames_->done.begin(), frames_->done.end(), true);
-    add(frames_->pattern.string() + " (" + std::to_string(count) + " frames)");
-  }
+  if (frames_ && frames_->written() > 0)
+    add(frames_->pattern.string() + " (" + std::to_string(frames_->written()) + " frames)");
   for (const Output& output : outputs_)
     if (is_written(output)) add(output.file.string());
   return text;

@@ -64,6 +64,8 @@ class Outputs {
   void up_to_date(const std::filesystem::path& file);
   /// States that a frame of the sequence is complete: written, or already there.
   void frame_done(std::uint32_t frame);
+  /// States that a frame of the sequence is not made: it does not count.
+  void frame_skipped(std::uint32_t frame);
   /// The files of the frame that is being made, if it has several: until frame_done, explanations name those
   /// that are written.
   void begin_unit(std::shared_ptr<const Outputs> unit);
@@ -103,7 +105,9 @@ class Outputs {
   struct Frames {
     std::filesystem::path pattern;
     std::uint32_t first = 0, last = 0;
-    std::vector<bool> done;
+    std::vector<bool> done;  ///< Skipped ones, too.
+    std::ptrdiff_t skipped = 0;
+    std::ptrdiff_t written() const;
   };
   void check_place(const std::string& option, const std::filesystem::path& file, const FileIdentity& identity,
                    FileKind kind);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -12,6 +13,7 @@
 #include "apps/cli/unit_key.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/log.hpp"
 #include "core/numbered_files.hpp"
 #include "core/progress.hpp"
 
@@ -93,8 +95,7 @@ fs::path input_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number
     return std::prev(after)->second;
   if (job.holds_missing) return after->second;
   const fs::path pattern(job.input);
-  const NumberedName name = *numbered_name(pattern.filename().string());
-  return pattern.parent_path() / (name.before + std::to_string(number) + name.after);
+  return pattern.parent_path() / numbered_name(pattern.filename().string())->with(number);
 }
 
 Unit unit_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number) {
@@ -117,6 +118,12 @@ UnitKey key_of(const Arguments& arguments, const UnitJob& job) {
 }
 
 void refuse_of_one(const Arguments& arguments, const UnitJob& job) {
+  const fs::path input(job.input), output(job.output);
+  std::error_code ignored;
+  if (numbered_name(input.filename().string()) && !fs::exists(input, ignored))
+    throw Error(ErrorCode::usage, job.output_option + " " + job.output +
+                                      ": requires a number, as INPUT has one, such as " +
+                                      output.stem().string() + "_%04d" + output.extension().string());
   for (const char* option : {"--frames", "--shard", "--resume"})
     arguments.refuse(option, "requires a number in " + job.output_option + ", such as f_%04d" +
                                  fs::path(job.output).extension().string());
@@ -151,6 +158,20 @@ void declare_files(const UnitJob& job, const Inputs& inputs, FrameRange range, O
     stop_if_interrupted();
   }
   outputs.set_frames_depend(true);
+}
+
+// The numbers of a range that are no units.
+std::set<std::uint32_t> skipped_numbers(const UnitOptions& options, const UnitJob& job, const Inputs& inputs,
+                                        FrameRange range) {
+  std::set<std::uint32_t> skipped;
+  if (!job.skips_missing || !options.frames.empty()) return skipped;
+  for (std::uint32_t i = range.first; i <= range.last; ++i)
+    if (!inputs.contains(i)) skipped.insert(i);
+  if (!skipped.empty())
+    log_warning(job.input + ": " + std::to_string(skipped.size()) + " of the numbers " +
+                std::to_string(range.first) + "-" + std::to_string(range.last) +
+                (skipped.size() == 1 ? " has no file and is skipped" : " have no file and are skipped"));
+  return skipped;
 }
 
 // Only digits.
@@ -214,12 +235,16 @@ void run_units(const Arguments& arguments, const UnitOptions& options, CommonOpt
 
   // What is there already.
   const UnitKey key = key_of(arguments, job);
+  const std::set<std::uint32_t> skipped = skipped_numbers(options, job, inputs, *part);
   std::vector<std::string> reasons(std::size_t{part->last} - part->first + 1, "to do");
-  for (std::size_t i = 0; options.resume && i < reasons.size(); ++i) {
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
     const auto number = static_cast<std::uint32_t>(part->first + i);
     stop_if_interrupted();
-    reasons[i] = reason_of(unit_of(job, inputs, number), key);
-    if (reasons[i].empty()) common.outputs.frame_done(number);
+    const bool is_skipped = skipped.contains(number);
+    if (is_skipped) common.outputs.frame_skipped(number);
+    if (is_skipped || options.resume)
+      reasons[i] = is_skipped ? "" : reason_of(unit_of(job, inputs, number), key);
+    if (reasons[i].empty() && !is_skipped) common.outputs.frame_done(number);
   }
   if (options.resume) print_reasons(part->first, reasons);
 

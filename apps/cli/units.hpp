@@ -46,6 +46,7 @@ struct UnitJob {
   std::vector<std::string> device = {};  ///< Names of what computes it.
   std::vector<FileBeside> beside = {};
   bool holds_missing = false;  ///< A missing input is replaced by the one before it, or by the first.
+  bool skips_missing = false;  ///< Without --frames, numbers without an input are skipped, with a warning.
   std::vector<std::string> depends_on = {};  ///< What else each output was made from.
 };
 struct Unit {

@@ -46,13 +46,28 @@ std::size_t end_of_mark(std::string_view name, std::size_t i) {
   }
 }
 
+std::size_t digits_of_mark(std::string_view mark) {
+  constexpr std::size_t kMost = 16;
+  std::size_t digits = mark[0] == '#' ? mark.size() : 1;
+  if (const std::size_t first = mark.find_first_of("0123456789"); first != mark.npos)
+    std::from_chars(mark.data() + first, mark.data() + mark.size(), digits);
+  return std::clamp(digits, std::size_t{1}, kMost);
+}
+
 }  // namespace
 
 std::optional<NumberedName> numbered_name(const std::string& name) {
   for (std::size_t i = 0; i < name.size(); ++i)
     if (const std::size_t end = end_of_mark(name, i); end > i)
-      return NumberedName{name.substr(0, i), name.substr(end)};
+      return NumberedName{name.substr(0, i), name.substr(end),
+                          digits_of_mark(std::string_view(name).substr(i, end - i))};
   return std::nullopt;
+}
+
+std::string NumberedName::with(std::uint64_t number) const {
+  std::string text = std::to_string(number);
+  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+  return before + text + after;
 }
 
 std::map<std::int64_t, fs::path> numbered_files(const fs::path& file) {

@@ -1,6 +1,7 @@
 // Files of a sequence, whose names differ by the number of their frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -12,10 +13,13 @@ namespace brume {
 /// A name around its number.
 struct NumberedName {
   std::string before, after;
+  std::size_t digits = 1;  ///< At least: 4 of %04d or ####.
+
+  std::string with(std::uint64_t number) const;
 };
 
 /// Where a name has the number of a frame, in the form of any program: %d, %04d, ####, $F, $F4, <frame>,
-/// <frame04>, <f4>. Empty: it has none. The number of digits does not matter.
+/// <frame04>, <f4>. Empty: it has none. At most 16 digits.
 std::optional<NumberedName> numbered_name(const std::string& name);
 
 /// The files of a sequence by their numbers, in any number of digits; the name with more digits where two

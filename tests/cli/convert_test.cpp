@@ -66,6 +66,17 @@ TEST_F(Convert, WritesARawArrayAndItsDescription) {
   expect_failure(folder_, {"convert", "e.json", "a.json"}, 2, {"a.raw", "is the input"});
 }
 
+TEST_F(Convert, GridsOfOneNameAreNoChoice) {
+  grids::GridFile file = load("smoke.brv");
+  for (grids::Grid& grid : file.grids) grid.name = "density";
+  grids::save_grid_file(folder_.path() / "two.vdb", file).value_or_throw();
+  for (const Arguments& more : {Arguments{}, Arguments{"--grid", "density"}}) {
+    Arguments arguments{"convert", "two.vdb", "two.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_failure(folder_, arguments, 2, {"one grid, but 2 have the name density; convert to .vdb"});
+  }
+}
+
 TEST_F(Convert, ReportsWhatItDid) {
   const Json done = Json::parse(run({"convert", "smoke.brv", "a.vdb", "--json", "-"}).out);
   EXPECT_EQ(done["grids"], (Json{"density", "flame"}));

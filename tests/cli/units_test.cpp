@@ -126,6 +126,34 @@ TEST_F(Units, ConversionsOfASequence) {
   EXPECT_EQ(files("c_").size(), 6u);
 }
 
+TEST_F(Units, ConversionsSkipMissingNumbers) {
+  make_clouds();
+  fs::rename(folder_.path() / "cloud_3.brv", folder_.path() / "cloud_6.brv");
+  const Arguments convert{"convert", "cloud_%03d.brv", "c_%02d.nvdb"};
+  const std::string skipped =
+      "brume: warning: cloud_%03d.brv: 3 of the numbers 1-6 have no file and are skipped\n";
+  EXPECT_EQ(run(convert).error, skipped);
+  const Files whole = files("c_");
+  ASSERT_EQ(whole.size(), 6u);
+  for (const char* name : {"c_01.nvdb", "c_02.nvdb", "c_06.nvdb"}) EXPECT_TRUE(whole.contains(name)) << name;
+  fs::remove(folder_.path() / "c_06.nvdb");
+  EXPECT_EQ(run(convert, {"--resume"}).error, skipped + "brume: frame 6: missing\n");
+  EXPECT_EQ(files("c_"), whole);
+  remove("c_");
+  for (const char* shard : {"1/2", "2/2"}) run(convert, {"--shard", shard});
+  EXPECT_EQ(files("c_"), whole);
+
+  // Numbers that do not count are none of those that are written.
+  folder_.write("cloud_2.brv", "damaged");
+  const Outcome stopped = run_brume(folder_.path(), convert);
+  EXPECT_NE(stopped.error.find("; 1 of 3 frames written; continue with --resume\n"), std::string::npos)
+      << stopped.error;
+  // A choice of numbers requires them, under the names of the pattern.
+  const Outcome chosen =
+      run_brume(folder_.path(), {"convert", "cloud_%03d.brv", "d_%d.nvdb", "--frames", "3-6"});
+  EXPECT_NE(chosen.error.find("cloud_003.brv: cannot open"), std::string::npos) << chosen.error;
+}
+
 TEST_F(Units, OcclusionOfPoses) {
   for (const char* name : {"pose_0.obj", "pose_1.obj"}) folder_.write(name, room_obj());
   run({"bake", "occlusion", "pose_%d.obj", "-o", "ao_%d.png", "--size", "4x4x4", "--rays", "2", "--frames",
@@ -245,6 +273,8 @@ TEST_F(Units, RefusesWhatIsNotNumbered) {
     expect_failure(folder_, arguments, 2, parts);
   };
   refuse({"convert", "cloud_1.brv", "c_%d.vdb", "--frames", "1-3"}, {"c_%d.vdb", "INPUT"});
+  refuse({"convert", "cloud_%d.brv", "c.vdb"},
+         {"OUTPUT c.vdb: requires a number, as INPUT has one, such as c_%04d.vdb"});
   refuse({"bake", "pyroclastic", "-o", "c_%d.brv"}, {"--frames"});
   refuse({"convert", "cloud_1.brv", "c.vdb", "--shard", "1/2"}, {"--shard", "c", "number"});
   refuse({"convert", "cloud_1.brv", "c.vdb", "--resume"}, {"--resume"});

@@ -16,6 +16,14 @@ TEST(NumberedName, KnowsTheFormsOfPrograms) {
     EXPECT_EQ(name->before, "smoke.") << mark;
     EXPECT_EQ(name->after, ".vdb") << mark;
   }
+  const auto seventh = [](const std::string& name) { return numbered_name(name)->with(7); };
+  for (const char* form : {"a%04d.x", "a####.x", "a$F4.x", "a<frame04>.x"})
+    EXPECT_EQ(seventh(form), "a0007.x") << form;
+  for (const char* form : {"a%d.x", "a#.x", "a$F.x", "a<frame>.x", "a%0d.x"})
+    EXPECT_EQ(seventh(form), "a7.x");
+  EXPECT_EQ(numbered_name("%02d")->with(123), "123");
+  EXPECT_EQ(seventh("%0999999999999999999999d").size(), 1u);
+  EXPECT_EQ(seventh("%099d").size(), 16u);
   for (const char* plain :
        {"smoke.vdb", "100%.vdb", "%s.vdb", "$HOME.vdb", "<UDIM>.vdb", "<frame.vdb", "a%5", "$", "<"})
     EXPECT_FALSE(numbered_name(plain)) << plain;
