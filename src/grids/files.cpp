@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/atomic_file.hpp"
+#include "core/file.hpp"
 #include "grids/brv_file.hpp"
 #include "grids/raw_file.hpp"
 #include "grids/slice_atlas.hpp"
@@ -44,6 +45,7 @@ fs::path description_of(const fs::path& path) {
 /// An image belongs to the description beside it only if that names it: a PNG and an EXR of one name share
 /// it.
 Result<void> check_described(const fs::path& image) {
+  if (const auto start = read_file_start(image, 1); !start) return start.failure();
   const auto images = read_atlas_images(description_of(image));
   if (!images) return images.failure();
   if (std::ranges::find(*images, image.filename(), &fs::path::filename) != images->end()) return {};
@@ -93,6 +95,8 @@ bool is_grid_file(const fs::path& path) {
 Result<std::vector<fs::path>> files_of(const fs::path& path) {
   const bool is_picture = is_image(path);
   if (!is_picture && lower_suffix(path) != ".json") return std::vector<fs::path>{path};
+  if (is_picture)
+    if (const auto start = read_file_start(path, 1); !start) return start.failure();
   const fs::path json = is_picture ? description_of(path) : path;
   const auto is_atlas = is_slice_atlas(json);
   if (!is_atlas) return is_atlas.failure();

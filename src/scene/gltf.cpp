@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
 #include "core/log.hpp"
 #include "scene/gltf_parts.hpp"
@@ -238,8 +239,13 @@ class GltfLoader {
 
   void add_light(int index, const std::string& place, const glm::dmat4& world_from_node) {
     const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(index)];
+    const std::string light_place =
+        document_.place("extensions.KHR_lights_punctual.lights", static_cast<std::size_t>(index));
     Light light;
     if (source.type == "spot") {
+      // Equal ones are a hard edge, as Blender writes it.
+      if (source.spot.innerConeAngle > source.spot.outerConeAngle && !std::exchange(warned_of_cone_, true))
+        log_warning(light_place + ".spot: its inner cone is wider than the outer one, which counts for both");
       light.kind = LightKind::spot;
       light.cos_outer = static_cast<float>(std::cos(source.spot.outerConeAngle));
       light.cos_inner =
@@ -247,9 +253,7 @@ class GltfLoader {
     } else if (source.type == "directional") {
       light.kind = LightKind::directional;
     } else if (source.type != "point") {
-      document_.fail(
-          document_.place("extensions.KHR_lights_punctual.lights", static_cast<std::size_t>(index)) + ".type",
-          "is none of point, spot, directional");
+      document_.fail(light_place + ".type", "is none of point, spot, directional");
     }
     const glm::dvec3 color = source.color.empty() ? glm::dvec3(1) : glm::make_vec3(source.color.data());
     light.intensity = glm::vec3(color * (source.intensity / kLumensPerWatt));
@@ -273,6 +277,7 @@ class GltfLoader {
   SceneBuilder builder_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
+  bool warned_of_cone_ = false;
 };
 
 }  // namespace

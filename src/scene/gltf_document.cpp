@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/checked.hpp"
+#include "core/log.hpp"
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_meshopt.hpp"
 #include "scene/gltf_rewrite.hpp"
@@ -156,12 +157,30 @@ std::string_view json_of_glb(std::string_view glb, const std::string& name) {
   if (glb.size() >= 20) std::memcpy(&length, glb.data() + 12, sizeof length);
   if (glb.size() < 20 || length > glb.size() - 20)
     throw Error(ErrorCode::bad_input, name + ": the GLB file is truncated; export or copy it again");
+  if (length % 4 != 0)
+    throw Error(ErrorCode::bad_input, name + ": the JSON chunk of the GLB file has " +
+                                          std::to_string(length) +
+                                          " bytes; expected a multiple of 4, filled up with blanks");
   const std::string_view json = glb.substr(20, length);
   if (const std::size_t start = json.find_first_not_of(" \t\r\n");
       start == std::string_view::npos || json[start] != '{')
     throw Error(ErrorCode::bad_input,
                 name + ": the first chunk of the GLB file is no JSON; export or copy it again");
   return json;
+}
+
+/// Names the first node whose place is given twice; tinygltf drops what does not count.
+void warn_of_nodes(const nlohmann::json& document, const std::string& name) {
+  if (!document.contains("nodes")) return;
+  std::size_t index = 0;
+  for (const nlohmann::json& node : document["nodes"]) {
+    const bool is_placed =
+        node.contains("translation") || node.contains("rotation") || node.contains("scale");
+    if (node.contains("matrix") && is_placed)
+      return log_warning(name + ": nodes[" + std::to_string(index) +
+                         "]: has a matrix, and a translation, rotation or scale; the matrix alone counts");
+    ++index;
+  }
 }
 
 }  // namespace
@@ -175,6 +194,7 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
   // Check the JSON, and set up access to files.
   const bool is_glb = text.starts_with("glTF");
   nlohmann::json document = checked_gltf_json(is_glb ? json_of_glb(text, name_) : text, name_);
+  warn_of_nodes(document, name_);
   std::string rewritten;
   if (rewrite_for_tinygltf(document))
     rewritten = is_glb ? glb_with_json(text, document.dump()) : document.dump();

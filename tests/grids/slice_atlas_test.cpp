@@ -293,6 +293,9 @@ TEST_F(SliceAtlasFiles, OpenAsVolumes) {
     EXPECT_EQ(files_of(path(name)).value_or_throw(), (std::vector{path("a.json"), path("a.png")}));
   }
   EXPECT_FALSE(is_grid_file(path("b.png")));
+  // What is missing is what was named.
+  for (const auto& failure : {load_grid_file(path("b.png")).failure(), files_of(path("b.png")).failure()})
+    EXPECT_NE(failure.message.find("b.png: cannot open"), std::string::npos) << failure.message;
 }
 
 // One line that names the place; nothing is read beyond what is checked.

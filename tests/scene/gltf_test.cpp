@@ -194,6 +194,26 @@ TEST(Gltf, LightsKeepTheirUnitsAndFollowTheirNodes) {
   EXPECT_HAS(document.error(), "nodes[1].extensions.KHR_lights_punctual.light: names lights[3]");
 }
 
+TEST(Gltf, WhatContradictsItselfIsNamedOnce) {
+  Document document;
+  document.nodes = R"([{"mesh": 0, "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1], "translation": [1, 2, 3]},
+    {"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "rotation": [0, 0, 0, 1]},
+    {"extensions": {"KHR_lights_punctual": {"light": 1}}}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}])";
+  document.more = R"(, "extensions": {"KHR_lights_punctual": {"lights": [
+    {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.4}},
+    {"type": "spot", "spot": {"innerConeAngle": 0.4, "outerConeAngle": 0.4}}]}})";
+  const Warnings warnings;
+  const Scene scene = document.load().value_or_throw();
+  EXPECT_EQ(world_corner(scene, 0, 0), glm::vec3(5, 0, 0));
+  EXPECT_EQ(scene.lights.at(1).cos_inner, scene.lights[1].cos_outer);
+  EXPECT_EQ(
+      warnings.lines,
+      (std::vector<std::string>{
+          "a.gltf: nodes[0]: has a matrix, and a translation, rotation or scale; the matrix alone counts",
+          "a.gltf: extensions.KHR_lights_punctual.lights[0].spot: its inner cone is wider than the outer "
+          "one, which counts for both"}));
+}
+
 TEST(Gltf, MaterialsAndCameras) {
   Document document;
   document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
@@ -408,6 +428,17 @@ TEST(Glb, LoadsAndRejectsEveryTruncation) {
   ASSERT_TRUE(whole) << whole.failure().message;
   EXPECT_EQ(world_corner(*whole, 0, 2), glm::vec3(0, 1, 0));
   for (std::size_t size = 0; size < glb.size(); ++size) EXPECT_FALSE(load(size)) << size;
+}
+
+TEST(Glb, TheLengthOfItsJsonIsAMultipleOf4) {
+  Document document;
+  document.uri = "";
+  std::string glb = glb_of(document.json(), document.binary.data);
+  glb[12] = static_cast<char>(glb[12] | 1);
+  const auto scene = parse_gltf(std::as_bytes(std::span(glb)), "a.glb", MemoryFiles());
+  ASSERT_FALSE(scene);
+  EXPECT_HAS(scene.failure().message, "a.glb: the JSON chunk of the GLB file has ");
+  EXPECT_HAS(scene.failure().message, " bytes; expected a multiple of 4, filled up with blanks");
 }
 
 }  // namespace
