@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/log.hpp"
@@ -26,17 +28,22 @@ bool is_true(const tinygltf::Value& extras, const char* key) {
 /// this is the luminous efficacy at 555 nm, which Blender and most engines use.
 constexpr double kLumensPerWatt = 683;
 
-glm::dmat4 local_matrix(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
+/// Of three numbers, four and three; other counts of any are left out.
+glm::dmat4 composed(std::span<const double> translation, std::span<const double> rotation,
+                    std::span<const double> scale) {
   glm::dmat4 result(1);
-  if (node.translation.size() == 3) result = glm::translate(result, glm::make_vec3(node.translation.data()));
-  if (node.rotation.size() == 4) {
-    const std::vector<double>& r = node.rotation;
-    const glm::dquat quaternion(r[3], r[0], r[1], r[2]);
+  if (translation.size() == 3) result = glm::translate(result, glm::make_vec3(translation.data()));
+  if (rotation.size() == 4) {
+    const glm::dquat quaternion(rotation[3], rotation[0], rotation[1], rotation[2]);
     if (glm::length(quaternion) > 1e-12) result = result * glm::mat4_cast(glm::normalize(quaternion));
   }
-  if (node.scale.size() == 3) result = glm::scale(result, glm::make_vec3(node.scale.data()));
+  if (scale.size() == 3) result = glm::scale(result, glm::make_vec3(scale.data()));
   return result;
+}
+
+glm::dmat4 local_matrix(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
+  return composed(node.translation, node.rotation, node.scale);
 }
 
 /// The node's -z direction in world space.
@@ -48,18 +55,9 @@ glm::vec3 forward(const glm::dmat4& world_from_node) {
 
 /// What of a file would be drawn in another way if it were supported, in words; empty: nothing.
 std::string ignored_features(const tinygltf::Model& model) {
-  const auto is_set = [](const std::vector<double>& weights) {
-    return std::ranges::any_of(weights, [](double weight) { return weight != 0; });
-  };
   constexpr double kMostClearRoughness = 0.3;
-  bool unlit = false, instances = false, skins = false, morphs = false, wraps = false, frosted = false,
-       faint = false, blended = false;
-  for (const tinygltf::Node& node : model.nodes) {
-    instances = instances || node.extensions.contains("EXT_mesh_gpu_instancing");
-    skins = skins || node.skin >= 0;
-    morphs = morphs || is_set(node.weights);
-  }
-  for (const tinygltf::Mesh& mesh : model.meshes) morphs = morphs || is_set(mesh.weights);
+  bool unlit = false, skins = false, wraps = false, frosted = false, faint = false, blended = false;
+  for (const tinygltf::Node& node : model.nodes) skins = skins || node.skin >= 0;
   for (const tinygltf::Sampler& sampler : model.samplers)
     wraps = wraps || sampler.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT ||
             sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT;
@@ -79,9 +77,7 @@ std::string ignored_features(const tinygltf::Model& model) {
   const auto add = [&](bool any, const char* words) {
     if (any) text += (text.empty() ? "" : "; ") + std::string(words);
   };
-  add(instances, "EXT_mesh_gpu_instancing (one of the instances is drawn)");
   add(skins, "skins (meshes are drawn as they are stored)");
-  add(morphs, "weights of morph targets");
   add(wraps, "samplers that clamp or mirror (textures repeat)");
   add(faint, "KHR_materials_transmission below 0.5 (it is drawn opaque)");
   add(frosted, "rough KHR_materials_transmission (what is behind the glass is sharp)");
@@ -179,7 +175,8 @@ class GltfLoader {
   }
 
   void add_mesh(const tinygltf::Node& node, const std::string& place, const Visit& visit) {
-    const auto& parts = meshes_.parts(node.mesh);
+    const std::vector<double>& weights = model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
+    const auto& parts = meshes_.parts(node.mesh, node.weights.empty() ? weights : node.weights);
     if (parts.empty()) return;
     const std::string mesh_name = builder_.scene.meshes[parts.front().mesh].name;
     Object object;
@@ -190,13 +187,48 @@ class GltfLoader {
       set_grenade(place, parts, object);
       return;
     }
-    for (const GltfMeshes::Part& part : parts) {
-      object.mesh = part.mesh;
-      object.material = part.material;
-      object.role = own.value_or(part.role);
-      object.see_through = part.role == Role::glass;
-      builder_.add_object(object, place).value_or_throw();
+    for (const glm::dmat4& instance : instances_of(node, place)) {
+      object.world_from_mesh = glm::mat4(visit.world_from_parent * instance);
+      for (const GltfMeshes::Part& part : parts) {
+        object.mesh = part.mesh;
+        object.material = part.material;
+        object.role = own.value_or(part.role);
+        object.see_through = part.role == Role::glass;
+        builder_.add_object(object, place).value_or_throw();
+      }
     }
+  }
+
+  /// Where a node has its mesh: once, or as EXT_mesh_gpu_instancing says.
+  std::vector<glm::dmat4> instances_of(const tinygltf::Node& node, const std::string& place) const {
+    const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+    if (extension == node.extensions.end() || !extension->second.Has("attributes")) return {glm::dmat4(1)};
+    const std::string here = place + ".extensions.EXT_mesh_gpu_instancing.attributes";
+    const tinygltf::Value& attributes = extension->second.Get("attributes");
+    std::optional<std::size_t> count;
+    const auto numbers_of = [&](const char* name, int components) {
+      if (!attributes.Has(name)) return std::vector<double>();
+      const std::string user = here + "." + name;
+      const std::vector<float> found =
+          document_.floats(attributes.Get(name).GetNumberAsInt(), components, user);
+      const std::size_t elements = found.size() / static_cast<std::size_t>(components);
+      if (count.value_or(elements) != elements)
+        document_.fail(here, "have different counts; expected one of each for every instance");
+      count = elements;
+      return std::vector<double>(found.begin(), found.end());
+    };
+    const auto translations = numbers_of("TRANSLATION", 3), rotations = numbers_of("ROTATION", 4),
+               scales = numbers_of("SCALE", 3);
+    if (!count) return {glm::dmat4(1)};
+    std::vector<glm::dmat4> instances;
+    for (std::size_t i = 0; i < *count; ++i) {
+      const auto of = [i](const std::vector<double>& numbers, std::size_t components) {
+        return numbers.empty() ? std::span<const double>()
+                               : std::span(numbers).subspan(i * components, components);
+      };
+      instances.push_back(composed(of(translations, 3), of(rotations, 4), of(scales, 3)));
+    }
+    return instances;
   }
 
   /// The grenade is one object: its parts become one mesh with the first part's material.

@@ -28,7 +28,8 @@ struct Rule {
 /// Extensions that a file may require. KHR_materials_* are allowed too: surfaces look plainer without them.
 constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",     "KHR_mesh_quantization",
                                                      "KHR_texture_transform",   "KHR_draco_mesh_compression",
-                                                     "EXT_meshopt_compression", "EXT_texture_webp"};
+                                                     "EXT_meshopt_compression", "EXT_texture_webp",
+                                                     "EXT_mesh_gpu_instancing"};
 
 #define TEXTURE(path)                                                                               \
   {path ".index", Kind::index, 0, 0, 0, "/textures", true}, {path ".texCoord", Kind::whole, 0, 64}, \
@@ -61,7 +62,9 @@ constexpr Rule kRules[] = {
     {"meshes[].name", Kind::text},
     {"meshes[].primitives[].mode", Kind::whole, 0, 6},
     {"meshes[].primitives[].material", Kind::index, 0, 0, 0, "/materials"},
+    {"nodes[].extensions.EXT_mesh_gpu_instancing.attributes.*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].indices", Kind::index, 0, 0, 0, "/accessors"},
+    {"meshes[].primitives[].targets[].*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.POSITION", Kind::index, 0, 0, 0, "/accessors", true},
     {DRACO ".bufferView", Kind::index, 0, 0, 0, "/bufferViews", true},

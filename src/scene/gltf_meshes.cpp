@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "core/log.hpp"
 #include "scene/gltf_parts.hpp"
@@ -28,6 +31,22 @@ Attributes read_attributes(const GltfPrimitive& primitive, int uv_set) {
   read.color_components = primitive.components("COLOR_0") == 3 ? 3 : 4;
   read.colors = primitive.floats("COLOR_0", read.color_components);
   return read;
+}
+
+/// Adds so much of a morph target. Tangents keep their direction along the surface nearly enough.
+void add_target(const GltfDocument& document, const std::map<std::string, int>& target, double weight,
+                const std::string& place, Attributes& read) {
+  const auto add = [&](const char* name, std::vector<float>& values) {
+    const auto accessor = target.find(name);
+    if (accessor == target.end() || values.empty()) return;
+    const std::vector<float> moved = document.floats(accessor->second, 3, place + "." + name);
+    if (moved.size() != values.size())
+      document.fail(place + "." + name, "has another count than the primitive's positions");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += static_cast<float>(weight * static_cast<double>(moved[i]));
+  };
+  add("POSITION", read.positions);
+  add("NORMAL", read.normals);
 }
 
 Vertex vertex_of(const Attributes& read, std::size_t i, const glm::mat3x2& image_from_uv) {
@@ -66,8 +85,9 @@ void separate_corners(Mesh& mesh) {
 GltfMeshes::GltfMeshes(const GltfDocument& document, GltfMaterials& materials, SceneBuilder& builder)
     : document_(document), materials_(materials), builder_(builder) {}
 
-const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
-  if (const auto known = parts_.find(index); known != parts_.end()) return known->second;
+const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index, const std::vector<double>& weights) {
+  const std::pair key(index, weights);
+  if (const auto known = parts_.find(key); known != parts_.end()) return known->second;
   const auto at = static_cast<std::size_t>(index);
   const tinygltf::Mesh& source = document_.model().meshes[at];
   std::vector<Part> parts;
@@ -78,18 +98,22 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
       continue;
     }
     const auto material = materials_.material(source.primitives[i].material);
-    Mesh mesh = convert(source.primitives[i], material, place);
+    Mesh mesh = convert(source.primitives[i], material, weights, place);
     mesh.name = source.name.empty() ? "mesh " + std::to_string(index) : source.name;
     const Role role = materials_.role(material.index, mesh);
     parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index, role});
   }
-  return parts_[index] = std::move(parts);
+  return parts_[key] = std::move(parts);
 }
 
 Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials::Converted& material,
-                         const std::string& place) {
+                         const std::vector<double>& weights, const std::string& place) {
   const GltfPrimitive primitive(document_, source, place);
-  const Attributes read = read_attributes(primitive, material.uv_set);
+  Attributes read = read_attributes(primitive, material.uv_set);
+  for (std::size_t i = 0; i < std::min(weights.size(), source.targets.size()); ++i)
+    if (weights[i] != 0)
+      add_target(document_, source.targets[i], weights[i], place + ".targets[" + std::to_string(i) + "]",
+                 read);
   const std::size_t count = read.positions.size() / 3;
   if (count > kMostVertices) document_.fail(place, "has more vertices than a scene may have");
   const auto fits = [count](const std::vector<float>& values, int components) {

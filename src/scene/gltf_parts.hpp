@@ -56,17 +56,17 @@ class GltfMeshes {
     std::uint32_t mesh = kNone, material = kNone;
     Role role = Role::wall;  ///< By its material.
   };
-  /// The triangle primitives of meshes[index].
-  const std::vector<Part>& parts(int index);
+  /// The triangle primitives of meshes[index], with so much of its morph targets, in their order.
+  const std::vector<Part>& parts(int index, const std::vector<double>& weights);
 
  private:
   Mesh convert(const tinygltf::Primitive& primitive, const GltfMaterials::Converted& material,
-               const std::string& place);
+               const std::vector<double>& weights, const std::string& place);
 
   const GltfDocument& document_;
   GltfMaterials& materials_;
   SceneBuilder& builder_;
-  std::map<int, std::vector<Part>> parts_;
+  std::map<std::pair<int, std::vector<double>>, std::vector<Part>> parts_;
 };
 
 }  // namespace brume::scene

@@ -321,8 +321,53 @@ TEST(Gltf, SaysWhatIsNotSupported) {
                    ""),
             begin + "orthographic cameras (views are perspective)");
   EXPECT_EQ(warned(R"(, "materials": [{"alphaMode": "BLEND"}])", ""), "") << "opaque all the same";
-  EXPECT_EQ(warned("", R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}, "weights": [0, 1]}])"),
-            begin + "EXT_mesh_gpu_instancing (one of the instances is drawn); weights of morph targets");
+}
+
+TEST(Gltf, InstancesAreObjectsOfOneMesh) {
+  Document document;
+  // Moved by 0, (3, 0, 0) and (0, 5, 0), the last one turned a quarter about z.
+  document.binary.add<float>(
+      {0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.70710678f, 0.70710678f});
+  document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 3, "type": "VEC4"}])";
+  const auto node = [](const char* attributes) {
+    return R"([{"mesh": 0, "scale": [2, 2, 2], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {)" +
+           std::string(attributes) + "}}}}]";
+  };
+  document.nodes = node(R"("TRANSLATION": 1, "ROTATION": 2)");
+  document.more = R"(, "extensionsRequired": ["EXT_mesh_gpu_instancing"])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  ASSERT_EQ(scene->objects.size(), 3u);
+  EXPECT_EQ(scene->meshes.size(), 1u);
+  EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(2, 0, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(*scene, 1, 1), glm::vec3(8, 0, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(*scene, 2, 1), glm::vec3(0, 12, 0)), 1e-5f);
+  document.nodes = node("");
+  EXPECT_EQ(document.load().value_or_throw().objects.size(), 1u);
+  document.nodes = node(R"("TRANSLATION": 9)");
+  EXPECT_HAS(document.error(), "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION");
+  document.accessors.replace(document.accessors.rfind("\"count\": 3"), 10, "\"count\": 2");
+  document.nodes = node(R"("TRANSLATION": 1, "ROTATION": 2)");
+  EXPECT_HAS(document.error(), "have different counts");
+}
+
+TEST(Gltf, MorphTargetsCountByTheirWeights) {
+  Document document;
+  document.binary.add<float>({0, 0, 1, 0, 0, 2, 0, 0, 4});
+  document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"}])";
+  document.primitive = R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}, {"POSITION": 1}]})";
+  document.nodes = R"([{"mesh": 0}, {"mesh": 0, "weights": [0.5, 1]}, {"mesh": 0, "weights": [0.5, 1]}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(0, 1, 0));
+  EXPECT_EQ(world_corner(*scene, 1, 0), glm::vec3(0, 0, 1.5f));
+  EXPECT_EQ(world_corner(*scene, 1, 2), glm::vec3(0, 1, 6));
+  EXPECT_EQ(scene->objects[1].mesh, scene->objects[2].mesh);
+  document.primitive = R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 7}]})";
+  EXPECT_HAS(document.error(), "meshes[0].primitives[0].targets[0].POSITION");
 }
 
 TEST(Gltf, MarksThatExcludeObjectsFromTheVoxels) {
