@@ -22,8 +22,8 @@ struct Estimate {
   float doubt;  // uncertainty of the transmittance
 };
 
-/// A transmittance as rays usually end with it: rays that go on, for what is bright behind or for numbers, are
-/// estimated as others are, so that the same tiles are marched pixel by pixel.
+/// The transmittance with which a ray usually ends. Rays that go on, because what is behind is bright or because the
+/// file is graded later, are estimated like the others, so that the same tiles are marched pixel by pixel.
 float usually_cut(FrameMedia media, float transmittance) {
   return media.opaque_transmittance > 0.0 && transmittance < kUsualOpaque ? 0.0 : transmittance;
 }

@@ -1,16 +1,17 @@
-// Where media are opaque: how little transmittance a ray may have before what lies behind is cut.
+// Where rays through media end: the transmittance below which nothing behind is seen.
 #ifndef BRUME_OPAQUE_H
 #define BRUME_OPAQUE_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
-/// Transmittance below which a ray ends, usually: one step of 8 bits.
+/// The usual transmittance below which a ray ends: one step of 8 bits.
 SHARED_CONST float kUsualOpaque = 0.004f;
 /// What of a radiance too bright for the display may be cut, in display units before the tone curve.
 SHARED_CONST float kLeastDisplayed = 1.0f / 1024.0f;
 /// As bright as a light source at night is drawn, in display units.
 SHARED_CONST float kSourceDisplayed = 256.0f;
-/// Up to twice as bright as the display, what the usual transmittance cuts is not seen beside the light in the medium.
+/// What is at most this bright, in display units, can be cut by the usual transmittance unseen: the medium in front of
+/// it is brighter.
 SHARED_CONST float kBrightDisplayed = 2.0f;
 
 /// Transmittance below which a ray ends: `usual` where what lies behind, radiance times exposure, is no brighter than
