@@ -6,7 +6,7 @@
 
 #include "offscreen.h"
 
-enum { kFrames = 12, kTicksPerFrame = 20, kTicksPerSecond = 64 };
+enum { kFrames = 6, kTicksPerFrame = 40, kTicksPerSecond = 64 };
 
 // Ends the program when a call of Brume fails, with its line about what was expected.
 static void check(brume_result result) {
