@@ -1,4 +1,4 @@
-// What diffusing light meets in the cells of a level: the means of those of the finer one (shared/glow_field.h).
+// Averages what diffusing light meets over 2^3 cells of the finer level (shared/glow_field.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -28,8 +28,8 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options);
 std::vector<std::string> texts_of(const ReferenceOptions& options);
 
 /// Adds samples to a picture until the limits of the options, with progress. Saves and continues the
-/// checkpoint, whose key is `key`. `samples`: those of the render's settings; `spent`: how much of the time
-/// limit is over [s]. Warns where parts of the picture have no sample at the end. Throws Error and
+/// checkpoint, whose key is `key`. `samples` comes from the render's settings; `spent` is the part of
+/// the time limit that is used up [s]. Warns where parts of the picture have no sample at the end. Throws Error and
 /// Interrupted.
 void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
                  std::uint64_t key, double spent = 0);

@@ -26,7 +26,7 @@ typedef struct Offscreen {
   VkCommandBuffer commands;
   Target picture, depth;
   VkBuffer pixels;
-  uint8_t* mapped;  // those of `pixels`
+  uint8_t* mapped;  // the memory of `pixels`
 } Offscreen;
 
 #define VK(call) expect_success(call, #call)

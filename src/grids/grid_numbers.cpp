@@ -28,8 +28,8 @@ std::size_t voxel_number(glm::ivec3 v) {
   return static_cast<std::size_t>(v.x + 8 * (v.y + 8 * v.z));
 }
 
-/// What is kFarBeyond times as large as all but this part of the values decides nothing: half floats, which
-/// are relative to the largest, would have nothing left for the rest.
+/// A value kFarBeyond times as large as all but a part kOutliers of them is ignored: half floats are scaled to
+/// the largest value, and would have no precision left for the rest.
 constexpr double kOutliers = 1e-3, kFarBeyond = 1024;
 
 /// How many values there are of each power of two, and the largest of each.

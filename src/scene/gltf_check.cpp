@@ -64,6 +64,8 @@ constexpr Rule kRules[] = {
     {"meshes[].primitives[].material", Kind::index, 0, 0, 0, "/materials"},
     {"nodes[].extensions.EXT_mesh_gpu_instancing.attributes.*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].indices", Kind::index, 0, 0, 0, "/accessors"},
+    {"nodes[].weights[]", Kind::number, -1e6, 1e6},
+    {"meshes[].weights[]", Kind::number, -1e6, 1e6},
     {"meshes[].primitives[].targets[].*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.POSITION", Kind::index, 0, 0, 0, "/accessors", true},

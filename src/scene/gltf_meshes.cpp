@@ -42,8 +42,11 @@ void add_target(const GltfDocument& document, const std::map<std::string, int>& 
     const std::vector<float> moved = document.floats(accessor->second, 3, place + "." + name);
     if (moved.size() != values.size())
       document.fail(place + "." + name, "has another count than the primitive's positions");
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] += static_cast<float>(weight * static_cast<double>(moved[i]));
+      if (!std::isfinite(values[i]))
+        document.fail(place + "." + name, "with its weight goes beyond what floats hold");
+    }
   };
   add("POSITION", read.positions);
   add("NORMAL", read.normals);

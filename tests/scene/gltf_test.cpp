@@ -366,6 +366,12 @@ TEST(Gltf, MorphTargetsCountByTheirWeights) {
   EXPECT_EQ(world_corner(*scene, 1, 0), glm::vec3(0, 0, 1.5f));
   EXPECT_EQ(world_corner(*scene, 1, 2), glm::vec3(0, 1, 6));
   EXPECT_EQ(scene->objects[1].mesh, scene->objects[2].mesh);
+  document.nodes = R"([{"mesh": 0, "weights": [0.5, 1e300]}])";
+  EXPECT_HAS(document.error(), "nodes[0].weights[1]");
+  document.nodes = R"([{"mesh": 0, "weights": [1e6]}])";
+  const float far = 1e38f;
+  document.binary.data.replace(36, sizeof far, std::string(reinterpret_cast<const char*>(&far), sizeof far));
+  EXPECT_HAS(document.error(), "meshes[0].primitives[0].targets[0].POSITION: with its weight");
   document.primitive = R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 7}]})";
   EXPECT_HAS(document.error(), "meshes[0].primitives[0].targets[0].POSITION");
 }
