@@ -165,7 +165,8 @@ Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context
   info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
   info.magFilter = info.minFilter = wanted.filter;
   info.mipmapMode = wanted.mipmaps ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-  info.addressModeU = info.addressModeV = info.addressModeW = wanted.address;
+  info.addressModeU = info.addressModeW = wanted.address;
+  info.addressModeV = wanted.address_v.value_or(wanted.address);
   info.maxLod = wanted.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
   info.maxAnisotropy = std::min(wanted.anisotropy, context.limits().maxSamplerAnisotropy);
   info.anisotropyEnable = info.maxAnisotropy > 1 ? VK_TRUE : VK_FALSE;

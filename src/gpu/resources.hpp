@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <initializer_list>
+#include <optional>
 
 #include "gpu/context.hpp"
 
@@ -123,6 +124,7 @@ struct SamplerInfo {
   bool mipmaps = false;
   bool compare = false;  ///< A depth comparison, reverse depth: lit where the reference >= the stored depth.
   float anisotropy = 1;  ///< Most samples along the longer axis of a minified pixel, in [1, 16].
+  std::optional<VkSamplerAddressMode> address_v = {};  ///< Along v, if it differs from `address`.
 };
 
 class Sampler {

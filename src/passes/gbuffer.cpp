@@ -88,8 +88,7 @@ GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.i
 
 GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
     : pipeline_(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag)),
-      sampler_(context,
-               {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, anisotropy_on(context)}) {
+      maps_(context, anisotropy_on(context)) {
   if (!depth_first) return;
   depth_first_.emplace(context);
 }
@@ -101,15 +100,14 @@ void GBufferPass::draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPip
   for (const VisibleDraw& visible : draws) {
     const MaterialImages& material = scene.materials[visible.draw->material];
     if (visible.draw->material != bound) {
-      recorder.bind_for_draws(
-          pipeline,
-          {
-              {shared::kBindFrame, gpu::uniform(frame)},
-              {shared::kBindVertices, gpu::read(scene.vertices)},
-              {shared::kBindBaseColorMap, gpu::sampled(scene.images[material.base_color], sampler_)},
-              {shared::kBindNormalMap, gpu::sampled(scene.images[material.normal], sampler_)},
-              {shared::kBindRoughnessMap, gpu::sampled(scene.images[material.roughness], sampler_)},
-          });
+      recorder.bind_for_draws(pipeline,
+                              {
+                                  {shared::kBindFrame, gpu::uniform(frame)},
+                                  {shared::kBindVertices, gpu::read(scene.vertices)},
+                                  {shared::kBindBaseColorMap, maps_.sampled(scene, material.base_color)},
+                                  {shared::kBindNormalMap, maps_.sampled(scene, material.normal)},
+                                  {shared::kBindRoughnessMap, maps_.sampled(scene, material.roughness)},
+                              });
       bound = visible.draw->material;
     }
     draw_one(recorder, pipeline, scene, visible);
@@ -131,7 +129,7 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   const std::span<VisibleDraw> others(first_other, draws.end());
 
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
-  for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
+  maps_.prepare_for_draws(recorder, scene);
   recorder.prepare_indices(scene.indices);
   const glm::uvec2 size(target.depth.info().size);
   gpu::Recorder::Attachments all{{&target.albedo_roughness, &target.normal_metallic, &target.emission},

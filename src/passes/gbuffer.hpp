@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "passes/scene_upload.hpp"
+#include "passes/map_samplers.hpp"
 #include "planning/view_frustum.hpp"
 
 namespace brume::passes {
@@ -63,7 +63,7 @@ class GBufferPass {
 
   gpu::GraphicsPipeline pipeline_;
   std::optional<DepthFirst> depth_first_;
-  gpu::Sampler sampler_;
+  MapSamplers maps_;
 };
 
 }  // namespace brume::passes

@@ -42,7 +42,7 @@ std::vector<const Draw*> in_order(const VisiblePanes& panes) {
 PanePass::PanePass(gpu::Context& context)
     : context_(context),
       filter_(context, pane_info(shaders::panes_filter_frag, gpu::Blend::filter)),
-      maps_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1}),
+      maps_(context, 1),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
@@ -77,7 +77,7 @@ void PanePass::prepare(gpu::Recorder& recorder, const Inputs& in, const SceneRes
                               gpu::read(in.volumes.pages),
                               gpu::sampled(in.volumes.values, linear_),
                               gpu::read(in.volumes.transfers)});
-  for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, maps_)});
+  maps_.prepare_for_draws(recorder, scene);
   recorder.prepare_indices(scene.indices);
 }
 
@@ -103,9 +103,9 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
     recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
     recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
   };
-  const auto base_color = gpu::sampled(scene.images[material.base_color], maps_),
-             normal = gpu::sampled(scene.images[material.normal], maps_),
-             roughness = gpu::sampled(scene.images[material.roughness], maps_);
+  const auto base_color = maps_.sampled(scene, material.base_color),
+             normal = maps_.sampled(scene, material.normal),
+             roughness = maps_.sampled(scene, material.roughness);
   recorder.bind_for_draws(filter_, {
                                        {shared::kBindFrame, gpu::uniform(in.frame)},
                                        {shared::kBindVertices, gpu::read(scene.vertices)},

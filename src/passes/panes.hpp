@@ -5,6 +5,7 @@
 #include <map>
 
 #include "passes/hole_clusters.hpp"
+#include "passes/map_samplers.hpp"
 #include "passes/shade.hpp"
 #include "passes/smoke_upload.hpp"
 #include "passes/volume_upload.hpp"
@@ -58,7 +59,8 @@ class PanePass {
   gpu::Context& context_;
   gpu::GraphicsPipeline filter_;
   std::map<Needs, gpu::GraphicsPipeline> shine_;
-  gpu::Sampler maps_, nearest_, linear_, compare_;
+  MapSamplers maps_;
+  gpu::Sampler nearest_, linear_, compare_;
 };
 
 }  // namespace brume::passes

@@ -113,6 +113,7 @@ void upload_images(gpu::Context& context, gpu::CommandStream& stream, const scen
     for (const auto& texel :
          {single_texel(255, 255, 255), single_texel(128, 128, 255), single_texel(255, 255, 255)}) {
       out.images.push_back(upload_image(context, recorder, texel, false));
+      out.wraps.emplace_back();
     }
   });
   // One submission an image: staging memory stays small.
@@ -120,6 +121,7 @@ void upload_images(gpu::Context& context, gpu::CommandStream& stream, const scen
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     stream.run([&](gpu::Recorder& recorder) {
       out.images.push_back(upload_image(context, recorder, scene.images[i].pixels, is_colour[i]));
+      out.wraps.push_back(scene.images[i].wraps);
     });
     job.advance();
   }

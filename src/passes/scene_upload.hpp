@@ -47,7 +47,8 @@ using planning::kMaxFlashes;  // capacity for temporary lights behind those of t
 
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;
-  std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
+  std::vector<gpu::Image> images;   ///< The first three: white, flat normal, white.
+  std::vector<scene::Wraps> wraps;  ///< Of each image.
   std::vector<MaterialImages> materials;
   std::vector<Draw> draws;                  ///< In order of material.
   Draw grenade;                             ///< Draws nothing where the scene has none.

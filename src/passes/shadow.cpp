@@ -64,7 +64,7 @@ std::uint32_t shadow_size(std::uint32_t layers) {
 ShadowPass::ShadowPass(gpu::Context& context)
     : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}),
       cut_pipeline_(context, {&shaders::shadow_cut_vert, &shaders::shadow_cut_frag, {}, kFormat, 2.0f, 0}),
-      sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1}) {}
+      maps_(context, 1) {}
 
 ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& scene) const {
   ShadowMaps maps;
@@ -142,7 +142,7 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream,
 
     recorder.prepare_for_draws({gpu::read(scene.vertices)});
     for (const Draw* const draw : cut)
-      recorder.prepare_for_draws({gpu::sampled(scene.images[material_of(*draw).base_color], sampler_)});
+      recorder.prepare_for_draws({maps_.sampled(scene, material_of(*draw).base_color)});
     recorder.prepare_indices(scene.indices);
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
     recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
@@ -150,9 +150,8 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream,
       if (draw.alpha_cutoff <= 0 && draws(draw)) draw_one(pipeline_, draw);
     for (const Draw* const draw : cut) {
       recorder.bind_for_draws(
-          cut_pipeline_,
-          {{shared::kBindVertices, gpu::read(scene.vertices)},
-           {shared::kBindBaseColorMap, gpu::sampled(scene.images[material_of(*draw).base_color], sampler_)}});
+          cut_pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)},
+                          {shared::kBindBaseColorMap, maps_.sampled(scene, material_of(*draw).base_color)}});
       draw_one(cut_pipeline_, *draw);
     }
     recorder.end_rendering();

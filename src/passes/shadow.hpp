@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "passes/scene_upload.hpp"
+#include "passes/map_samplers.hpp"
 
 namespace brume::passes {
 
@@ -38,7 +38,7 @@ class ShadowPass {
                     const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
                     const Sees& draws) const;
   gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< Of what no texture cuts out, and of the rest.
-  gpu::Sampler sampler_;
+  MapSamplers maps_;
 };
 
 }  // namespace brume::passes

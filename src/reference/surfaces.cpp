@@ -21,16 +21,18 @@ const std::array<float, 256>& linear_values() {
   return values;
 }
 
-/// Bilinear, repeated; each texel's colours linear if `srgb`.
-glm::vec4 image_at(const image::Image8& image, const glm::vec2& uv, bool srgb) {
-  const auto wrapped = [](float at, std::uint32_t size) {
-    const float scaled = (at - std::floor(at)) * static_cast<float>(size) - 0.5f;
+/// Bilinear; each texel's colours linear if `srgb`.
+glm::vec4 image_at(const scene::Image& source, const glm::vec2& uv, bool srgb) {
+  const image::Image8& image = source.pixels;
+  const auto texels = [](float at, std::uint32_t size, scene::Wrap wrap) {
+    const float scaled = scene::wrapped_coordinate(at, wrap) * static_cast<float>(size) - 0.5f;
     const float low = std::floor(scaled);
-    const auto first = static_cast<std::uint32_t>((static_cast<std::int64_t>(low) + size) % size);
-    return std::tuple(first, first + 1 == size ? 0u : first + 1, scaled - low);
+    const auto texel = static_cast<std::int64_t>(low);
+    return std::tuple(scene::wrapped_texel(texel, size, wrap), scene::wrapped_texel(texel + 1, size, wrap),
+                      scaled - low);
   };
-  const auto [x0, x1, fx] = wrapped(uv.x, image.width);
-  const auto [y0, y1, fy] = wrapped(uv.y, image.height);
+  const auto [x0, x1, fx] = texels(uv.x, image.width, source.wraps.u);
+  const auto [y0, y1, fy] = texels(uv.y, image.height, source.wraps.v);
   const auto texel = [&](std::uint32_t x, std::uint32_t y) {
     const std::uint8_t* const p = image.rgba.data() + std::size_t{4} * (std::size_t{y} * image.width + x);
     const auto& linear = linear_values();
@@ -49,9 +51,9 @@ auto interpolated(const scene::Mesh& mesh, std::uint32_t triangle, const glm::ve
   return (1 - at.x - at.y) * vertex(0) + at.x * vertex(1) + at.y * vertex(2);
 }
 
-const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
+const scene::Image* image_of(const scene::Scene& scene, std::uint32_t index) {
   if (index == scene::kNone || scene.images[index].pixels.rgba.empty()) return nullptr;
-  return &scene.images[index].pixels;
+  return &scene.images[index];
 }
 
 /// What a pane reflects and lets through, as shaders/lib/pane.glsl: of a hit whose albedo is the pane's
@@ -175,7 +177,7 @@ void Surfaces::reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
                        RTCHitN_v(arguments->hit, arguments->N, i));
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
     float alpha = interpolated(*part.mesh, triangle, at, &scene::Vertex::color).a;
-    if (const image::Image8* image = image_of(*part.scene, part.material->base_color_image))
+    if (const scene::Image* image = image_of(*part.scene, part.material->base_color_image))
       alpha *= image_at(*image, interpolated(*part.mesh, triangle, at, &scene::Vertex::uv), true).a;
     if (alpha < part.alpha_cutoff) arguments->valid[i] = 0;
   }
@@ -281,10 +283,10 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
   const scene::Material& material = *part.material;
   const glm::vec2 uv = interpolated(*part.mesh, triangle, at, &scene::Vertex::uv);
   glm::vec4 base = interpolated(*part.mesh, triangle, at, &scene::Vertex::color);
-  if (const image::Image8* image = image_of(scene_, material.base_color_image))
+  if (const scene::Image* image = image_of(scene_, material.base_color_image))
     base *= image_at(*image, uv, true);
   glm::vec2 rough_metal(1);
-  if (const image::Image8* image = image_of(scene_, material.roughness_image)) {
+  if (const scene::Image* image = image_of(scene_, material.roughness_image)) {
     const glm::vec4 texel = image_at(*image, uv, false);
     rough_metal = {texel.g, texel.b};
   }
@@ -300,7 +302,7 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
                            glm::cross(linear[0], linear[1]));
   glm::vec3 n = part.handedness * (cofactor * interpolated(*part.mesh, triangle, at, &scene::Vertex::normal));
   n = glm::dot(n, n) > 0 ? glm::normalize(n) : hit.geometric_normal;
-  if (const image::Image8* image = image_of(scene_, material.normal_image)) {
+  if (const scene::Image* image = image_of(scene_, material.normal_image)) {
     const glm::vec4 stored = interpolated(*part.mesh, triangle, at, &scene::Vertex::tangent);
     const glm::vec3 along = linear * glm::vec3(stored), t = along - n * glm::dot(n, along);
     if (glm::dot(t, t) > 1e-12f) {

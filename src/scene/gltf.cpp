@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "core/log.hpp"
+#include "scene/gltf_nodes.hpp"
 #include "scene/gltf_parts.hpp"
 #include "scene/roles.hpp"
 
@@ -28,24 +27,6 @@ bool is_true(const tinygltf::Value& extras, const char* key) {
 /// this is the luminous efficacy at 555 nm, which Blender and most engines use.
 constexpr double kLumensPerWatt = 683;
 
-/// Of three numbers, four and three; other counts of any are left out.
-glm::dmat4 composed(std::span<const double> translation, std::span<const double> rotation,
-                    std::span<const double> scale) {
-  glm::dmat4 result(1);
-  if (translation.size() == 3) result = glm::translate(result, glm::make_vec3(translation.data()));
-  if (rotation.size() == 4) {
-    const glm::dquat quaternion(rotation[3], rotation[0], rotation[1], rotation[2]);
-    if (glm::length(quaternion) > 1e-12) result = result * glm::mat4_cast(glm::normalize(quaternion));
-  }
-  if (scale.size() == 3) result = glm::scale(result, glm::make_vec3(scale.data()));
-  return result;
-}
-
-glm::dmat4 local_matrix(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-  return composed(node.translation, node.rotation, node.scale);
-}
-
 /// The node's -z direction in world space.
 glm::vec3 forward(const glm::dmat4& world_from_node) {
   const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
@@ -56,11 +37,7 @@ glm::vec3 forward(const glm::dmat4& world_from_node) {
 /// What of a file would be drawn in another way if it were supported, in words; empty: nothing.
 std::string ignored_features(const tinygltf::Model& model) {
   constexpr double kMostClearRoughness = 0.3;
-  bool unlit = false, skins = false, wraps = false, frosted = false, faint = false, blended = false;
-  for (const tinygltf::Node& node : model.nodes) skins = skins || node.skin >= 0;
-  for (const tinygltf::Sampler& sampler : model.samplers)
-    wraps = wraps || sampler.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT ||
-            sampler.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT;
+  bool unlit = false, frosted = false, faint = false, blended = false;
   for (const tinygltf::Material& material : model.materials) {
     unlit = unlit || material.extensions.contains("KHR_materials_unlit");
     const double transmission = transmission_of(material);
@@ -77,8 +54,6 @@ std::string ignored_features(const tinygltf::Model& model) {
   const auto add = [&](bool any, const char* words) {
     if (any) text += (text.empty() ? "" : "; ") + std::string(words);
   };
-  add(skins, "skins (meshes are drawn as they are stored)");
-  add(wraps, "samplers that clamp or mirror (textures repeat)");
   add(faint, "KHR_materials_transmission below 0.5 (it is drawn opaque)");
   add(frosted, "rough KHR_materials_transmission (what is behind the glass is sharp)");
   add(blended, "blending from an alpha of 0.5 on (it is drawn opaque)");
@@ -176,19 +151,21 @@ class GltfLoader {
 
   void add_mesh(const tinygltf::Node& node, const std::string& place, const Visit& visit) {
     const std::vector<double>& weights = model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
-    const auto& parts = meshes_.parts(node.mesh, node.weights.empty() ? weights : node.weights);
+    const auto& parts = meshes_.parts(node.mesh, node.weights.empty() ? weights : node.weights, node.skin);
     if (parts.empty()) return;
     const std::string mesh_name = builder_.scene.meshes[parts.front().mesh].name;
     Object object;
     object.name = node.name.empty() ? mesh_name : node.name;
-    object.world_from_mesh = glm::mat4(visit.world_from_parent);
+    // A skin alone places its mesh: its vertices are in world space.
+    const glm::dmat4 world_from_mesh = node.skin < 0 ? visit.world_from_parent : glm::dmat4(1);
+    object.world_from_mesh = glm::mat4(world_from_mesh);
     const std::optional<Role> own = visit.role ? visit.role : role_of_prefix(mesh_name);
     if (visit.is_grenade || mesh_name == "Grenade") {
       set_grenade(place, parts, object);
       return;
     }
     for (const glm::dmat4& instance : instances_of(node, place)) {
-      object.world_from_mesh = glm::mat4(visit.world_from_parent * instance);
+      object.world_from_mesh = glm::mat4(world_from_mesh * instance);
       for (const GltfMeshes::Part& part : parts) {
         object.mesh = part.mesh;
         object.material = part.material;

@@ -51,6 +51,9 @@ constexpr Rule kRules[] = {
     {"scenes[].nodes[]", Kind::index, 0, 0, 0, "/nodes"},
     {"nodes[].name", Kind::text},
     {"nodes[].mesh", Kind::index, 0, 0, 0, "/meshes"},
+    {"nodes[].skin", Kind::index, 0, 0, 0, "/skins"},
+    {"skins[].joints[]", Kind::index, 0, 0, 0, "/nodes"},
+    {"skins[].inverseBindMatrices", Kind::index, 0, 0, 0, "/accessors"},
     {"nodes[].camera", Kind::index, 0, 0, 0, "/cameras"},
     {"nodes[].children[]", Kind::index, 0, 0, 0, "/nodes"},
     {"nodes[].matrix[]", Kind::number, -1e30, 1e30, 16},
@@ -114,6 +117,9 @@ constexpr Rule kRules[] = {
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number, 0, 1e6},
     {"materials[].extensions.KHR_materials_transmission.transmissionFactor", Kind::number, 0, 1e6},
     {"textures[].source", Kind::index, 0, 0, 0, "/images"},
+    {"textures[].sampler", Kind::index, 0, 0, 0, "/samplers"},
+    {"samplers[].wrapS", Kind::whole, 0, 0xffff},
+    {"samplers[].wrapT", Kind::whole, 0, 0xffff},
     {"textures[].extensions.EXT_texture_webp.source", Kind::index, 0, 0, 0, "/images", true},
     {"images[].bufferView", Kind::index, 0, 0, 0, "/bufferViews"},
     {"images[].uri", Kind::text},
@@ -154,6 +160,7 @@ const std::map<std::string, Node>& rules() {
       if (rule.required) result[path.substr(0, dot)].required.push_back(path.substr(dot + 1));
     }
     result["meshes[]"].required = {"primitives"};
+    result["skins[]"].required = {"joints"};
     result["meshes[].primitives[]"].required = {"attributes"};
     return result;
   }();

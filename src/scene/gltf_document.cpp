@@ -273,8 +273,10 @@ PackedElements GltfDocument::packed(std::size_t index) const {
   const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
   if (size == 0 || accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT)
     fail(here + ".componentType", "is none of 5120-5123, 5125, 5126");
-  if (components > 4 || accessor.type == TINYGLTF_TYPE_MAT2)
-    fail(here + ".type", "is none of SCALAR, VEC2, VEC3, VEC4");
+  const bool is_matrix =
+      accessor.type == TINYGLTF_TYPE_MAT4 && accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  if ((components > 4 && !is_matrix) || accessor.type == TINYGLTF_TYPE_MAT2)
+    fail(here + ".type", "is none of SCALAR, VEC2, VEC3, VEC4 and, with floats, MAT4");
   const std::size_t element_size = size * static_cast<std::size_t>(components);
 
   // The elements: zeros, or gathered from the buffer view.
@@ -337,8 +339,9 @@ void GltfDocument::apply_sparse(const tinygltf::Accessor& accessor, std::size_t 
 
 std::vector<float> GltfDocument::floats(int index, int components, const std::string& user) const {
   const auto at = static_cast<std::size_t>(index);
-  if (model_.accessors[at].type != components)
-    fail(user, "expected an accessor of VEC" + std::to_string(components));
+  if (model_.accessors[at].type != (components == 16 ? TINYGLTF_TYPE_MAT4 : components))
+    fail(user, components == 16 ? "expected an accessor of MAT4"
+                                : "expected an accessor of VEC" + std::to_string(components));
   return floats(index, packed(at), components, user);
 }
 

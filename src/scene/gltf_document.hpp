@@ -24,7 +24,7 @@ constexpr std::uint64_t kMostDecompressedBytes = 1ull << 32;
 /// The elements of an accessor without gaps, little-endian.
 struct PackedElements {
   int component_type = 0;  ///< TINYGLTF_COMPONENT_TYPE_BYTE and so on.
-  int components = 0;      ///< Per element, 1-4.
+  int components = 0;      ///< Per element, 1-4; of a MAT4 16.
   std::vector<std::byte> bytes;
 };
 
@@ -39,8 +39,8 @@ class GltfDocument {
   std::string place(const char* path, std::size_t index) const;
   [[noreturn]] void fail(const std::string& place, const std::string& what) const;
 
-  /// An accessor's elements as finite numbers, `components` each; normalized integers are scaled. `user`
-  /// names the referring value in messages.
+  /// An accessor's elements as finite numbers, `components` each (16: a MAT4); normalized integers are
+  /// scaled. `user` names the referring value in messages.
   std::vector<float> floats(int accessor, int components, const std::string& user) const;
   /// The same for elements that were stored elsewhere in place of the accessor's own.
   std::vector<float> floats(int accessor, const PackedElements& elements, int components,

@@ -72,7 +72,7 @@ Role GltfMaterials::role(std::uint32_t index, const Mesh& mesh) const {
   const auto found = alphas_.find(index);
   if (found == alphas_.end()) return by_light;
   const AlphaSource& source = found->second;
-  const image::Image8* image = source.image == kNone ? nullptr : &builder_.scene.images[source.image].pixels;
+  const Image* image = source.image == kNone ? nullptr : &builder_.scene.images[source.image];
   const Role by_alpha = role_of_alpha(mesh, {image, source.factor, source.cutoff});
   return by_alpha == Role::wall ? by_light : by_alpha;
 }
@@ -173,13 +173,26 @@ std::uint32_t GltfMaterials::image_of_texture(int index, ImageUse use) {
                                     ": has no PNG, JPEG or WebP source; " + kCheckerStandsIn);
     return builder_.checker_image();
   }
-  if (const auto known = images_.find(source); known != images_.end()) return known->second;
+  const Wraps wraps = wraps_of_texture(texture);
+  const std::pair key(source, wraps);
+  if (const auto known = images_.find(key); known != images_.end()) return known->second;
   const tinygltf::Image& image = document_.model().images[static_cast<std::size_t>(source)];
   const std::string name = document_.place("images", static_cast<std::size_t>(source));
-  return images_[source] =
+  return images_[key] =
              image.image.empty()
-                 ? builder_.image_of_file({&image.uri, 1}, name, kCheckerStandsIn, use)
-                 : builder_.image_of_bytes(std::as_bytes(std::span(image.image)), name, name, use);
+                 ? builder_.image_of_file({&image.uri, 1}, name, kCheckerStandsIn, use, wraps)
+                 : builder_.image_of_bytes(std::as_bytes(std::span(image.image)), name, name, use, wraps);
+}
+
+Wraps GltfMaterials::wraps_of_texture(const tinygltf::Texture& texture) const {
+  if (texture.sampler < 0) return {};
+  const tinygltf::Sampler& sampler = document_.model().samplers[static_cast<std::size_t>(texture.sampler)];
+  const auto wrap = [](int mode) {
+    return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+           : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                           : Wrap::repeat;
+  };
+  return {wrap(sampler.wrapS), wrap(sampler.wrapT)};
 }
 
 glm::vec3 GltfMaterials::mean_color(std::uint32_t image) const {

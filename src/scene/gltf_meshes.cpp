@@ -86,10 +86,11 @@ void separate_corners(Mesh& mesh) {
 }  // namespace
 
 GltfMeshes::GltfMeshes(const GltfDocument& document, GltfMaterials& materials, SceneBuilder& builder)
-    : document_(document), materials_(materials), builder_(builder) {}
+    : document_(document), materials_(materials), builder_(builder), skins_(document) {}
 
-const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index, const std::vector<double>& weights) {
-  const std::pair key(index, weights);
+const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index, const std::vector<double>& weights,
+                                                       int skin) {
+  const std::tuple key(index, skin, weights);
   if (const auto known = parts_.find(key); known != parts_.end()) return known->second;
   const auto at = static_cast<std::size_t>(index);
   const tinygltf::Mesh& source = document_.model().meshes[at];
@@ -101,7 +102,7 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index, const std::vec
       continue;
     }
     const auto material = materials_.material(source.primitives[i].material);
-    Mesh mesh = convert(source.primitives[i], material, weights, place);
+    Mesh mesh = convert(source.primitives[i], material, weights, skin, place);
     mesh.name = source.name.empty() ? "mesh " + std::to_string(index) : source.name;
     const Role role = materials_.role(material.index, mesh);
     parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index, role});
@@ -110,7 +111,7 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index, const std::vec
 }
 
 Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials::Converted& material,
-                         const std::vector<double>& weights, const std::string& place) {
+                         const std::vector<double>& weights, int skin, const std::string& place) {
   const GltfPrimitive primitive(document_, source, place);
   Attributes read = read_attributes(primitive, material.uv_set);
   for (std::size_t i = 0; i < std::min(weights.size(), source.targets.size()); ++i)
@@ -132,6 +133,7 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials:
   mesh.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(vertex_of(read, i, material.image_from_uv));
   mesh.indices = primitive.triangles(count);
+  if (skin >= 0) apply_skin(document_, primitive, skins_.pose(skin), place, mesh);
   if (read.normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);

@@ -4,9 +4,11 @@
 
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "scene/gltf_document.hpp"
+#include "scene/gltf_nodes.hpp"
 #include "scene/scene_builder.hpp"
 
 namespace brume::scene {
@@ -34,6 +36,7 @@ class GltfMaterials {
   Material convert(const tinygltf::Material& source, const std::string& place);
   Converted texture_coordinates(const tinygltf::Material& source, const std::string& place) const;
   std::uint32_t image_of_texture(int texture, ImageUse use);
+  Wraps wraps_of_texture(const tinygltf::Texture& texture) const;
   glm::vec3 mean_color(std::uint32_t image) const;
 
   const GltfDocument& document_;
@@ -44,7 +47,7 @@ class GltfMaterials {
     double factor = 1, cutoff = 0.5;
   };
   std::map<std::uint32_t, AlphaSource> alphas_;  // of materials that are not opaque
-  std::map<int, std::uint32_t> images_;
+  std::map<std::pair<int, Wraps>, std::uint32_t> images_;
   bool warned_of_role_ = false;
 };
 
@@ -56,17 +59,19 @@ class GltfMeshes {
     std::uint32_t mesh = kNone, material = kNone;
     Role role = Role::wall;  ///< By its material.
   };
-  /// The triangle primitives of meshes[index], with so much of its morph targets, in their order.
-  const std::vector<Part>& parts(int index, const std::vector<double>& weights);
+  /// The triangle primitives of meshes[index], with so much of its morph targets, in their order; in world
+  /// space if they have a skin, else -1.
+  const std::vector<Part>& parts(int index, const std::vector<double>& weights, int skin);
 
  private:
   Mesh convert(const tinygltf::Primitive& primitive, const GltfMaterials::Converted& material,
-               const std::vector<double>& weights, const std::string& place);
+               const std::vector<double>& weights, int skin, const std::string& place);
 
   const GltfDocument& document_;
   GltfMaterials& materials_;
   SceneBuilder& builder_;
-  std::map<std::pair<int, std::vector<double>>, std::vector<Part>> parts_;
+  GltfSkins skins_;
+  std::map<std::tuple<int, int, std::vector<double>>, std::vector<Part>> parts_;
 };
 
 }  // namespace brume::scene

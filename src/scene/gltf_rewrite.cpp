@@ -61,6 +61,17 @@ bool rewrite_glossy_materials(json& document) {
   return changed;
 }
 
+bool rewrite_skins(json& document) {
+  bool changed = false;
+  if (!document.contains("skins")) return changed;
+  for (json& skin : document["skins"]) {
+    if (skin.contains("inverseBindMatrices")) continue;
+    skin["inverseBindMatrices"] = -1;
+    changed = true;
+  }
+  return changed;
+}
+
 void put_length(std::string& glb, std::size_t at, std::size_t value) {
   const auto length = static_cast<std::uint32_t>(value);
   std::memcpy(glb.data() + at, &length, sizeof length);
@@ -86,6 +97,7 @@ bool rewrite_for_tinygltf(json& document) {
     }
   }
   changed = rewrite_glossy_materials(document) || changed;
+  changed = rewrite_skins(document) || changed;
   return rewrite_draco_indices(document) || changed;
 }
 

@@ -15,6 +15,7 @@ bool is_fallback_buffer(const nlohmann::json& buffer);
 /// - Fallback buffers get one byte.
 /// - KHR_materials_pbrSpecularGlossiness becomes metallic-roughness without metal: diffuse is the base
 /// colour.
+/// - Skins without inverse bind matrices get -1 of them, which stands for none.
 /// - Indices that Draco compresses get a buffer view. Do not read such accessors.
 bool rewrite_for_tinygltf(nlohmann::json& document);
 

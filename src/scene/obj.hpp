@@ -55,6 +55,7 @@ struct MtlMap {
   std::string place;  ///< "file:line".
   /// Of `-s` and `-o`, for u and v as the file has them, v up.
   glm::vec2 scale{1}, offset{0};
+  bool clamps = false;  ///< Of `-clamp on`.
 };
 
 /// A material of an MTL file.

@@ -103,6 +103,7 @@ class MtlParser {
         if (word != "on" && word != "off" && !number) break;
         if (number && axis < 2 && option == "-s") map.scale[axis] = *number;
         if (number && axis < 2 && option == "-o") map.offset[axis] = *number;
+        if (option == "-clamp") map.clamps = word == "on";
         take_word();
       }
     }
@@ -206,6 +207,10 @@ void place_texture(const MtlMap& map, Mesh& mesh) {
 }
 
 /// Gives a material the values of its opacity map as its alpha; false: it has none that exists.
+Wraps wraps_of(const MtlMap& map) {
+  return map.clamps ? Wraps{Wrap::clamp, Wrap::clamp} : Wraps();
+}
+
 bool add_opacity_map(const MtlMaterial& source, SceneBuilder& builder, Material& material) {
   const MtlMap& map = source.opacity_map;
   if (map.file.empty()) return false;
@@ -213,7 +218,8 @@ bool add_opacity_map(const MtlMaterial& source, SceneBuilder& builder, Material&
     if (builder.is_checker(material.base_color_image)) return false;  // It is missed as the colour.
   } else {
     const std::uint32_t image =
-        builder.image_with_opacity(material.base_color_image, places_of(map.file, source.folder), map.place);
+        builder.image_with_opacity(material.base_color_image, places_of(map.file, source.folder), map.place,
+                                   wraps_of(source.diffuse_map.file.empty() ? map : source.diffuse_map));
     if (image == kNone) return false;
     material.base_color_image = image;
   }
@@ -235,9 +241,9 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder, const 
     material.transmission = 0;
   }
   const auto image = [&](const MtlMap& map, const char* stand_in, ImageUse use) {
-    return map.file.empty()
-               ? kNone
-               : builder.image_of_file(places_of(map.file, source.folder), map.place, stand_in, use);
+    return map.file.empty() ? kNone
+                            : builder.image_of_file(places_of(map.file, source.folder), map.place, stand_in,
+                                                    use, wraps_of(map));
   };
   const bool is_alpha = source.opacity_map.file == source.diffuse_map.file;
   material.base_color_image =
@@ -252,7 +258,7 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder, const 
   if (source.opacity < 0.5f)
     material.role = Role::glass;
   else if (has_alpha)
-    material.role = role_of_alpha(mesh, {&builder.scene.images[material.base_color_image].pixels});
+    material.role = role_of_alpha(mesh, {&builder.scene.images[material.base_color_image]});
   return material;
 }
 

@@ -12,14 +12,17 @@ constexpr int kRows = 8;  // of places in a triangle: 8 * 9 / 2 = 36
 constexpr std::uint64_t kFew = 64;
 constexpr double kOpaque = 0.5, kHole = 1.0 / 16;
 
-/// The alpha of the texel at a place; images repeat.
-double texel_alpha(const image::Image8& image, glm::dvec2 uv) {
-  const auto index = [](double at, std::uint32_t size) {
-    const double within = (at - std::floor(at)) * size;
-    return within > 0 ? static_cast<std::size_t>(std::min(within, size - 1.0)) : 0;
+/// The alpha of the texel at a place.
+double texel_alpha(const Image& image, glm::dvec2 uv) {
+  const auto index = [](double at, std::uint32_t size, Wrap wrap) {
+    const double texel = std::floor(wrapped_coordinate(at, wrap) * size);
+    return std::size_t{std::isfinite(texel) ? wrapped_texel(static_cast<std::int64_t>(texel), size, wrap)
+                                            : 0};
   };
-  const std::size_t texel = index(uv.x, image.width) + image.width * index(uv.y, image.height);
-  return image.rgba[4 * texel + 3] / 255.0;
+  const image::Image8& pixels = image.pixels;
+  const std::size_t texel =
+      index(uv.x, pixels.width, image.wraps.u) + pixels.width * index(uv.y, pixels.height, image.wraps.v);
+  return pixels.rgba[4 * texel + 3] / 255.0;
 }
 
 }  // namespace
@@ -33,7 +36,7 @@ std::optional<Role> role_of_prefix(std::string_view name) {
 
 Role role_of_alpha(const Mesh& mesh, const Alpha& alpha) {
   std::uint64_t places = 0, cut = 0, holes = 0, opaque = 0;
-  const bool has_texels = alpha.image && alpha.image->width > 0 && alpha.image->height > 0;
+  const bool has_texels = alpha.image && !alpha.image->pixels.rgba.empty();
   const auto add = [&](const std::array<const Vertex*, 3>& corners, double u, double v) {
     // Exact where all corners have the same alpha.
     const auto at = [&](const auto& first, const auto& second, const auto& third) {

@@ -14,7 +14,7 @@ std::optional<Role> role_of_prefix(std::string_view name);
 
 /// The alpha of a material: that of the image at a place, times that of the vertices, times a factor.
 struct Alpha {
-  const image::Image8* image = nullptr;  ///< Null: 1.
+  const Image* image = nullptr;  ///< Null: 1.
   double factor = 1;
   double cutoff = 0.5;  ///< What is below is not drawn.
 };
@@ -22,8 +22,8 @@ struct Alpha {
 /// What a mesh of such a material stops, by its alpha at 36 places of each triangle:
 /// - a wall where fewer than 1/64 of them are cut out;
 /// - glass where all are cut out, or none has an alpha of 0.5 or more, or fewer than 1/64 are holes, which
-/// are cut
-///   out with an alpha below 1/16;
+/// are
+///   cut out with an alpha below 1/16;
 /// - a grille otherwise.
 Role role_of_alpha(const Mesh& mesh, const Alpha& alpha);
 

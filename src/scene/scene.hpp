@@ -13,6 +13,7 @@
 #include "core/box.hpp"
 #include "core/role.hpp"
 #include "image/image.hpp"
+#include "scene/wrap.hpp"
 
 namespace brume::scene {
 
@@ -38,6 +39,7 @@ struct Mesh {
 struct Image {
   std::string name;
   image::Image8 pixels;
+  Wraps wraps = {};
 };
 
 struct Material {

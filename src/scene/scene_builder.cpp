@@ -66,30 +66,32 @@ Result<std::uint32_t> SceneBuilder::add_mesh(Mesh mesh) {
 }
 
 std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, const std::string& place,
-                                          const char* instead, ImageUse use) {
+                                          const char* instead, ImageUse use, Wraps wraps) {
   for (const std::string& name : names) {
     const auto found = files_.find(name);
     if (!found) continue;
-    if (const auto known = images_.find(*found); known != images_.end()) return known->second;
+    if (const auto known = images_.find({*found, wraps}); known != images_.end()) return known->second;
     const auto bytes = files_.read(*found);
-    if (bytes) return images_[*found] = add_image(image::decode_image(*bytes, *found), *found, place, use);
+    if (bytes)
+      return images_[{*found, wraps}] =
+                 add_image(image::decode_image(*bytes, *found), *found, place, use, wraps);
     warn_of_image(use, place + ": " + bytes.failure().message + "; " + instead);
-    return images_[*found] = checker_image();
+    return images_[{*found, wraps}] = checker_image();
   }
-  if (!images_.contains(names.front())) {
+  if (!images_.contains({names.front(), wraps})) {
     warn_of_image(use, place + ": the image " + in_quotes(names.front()) + " " +
                            why_not_found(names.front()) + "; " + instead);
   }
-  return images_[names.front()] = checker_image();
+  return images_[{names.front(), wraps}] = checker_image();
 }
 
 std::uint32_t SceneBuilder::image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
-                                           const std::string& place, ImageUse use) {
-  return add_image(image::decode_image(bytes, name), name, place, use);
+                                           const std::string& place, ImageUse use, Wraps wraps) {
+  return add_image(image::decode_image(bytes, name), name, place, use, wraps);
 }
 
 std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<const std::string> names,
-                                               const std::string& place) {
+                                               const std::string& place, Wraps wraps) {
   const std::pair key(color, names.front());
   if (const auto known = with_opacity_.find(key); known != with_opacity_.end()) return known->second;
   const auto fail = [&](const std::string& why) {
@@ -115,11 +117,11 @@ std::uint32_t SceneBuilder::image_with_opacity(std::uint32_t color, std::span<co
                       height = std::max(opacity->height, base ? base->height : 1);
   if (image_bytes_ + 4 * width * height > kMostImageBytes)
     return fail("the scene's images exceed " + std::to_string(kMostImageBytes >> 20) + " MiB with " + file);
-  return with_opacity_[key] = add_image(with_opacity(base, *opacity), file, place, ImageUse::roles);
+  return with_opacity_[key] = add_image(with_opacity(base, *opacity), file, place, ImageUse::roles, wraps);
 }
 
 std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::string& name,
-                                      const std::string& place, ImageUse use) {
+                                      const std::string& place, ImageUse use, Wraps wraps) {
   if (!pixels) {
     // An embedded image has no name but its place.
     const std::string& what = pixels.failure().message;
@@ -132,7 +134,7 @@ std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::s
     return checker_image();
   }
   image_bytes_ += pixels->rgba.size();
-  scene.images.push_back({name, std::move(*pixels)});
+  scene.images.push_back({name, std::move(*pixels), wraps});
   return last_index(scene.images.size());
 }
 

@@ -31,19 +31,20 @@ class SceneBuilder {
 
   /// resource_limit when the scene would pass kMostVertices or kMostIndices.
   Result<std::uint32_t> add_mesh(Mesh mesh);
-  /// The first existing file of `names`, decoded; each file is read once. If it is missing or damaged, logs a
-  /// warning that starts with `place`, ends with `instead`, and returns the magenta checker. `use` is that of
-  /// this image: `roles` if it decides one.
+  /// The first existing file of `names`, decoded; each file is read once for each way in which it wraps. If
+  /// it is missing or damaged, logs a warning that starts with `place`, ends with `instead`, and returns the
+  /// magenta checker. `use` is that of this image: `roles` if it decides one.
   std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place,
-                              const char* instead = kCheckerStandsIn, ImageUse use = ImageUse::pictures);
+                              const char* instead = kCheckerStandsIn, ImageUse use = ImageUse::pictures,
+                              Wraps wraps = {});
   /// The same from named bytes in memory.
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
-                               const std::string& place, ImageUse use = ImageUse::pictures);
+                               const std::string& place, ImageUse use = ImageUse::pictures, Wraps wraps = {});
   /// An image with the values of the first existing file of `names` as its alpha: that file's own alpha if it
   /// has any, else its brightness. kNone as `color` counts as white. It is as large as the larger of both.
   /// kNone, with a warning that starts with `place`, if the file is missing or damaged.
   std::uint32_t image_with_opacity(std::uint32_t color, std::span<const std::string> names,
-                                   const std::string& place);
+                                   const std::string& place, Wraps wraps = {});
   std::uint32_t checker_image();
   /// Unless images are loaded for less than `use`.
   void warn_of_image(ImageUse use, const std::string& line) const;
@@ -64,13 +65,13 @@ class SceneBuilder {
  private:
   Result<std::uint32_t> mirrored_mesh(std::uint32_t mesh);
   std::uint32_t add_image(Result<image::Image8> pixels, const std::string& name, const std::string& place,
-                          ImageUse use);
+                          ImageUse use, Wraps wraps);
   Result<void> check_object(const Object& object) const;
 
   const SceneFiles& files_;
   std::string name_;
   ImageUse use_ = ImageUse::pictures;
-  std::map<std::string, std::uint32_t> images_;
+  std::map<std::pair<std::string, Wraps>, std::uint32_t> images_;
   std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> with_opacity_;
   std::set<std::string> missing_opacities_;
   std::map<std::uint32_t, std::uint32_t> mirrored_;

@@ -312,6 +312,33 @@ TEST(SurfacesTest, CutOutTexelsLetLightThrough) {
   EXPECT_FALSE(made->surfaces.occluded({{0.5f, 3, 0.1f}, {0, -1, 0}, 2.5f}));
 }
 
+TEST(SurfacesTest, ImagesContinueAsTheirWrapsSay) {
+  // Its left half is opaque, its right half cut out; with an image's width more on each side.
+  const auto opaque = [](scene::Wrap wrap) {
+    scene::Scene scene = floor_of(matte(0.5f));
+    scene::Material painted = matte(1);
+    painted.base_color_image = 0;
+    scene::Image image{"halves", {4, 1, {}}, {wrap, scene::Wrap::repeat}};
+    for (const int alpha : {255, 255, 0, 0})
+      image.pixels.rgba.insert(image.pixels.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(alpha)});
+    painted.alpha_cutoff = 0.5f;
+    scene.images.push_back(image);
+    add_square(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}, painted);
+    for (scene::Vertex& vertex : scene.meshes.back().vertices) vertex.uv.x = 3 * vertex.uv.x - 1;
+    const auto made = scene_of(scene, {});
+    std::string row;
+    // In the middle of each half of the image.
+    for (int half = 0; half < 6; ++half) {
+      const float x = -1 + (static_cast<float>(half) + 0.5f) / 3;
+      row += made->surfaces.hit({{x, 3, 0.1f}, {0, -1, 0}})->position.y > 0.5f ? '#' : '.';
+    }
+    return row;
+  };
+  EXPECT_EQ(opaque(scene::Wrap::repeat), "#.#.#.");
+  EXPECT_EQ(opaque(scene::Wrap::mirror), ".##..#");
+  EXPECT_EQ(opaque(scene::Wrap::clamp), "###...");
+}
+
 TEST(SurfacesTest, MirroredAndScaledObjectsFaceTheEye) {
   scene::Scene scene = floor_of(matte(0.5f));
   scene.objects[0].world_from_mesh = glm::scale(glm::mat4(1), {-2, 3, 0.5f});

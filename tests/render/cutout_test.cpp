@@ -15,7 +15,7 @@ class CutoutTest : public gpu::GpuTest {
 
   /// A floor seen from above, and over its right half, out of view, a plate in the light: of a texture whose
   /// texels have alternately an alpha of 0 and of 255 along x, in squares of 1 m.
-  static scenario::Scenario floor(bool sun, float alpha_cutoff) {
+  static scenario::Scenario floor(bool sun, float alpha_cutoff, scene::Wraps wraps = {}, float first_u = 0) {
     scene::Scene scene;
     add_box(scene.meshes.emplace_back(), {-4, -0.1f, -4}, {4, 0, 4});
     scene::Mesh& plate = scene.meshes.emplace_back();
@@ -23,7 +23,7 @@ class CutoutTest : public gpu::GpuTest {
       scene::Vertex vertex;
       vertex.position = {corner.x, 2, corner.y};
       vertex.normal = {0, 1, 0};
-      vertex.uv = {corner.x / 4, (corner.y + 2) / 4};
+      vertex.uv = {first_u + corner.x / 4, (corner.y + 2) / 4};
       plate.vertices.push_back(vertex);
     }
     plate.indices = {0, 2, 1, 0, 3, 2};
@@ -31,7 +31,7 @@ class CutoutTest : public gpu::GpuTest {
     // Of 16 x 16 texels, so that filtering blurs an eighth of each square.
     image::Image8 image{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 255)};
     for (std::size_t i = 0; i < 16 * 16; ++i) image.rgba[4 * i + 3] = (i % 16 / 4) % 2 == 0 ? 255 : 0;
-    scene.images.push_back({"squares", image});
+    scene.images.push_back({"squares", image, wraps});
     scene.materials.resize(2);
     scene.materials[0].base_color = glm::vec3(0.5f);
     scene.materials[0].roughness = 1;
@@ -76,6 +76,19 @@ TEST_F(CutoutTest, CastsNoShadowWhereItIsCutOut) {
   EXPECT_GT(cut[1], 60);
   EXPECT_LT(cut[2], 8);
   EXPECT_GT(cut[3], 60);
+}
+
+// From the third square on: as far as the image goes, and then what its wrap says.
+TEST_F(CutoutTest, ShadowsFollowTheWrap) {
+  const auto is_lit = [&](scene::Wrap wrap) {
+    std::vector<bool> lit;
+    for (const int value : along_x(floor(true, 0.5f, {wrap, scene::Wrap::clamp}, 0.5f)))
+      lit.push_back(value > 60);
+    return lit;
+  };
+  EXPECT_EQ(is_lit(scene::Wrap::repeat), (std::vector{false, true, false, true}));
+  EXPECT_EQ(is_lit(scene::Wrap::mirror), (std::vector{false, true, true, false}));
+  EXPECT_EQ(is_lit(scene::Wrap::clamp), (std::vector{false, true, true, true}));
 }
 
 // Its shadows are twice as wide, and begin at the light's place along x.

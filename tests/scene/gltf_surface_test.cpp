@@ -56,6 +56,29 @@ TEST(GltfTexture, WebpInABufferViewAndAsAFile) {
   EXPECT_EQ(scene->images[material.normal_image].pixels.rgba[2], 30);
 }
 
+TEST(GltfTexture, SamplersSayHowImagesContinue) {
+  Document document =
+      textured(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+    "metallicRoughnessTexture": {"index": 1}}, "normalTexture": {"index": 2}})",
+               R"(, "textures": [{"source": 0, "sampler": 0}, {"source": 0, "sampler": 1}, {"source": 0}],
+    "samplers": [{"wrapS": 33071, "wrapT": 33648}, {}], "images": [{"uri": "a.webp"}])");
+  MemoryFiles files;
+  files.add_text("data.bin", document.binary.data);
+  files.add_text("a.webp", webp_of(10, 20, 30));
+  const Warnings warnings;
+  const auto scene = load_gltf(document.json(), files);
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(warnings.lines, std::vector<std::string>());
+  ASSERT_EQ(scene->images.size(), 2u) << "one for each way";
+  const Material& material = scene->materials[0];
+  EXPECT_EQ(scene->images[material.base_color_image].wraps, (Wraps{Wrap::clamp, Wrap::mirror}));
+  EXPECT_EQ(scene->images[material.roughness_image].wraps, Wraps());
+  EXPECT_EQ(scene->images[material.roughness_image].pixels.rgba[2], 30);
+  EXPECT_EQ(material.normal_image, material.roughness_image);
+  document.more.replace(document.more.find("\"sampler\": 1"), 12, "\"sampler\": 2");
+  EXPECT_HAS(document.error(), "textures[1].sampler");
+}
+
 TEST(GltfTexture, DataUrisOfAnyMediaType) {
   // A single white texel.
   const std::string png =

@@ -16,10 +16,10 @@ std::vector<Role> roles_of(const Scene& scene) {
 }
 
 /// An image with these alphas.
-image::Image8 image_of(std::initializer_list<int> alphas) {
-  image::Image8 image{static_cast<std::uint32_t>(alphas.size()), 1, {}};
+Image image_of(std::initializer_list<int> alphas) {
+  Image image{"alphas", {static_cast<std::uint32_t>(alphas.size()), 1, {}}};
   for (const int alpha : alphas)
-    image.rgba.insert(image.rgba.end(), {200, 100, 50, static_cast<std::uint8_t>(alpha)});
+    image.pixels.rgba.insert(image.pixels.rgba.end(), {200, 100, 50, static_cast<std::uint8_t>(alpha)});
   return image;
 }
 
@@ -63,7 +63,7 @@ TEST(Roles, OfAlphaWithoutAnImage) {
 
 TEST(Roles, OfAlphaWithAnImage) {
   // Eight texels in a row: opaque, a hole, a pane.
-  const image::Image8 image = image_of({255, 255, 255, 255, 0, 0, 100, 100});
+  Image image = image_of({255, 255, 255, 255, 0, 0, 100, 100});
   const auto role = [&](float from, float to, double factor = 1, double cutoff = 0.5) {
     return role_of_alpha(square({from / 8, 0}, {to / 8, 1}), {&image, factor, cutoff});
   };
@@ -76,18 +76,44 @@ TEST(Roles, OfAlphaWithAnImage) {
   EXPECT_EQ(role(0, 8), Role::grille);
   EXPECT_EQ(role(0, 8, 0.4), Role::glass) << "nothing above a half";
   EXPECT_EQ(role(0, 4, 0.6), Role::wall);
+  image.wraps.u = Wrap::clamp;
+  EXPECT_EQ(role(8, 12), Role::glass) << "its last texel";
+  EXPECT_EQ(role(-8, 4), Role::wall) << "its first texel";
+  image.wraps.u = Wrap::mirror;
+  EXPECT_EQ(role(8, 12), Role::glass) << "from its right edge back";
+  EXPECT_EQ(role(12, 16), Role::wall);
   // A frame around panes is no hole.
-  const image::Image8 window = image_of({255, 100, 100, 255});
+  const Image window = image_of({255, 100, 100, 255});
   EXPECT_EQ(role_of_alpha(square(), {&window}), Role::glass);
   EXPECT_EQ(role_of_alpha(square(), {&window, 1, 0.2}), Role::wall) << "all of it is drawn";
   // Fewer than 1/64 of all places: one of 256 texels.
-  image::Image8 speck{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 255)};
-  speck.rgba[3] = 0;
+  Image speck{"speck", {16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 255)}};
+  speck.pixels.rgba[3] = 0;
   EXPECT_EQ(role_of_alpha(square(), {&speck}), Role::wall);
 }
 
+TEST(Roles, WrappedTexelsFollowTheirDefinition) {
+  for (const std::uint32_t size : {1u, 2u, 7u}) {
+    const auto count = static_cast<std::int64_t>(size);
+    for (std::int64_t texel = 0; texel < count; ++texel)
+      for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+        EXPECT_EQ(wrapped_texel(texel, size, wrap), static_cast<std::uint32_t>(texel)) << "inside";
+    for (std::int64_t texel = -3 * count; texel <= 3 * count; ++texel) {
+      EXPECT_EQ(wrapped_texel(texel, size, Wrap::repeat), wrapped_texel(texel + count, size, Wrap::repeat));
+      EXPECT_EQ(wrapped_texel(texel, size, Wrap::mirror), wrapped_texel(-1 - texel, size, Wrap::mirror));
+      EXPECT_EQ(wrapped_texel(texel, size, Wrap::mirror),
+                wrapped_texel(texel + 2 * count, size, Wrap::mirror));
+      EXPECT_EQ(wrapped_texel(texel, size, Wrap::clamp), texel < 0 ? 0 : std::min(texel, count - 1));
+    }
+  }
+  EXPECT_EQ(wrapped_coordinate(-0.25, Wrap::repeat), 0.75);
+  EXPECT_EQ(wrapped_coordinate(-0.25, Wrap::mirror), 1.75);
+  EXPECT_EQ(wrapped_coordinate(-9.0, Wrap::clamp), -1);
+  EXPECT_EQ(wrapped_coordinate(1e30, Wrap::mirror), 0) << "near the image, whatever it was";
+}
+
 TEST(Roles, OfAlphaAtPlacesThatAreNoNumbers) {
-  const image::Image8 image = image_of({255, 0});
+  const Image image = image_of({255, 0});
   for (const float bad : {INFINITY, -INFINITY, NAN, 1e38f, -1e38f})
     role_of_alpha(square({bad, bad}, {1, bad}), {&image});
 }
