@@ -10,6 +10,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kMediaInCells = 1u;  // 0: there are none
 layout(scalar, binding = kBindIndirectProbes) readonly buffer Probes { uint probes[]; };
 layout(scalar, binding = kBindIndirectHits) readonly buffer Hits { uint hits[]; };
+layout(scalar, binding = kBindEmitterSamples) readonly buffer Samples { EmitterSample emitter_samples[]; };
+layout(scalar, binding = kBindEmitterRays) readonly buffer EmitterRays { EmitterRay emitter_rays[]; };
 layout(scalar, binding = kBindPatchRadiance) readonly buffer Radiance { vec3 radiance[]; };
 layout(binding = kBindIndirectMedium) uniform sampler3D medium;
 layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
@@ -51,6 +53,21 @@ void main() {
     const vec3 up = max(direction, vec3(0.0)), down = max(-direction, vec3(0.0));
     ahead += up;
     behind += down;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      sums[2u * axis] += up[axis] * light;
+      sums[2u * axis + 1u] += down[axis] * light;
+    }
+  }
+  for (uint i = 0u; i < params.emitter_rays; ++i) {
+    const EmitterRay ray = emitter_rays[i * params.probe_count + probe];
+    if (ray.weight <= 0.0) continue;
+    const EmitterSample emitter = emitter_samples[ray.emitter_sample];
+    const vec3 start = vec3(cell) + 0.5, path = indirect_from_world(emitter.position_world) - start;
+    const float reach = max(length(path), 1e-6);
+    const vec3 direction = path / reach;
+    vec3 light = ray.weight * emitter.radiance;
+    if (kMediaInCells != 0u) light *= through_media(start, direction, reach).a;
+    const vec3 up = max(direction, vec3(0.0)), down = max(-direction, vec3(0.0));
     for (uint axis = 0u; axis < 3u; ++axis) {
       sums[2u * axis] += up[axis] * light;
       sums[2u * axis + 1u] += down[axis] * light;

@@ -4,6 +4,8 @@
 //   patches   a SurfacePatch for each face between a free cell and a solid one
 //   probes    indices of the free cells
 //   hits      per ray of each probe what it meets (pack_hit): ray * probe_count + probe
+//   emitter_samples    places on emitters that these rays would miss or meet by chance
+//   emitter_rays       per probe kEmitterRays rays to such places: ray * probe_count + probe
 //   patch_irradiance   per patch the irradiance / pi by the lights
 //   patch_radiance     per patch the radiance that leaves it
 //   cube      half floats, eight slabs of the grid's size along z: irradiance / pi of a surface that faces along
@@ -32,25 +34,43 @@ SHARED_BINDING(kBindMediumDirect, 89u);
 SHARED_BINDING(kBindMediumMatter, 90u);
 SHARED_BINDING(kBindIndirectTarget, 91u);
 SHARED_BINDING(kBindIndirectCubeTarget, 95u);
+SHARED_BINDING(kBindEmitterSamples, 116u);
+SHARED_BINDING(kBindEmitterRays, 117u);
 
 /// A piece of surface that a free cell sees.
 struct SurfacePatch {
   vec3 position_world;
   vec3 normal;    // unit, towards the cell
   vec3 albedo;    // of diffuse reflection
-  vec3 emission;  // radiance
+  vec3 emission;  // radiance, but that of small emitters
 };
 SHARED_SIZE(SurfacePatch, 48);
+
+/// A place on a small emitter.
+struct EmitterSample {
+  vec3 position_world;
+  vec3 normal;    // unit; it emits to both sides
+  vec3 radiance;
+};
+SHARED_SIZE(EmitterSample, 36);
+
+/// A ray of a probe to a sample.
+struct EmitterRay {
+  uint emitter_sample;
+  float weight;  // how many of the probe's rays its light counts for; 0: it does not arrive
+};
+SHARED_SIZE(EmitterRay, 8);
 
 struct IndirectParams {
   ivec3 media_low;  // cells that may hold smoke
   ivec3 media_high;
   uint patch_count, probe_count, light_count;
+  uint emitter_rays;  // of a probe: kEmitterRays or 0
   uint first_probe, end_probe;  // that gather in a dispatch
   float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
   float g;           // mean cosine of the phase function of media
 };
-SHARED_SIZE(IndirectParams, 52);
+SHARED_SIZE(IndirectParams, 56);
 
 /// Slabs of the cube, those of light, and those of the formulas.
 SHARED_CONST uint kIndirectSlabs = 8u;
@@ -63,6 +83,9 @@ SHARED_CONST float kSolidWeight = 0.015625f;
 /// Rays of a probe. Neighbouring probes have different ones, kProbePhases sets of them.
 SHARED_CONST uint kProbeRays = 64u;
 SHARED_CONST uint kProbePhases = 8u;
+SHARED_CONST uint kEmitterRays = 16u;
+/// That which a ray of a probe stands for [sr].
+SHARED_CONST float kRaySolidAngle = 12.566371f / 64.0f;
 
 /// Ray i of a probe: of the points of a spherical Fibonacci lattice every eighth (Swinbank and Purser 2006).
 SHARED_FUNCTION vec3 probe_direction(uint i, uint phase) {

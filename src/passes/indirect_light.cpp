@@ -76,6 +76,11 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
   gpu::grow(context_, probes_, std::max<std::size_t>(probe_count_, 1) * sizeof(std::uint32_t));
   gpu::grow(context_, hits_,
             std::max<std::size_t>(probe_count_, 1) * shared::kProbeRays * sizeof(std::uint32_t));
+  emitter_rays_of_probe_ = level.emitter_rays.empty() ? 0 : shared::kEmitterRays;
+  gpu::grow(context_, emitter_samples_,
+            std::max<std::size_t>(level.emitter_samples.size(), 1) * sizeof(shared::EmitterSample));
+  gpu::grow(context_, emitter_rays_,
+            std::max<std::size_t>(level.emitter_rays.size(), 1) * sizeof(shared::EmitterRay));
   gpu::grow(context_, lights_, std::max<std::size_t>(most_lights, 1) * sizeof(shared::Light));
   const glm::uvec3 size(level.layout.size), slabs(size.x, size.y, shared::kIndirectSlabs * size.z);
   if (cube_.info().size == slabs && medium_) return;
@@ -92,6 +97,8 @@ void IndirectLightPass::upload(gpu::Recorder& recorder, const reference::LightCe
   upload_list<shared::SurfacePatch>(recorder, patches_, level.patches);
   upload_list<std::uint32_t>(recorder, probes_, level.probes);
   upload_list<std::uint32_t>(recorder, hits_, level.hits);
+  upload_list<shared::EmitterSample>(recorder, emitter_samples_, level.emitter_samples);
+  upload_list<shared::EmitterRay>(recorder, emitter_rays_, level.emitter_rays);
 }
 
 void IndirectLightPass::record(gpu::Recorder& recorder, const Inputs& in,
@@ -121,6 +128,7 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
   }
   params_.patch_count = patch_count_;
   params_.probe_count = probe_count_;
+  params_.emitter_rays = emitter_rays_of_probe_;
   params_.light_count = static_cast<std::uint32_t>(lights.size());
   params_.g = in.g;
   upload_list(recorder, lights_, lights);
@@ -213,6 +221,8 @@ void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindIndirectProbes, gpu::read(probes_)},
                  {shared::kBindIndirectHits, gpu::read(hits_)},
+                 {shared::kBindEmitterSamples, gpu::read(emitter_samples_)},
+                 {shared::kBindEmitterRays, gpu::read(emitter_rays_)},
                  {shared::kBindPatchRadiance, gpu::read(radiance_)},
                  {shared::kBindIndirectMedium, gpu::sampled(medium_, linear_)},
                  {shared::kBindIndirectTarget, gpu::stored(noisy_cube_)}},

@@ -33,7 +33,7 @@ class IndirectLightPass {
     const gpu::Image& noise;
     VolumeResources volumes;
     std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
-    float g = 0;  ///< Mean cosine of the phase function of the smoke, or of the first volume.
+    float g = 0;                ///< Mean cosine of the phase function of the smoke, or of the first volume.
     const gpu::Image& glow_field;  ///< GlowFieldPass::field.
   };
   /// Uploads the level of the last `reserve`.
@@ -64,9 +64,9 @@ class IndirectLightPass {
       gather_pass_, gather_in_media_pass_, smooth_pass_;
   std::map<std::uint32_t, gpu::ComputePipeline> medium_passes_;  ///< By the media of a frame.
   gpu::Sampler linear_, compare_;
-  gpu::Buffer patches_, probes_, hits_, irradiance_, radiance_, lights_;
+  gpu::Buffer patches_, probes_, hits_, emitter_samples_, emitter_rays_, irradiance_, radiance_, lights_;
   gpu::Image cube_, next_cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
-  std::uint32_t patch_count_ = 0, probe_count_ = 0;
+  std::uint32_t patch_count_ = 0, probe_count_ = 0, emitter_rays_of_probe_ = 0;
   shared::IndirectParams params_{};  ///< Of the light that is being found.
 };
 

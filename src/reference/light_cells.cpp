@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/tasks.hpp"
+#include "reference/small_emitters.hpp"
 #include "shared/light.h"
 #include "voxel/coarse_solid.hpp"
 
@@ -92,20 +93,20 @@ struct PatchSum {
   shared::SurfacePatch sum{};
   float hits = 0;
 
-  void add(const Surfaces& surfaces, const Ray& ray) {
+  void add(const Surfaces& surfaces, const SmallEmitters& small, const Ray& ray) {
     const std::optional<SurfaceHit> hit = surfaces.hit(ray);
     if (!hit) return;
     sum.position_world += hit->position;
     sum.normal += hit->geometric_normal;
     sum.albedo += hit->reflection.albedo;
-    sum.emission += hit->emission;
+    if (!small.contains(*hit)) sum.emission += hit->emission;
     ++hits;
   }
 };
 
 /// The piece of surface that a cell sees in a neighbour.
-shared::SurfacePatch patch_of(const Surfaces& surfaces, glm::vec3 centre_world, std::uint32_t face,
-                              float cell) {
+shared::SurfacePatch patch_of(const Surfaces& surfaces, const SmallEmitters& small, glm::vec3 centre_world,
+                              std::uint32_t face, float cell) {
   const glm::vec3 forward = shared::cube_forward(face), up = shared::cube_up(face),
                   right = shared::cube_right(face);
   PatchSum patch;
@@ -114,7 +115,7 @@ shared::SurfacePatch patch_of(const Surfaces& surfaces, glm::vec3 centre_world, 
       const glm::vec3 aside = (i & 1 ? 1.0f : -1.0f) * right + (i & 2 ? 1.0f : -1.0f) * up;
       const glm::vec3 from = centre_world + (0.25f * cell) * aside;
       // To the far side of the neighbour.
-      patch.add(surfaces, {from, glm::normalize(forward + slope * aside), 1.6f * cell});
+      patch.add(surfaces, small, {from, glm::normalize(forward + slope * aside), 1.6f * cell});
     }
   };
   add_rays(0);
@@ -171,7 +172,8 @@ class PatchFinder {
 };
 
 /// The patches between free cells and solid ones, and which each cell has.
-std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfaces, LightCells& level) {
+std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfaces,
+                                     const SmallEmitters& small, LightCells& level) {
   struct Face {
     std::uint32_t cell, face;
   };
@@ -190,7 +192,7 @@ std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfa
   parallel_for(faces.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       level.patches[i] =
-          patch_of(surfaces, grid.centre(faces[i].cell), faces[i].face, level.layout.cell_size);
+          patch_of(surfaces, small, grid.centre(faces[i].cell), faces[i].face, level.layout.cell_size);
   });
   return of_cells;
 }
@@ -227,6 +229,19 @@ std::vector<std::uint32_t> trace_probes(const CellGrid& grid, const Surfaces& su
   return hits;
 }
 
+std::vector<shared::EmitterRay> emitter_rays(const CellGrid& grid, const SmallEmitters& small,
+                                             std::span<const std::uint32_t> probes) {
+  std::vector<shared::EmitterRay> all(probes.size() * shared::kEmitterRays);
+  parallel_for(probes.size(), 64, [&](std::size_t begin, std::size_t end) {
+    std::array<shared::EmitterRay, shared::kEmitterRays> rays;
+    for (std::size_t i = begin; i < end; ++i) {
+      small.find_rays(grid.centre(probes[i]), shared::probe_phase(grid.at(probes[i])), rays);
+      for (std::size_t r = 0; r < rays.size(); ++r) all[r * probes.size() + i] = rays[r];
+    }
+  });
+  return all;
+}
+
 }  // namespace
 
 LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces) {
@@ -240,7 +255,12 @@ LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces
   for (std::uint32_t cell = 0; cell < cells.count(); ++cell)
     if (cells.is_free(cells.at(cell))) level.probes.push_back(cell);
 
-  const std::vector<CellPatches> of_cells = add_patches(cells, surfaces, level);
+  const SmallEmitters small(surfaces, level.layout.cell_size);
+  if (!small.empty()) {
+    level.emitter_samples.assign(small.samples().begin(), small.samples().end());
+    level.emitter_rays = emitter_rays(cells, small, level.probes);
+  }
+  const std::vector<CellPatches> of_cells = add_patches(cells, surfaces, small, level);
   level.hits = trace_probes(cells, surfaces, level.probes, PatchFinder(cells, of_cells, level.patches));
   return level;
 }

@@ -20,6 +20,9 @@ struct LightCells {
   std::vector<std::uint32_t> probes;
   std::vector<shared::SurfacePatch> patches;
   std::vector<std::uint32_t> hits;
+  std::vector<shared::EmitterSample>
+      emitter_samples;  ///< Empty: there are no small emitters, nor rays to them.
+  std::vector<shared::EmitterRay> emitter_rays;
 };
 
 /// The cells of a level with a grid. Free are the cells of voxel::coarse_solid, but not those inside of

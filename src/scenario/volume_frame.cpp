@@ -64,7 +64,8 @@ Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
 /// Whether "dens" is in a name, in any case.
 bool names_density(const std::string& name) {
   const auto is_same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return !std::ranges::search(name, std::string_view("dens"), is_same).empty();
+  constexpr std::string_view kPart = "dens";
+  return std::search(name.begin(), name.end(), kPart.begin(), kPart.end(), is_same) != name.end();
 }
 
 Result<const grids::Grid*> choose_density(GridList grids, const std::string& name) {

@@ -138,7 +138,9 @@
   X(91, VolumeDetail) \
   X(92, PaneMaterial) \
   X(93, GlowFieldParams) \
-  X(94, GlowCell)
+  X(94, GlowCell) \
+  X(95, EmitterSample) \
+  X(96, EmitterRay)
 // clang-format on
 
 #endif

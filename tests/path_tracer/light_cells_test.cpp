@@ -154,6 +154,94 @@ TEST(LightCells, RaysPassThroughSlits) {
   EXPECT_GT(open(slit.cells), 0u);
 }
 
+/// Irradiance at a probe by small emitters, of surfaces that face where the light comes from.
+float emitted_to(const LightCells& cells, std::size_t probe) {
+  float sum = 0;
+  for (std::uint32_t r = 0; r < shared::kEmitterRays; ++r) {
+    const shared::EmitterRay& ray = cells.emitter_rays[r * cells.probes.size() + probe];
+    sum += ray.weight * shared::kRaySolidAngle * cells.emitter_samples[ray.emitter_sample].radiance.g;
+  }
+  return sum;
+}
+
+/// A room with a square that emits 5 W/(sr m^2), of this edge, in the plane x = 0.1.
+scene::Scene lit_room(float edge, float y = 0.1f) {
+  scene::Scene scene = room(0);
+  scene::Mesh& panel = scene.meshes.emplace_back();
+  for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
+    panel.vertices.push_back({.position = {0.1f, y + 0.5f * edge * at.x, 0.1f + 0.5f * edge * at.y}});
+  panel.indices = {0, 1, 2, 0, 2, 3};
+  scene.materials.emplace_back().emission = glm::vec3(5);
+  scene.objects.push_back({"panel", 1, 1, glm::mat4(1), Role::ghost});
+  return scene;
+}
+
+// L A cos / d^2 [W/m^2]. Over the square, the second derivatives of x / d^3, of -3 / d^2 and at most 12 / d^2
+// times its value, change its mean by 5/8 (edge / d)^2 at most; that the samples' middle is not the square's,
+// by three times that distance over d.
+TEST(LightCells, SmallEmittersSendTheirLightToAllProbes) {
+  const float edge = 0.1f;
+  const Made made = cells_of(lit_room(edge));
+  ASSERT_FALSE(made.cells.emitter_rays.empty());
+  for (const shared::SurfacePatch& patch : made.cells.patches) EXPECT_EQ(patch.emission, glm::vec3(0));
+  glm::vec3 middle(0);
+  for (const shared::EmitterSample& sample : made.cells.emitter_samples) middle += sample.position_world;
+  const float aside =
+      glm::distance(middle / static_cast<float>(made.cells.emitter_samples.size()), glm::vec3(0.1f));
+  EXPECT_LT(aside, 0.1f * edge);
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < made.cells.probes.size(); ++i) {
+    const glm::vec3 path = centre_of(made.cells, made.cells.probes[i]) - glm::vec3(0.1f);
+    const float distance = glm::length(path);
+    if (!is_inside(centre_of(made.cells, made.cells.probes[i]))) {
+      EXPECT_EQ(emitted_to(made.cells, i), 0) << "behind the walls";
+      continue;
+    }
+    if (distance < 5 * edge || std::abs(path.x) < 2 * edge) continue;
+    ++seen;
+    const float expected = 5 * edge * edge * std::abs(path.x) / distance / (distance * distance);
+    const float size = edge / distance, error = 0.625f * size * size + 3 * aside / distance + 1e-4f;
+    EXPECT_NEAR(emitted_to(made.cells, i), expected, error * expected);
+  }
+  EXPECT_GT(seen, 1000u);
+}
+
+// Of a large one nearby, against its solid angle, which its samples find by importance.
+TEST(LightCells, EmittersNearbyAreAsBrightAsTheirSolidAngle) {
+  const float edge = 1;
+  const Made made = cells_of(lit_room(edge));
+  double found = 0, exact = 0;
+  for (std::size_t i = 0; i < made.cells.probes.size(); ++i) {
+    const glm::dvec3 from(centre_of(made.cells, made.cells.probes[i]) - glm::vec3(0.1f));
+    if (std::abs(from.x) < 0.2 || std::abs(from.x) > 0.8 || std::max(std::abs(from.y), std::abs(from.z)) > 1)
+      continue;
+    // The solid angle of a rectangle, by its corners (van Oosterom and Strackee's formula for a right angle).
+    double angle = 0;
+    for (const double y : {-0.5, 0.5})
+      for (const double z : {-0.5, 0.5}) {
+        const double a = y - from.y, b = z - from.z, x = std::abs(from.x);
+        angle += (y * z > 0 ? 1 : -1) * std::atan2(a * b, x * std::sqrt(a * a + b * b + x * x));
+      }
+    const double here = double{emitted_to(made.cells, i)};
+    EXPECT_NEAR(here, 5 * angle, 0.35 * 5 * angle) << from.x << ' ' << from.y << ' ' << from.z;
+    found += here;
+    exact += 5 * angle;
+  }
+  EXPECT_NEAR(found, exact, 0.03 * exact);
+}
+
+TEST(LightCells, LargeEmittersAreLeftToThePatches) {
+  scene::Scene scene = room(0);
+  scene.materials[0].emission = glm::vec3(1);
+  const Made made = cells_of(scene);
+  EXPECT_TRUE(made.cells.emitter_rays.empty());
+  EXPECT_TRUE(made.cells.emitter_samples.empty());
+  for (const shared::SurfacePatch& patch : made.cells.patches) {
+    const bool is_unknown = patch.albedo == glm::vec3(0.5f);  // No ray met the wall.
+    EXPECT_EQ(patch.emission, glm::vec3(is_unknown ? 0 : 1));
+  }
+}
+
 TEST(LightCells, AreTheSameForAnyNumberOfThreads) {
   set_thread_count(1);
   const Made one = cells_of(room(0.1f));
