@@ -1,5 +1,6 @@
-// The smallest host of Brume's renderer: a smoke grenade floods a room and comes out of its doorway. Off
-// screen; writes a PNG. offscreen.h is the program without Brume. Walk through: docs/rendering-in-a-host.md.
+// The smallest host of Brume's renderer: a smoke grenade floods a room, and the smoke comes out of its
+// doorway. It draws off screen and writes a PNG. offscreen.h is the program without Brume. Guide:
+// docs/rendering-in-a-host.md.
 //
 //   hello_host [hello.png]
 #include <brume/brume_vulkan.h>
@@ -7,16 +8,17 @@
 #include "offscreen.h"
 
 enum { kFrames = 6, kTicksPerFrame = 40, kTicksPerSecond = 64 };
+static const float kVoxel = 0.25f;  // m
 
-// Ends the program when a call of Brume fails, with its line about what was expected.
+// Ends the program when a call of Brume fails, and prints the reason.
 static void check(brume_result result) {
   if (result == BRUME_OK) return;
   fprintf(stderr, "hello_host: %s\n", brume_last_error());
   exit(1);
 }
 
-// The room and the yard as voxels of 25 cm: 8 m x 3.5 m x 14 m, the low corner at (-4, -0.25, -6). Usually
-// made of the triangles of a collision mesh: brume_level_create_from_triangles.
+// The room and the yard as voxels of 25 cm: 8 m x 3.5 m x 14 m, the low corner at (-4, -0.25, -6). A game
+// creates its level from its collision mesh instead: brume_level_create_from_triangles.
 static brume_level* make_level(brume_context* context) {
   enum { kX = 32, kY = 14, kZ = 56 };
   static uint8_t bits[kX * kY * kZ / 8];
@@ -27,7 +29,7 @@ static brume_level* make_level(brume_context* context) {
     if (y == 0 || (z < 24 && wall)) bits[i / 8] |= (uint8_t)(1 << i % 8);
   }
   brume_voxels_params params = brume_voxels_defaults();
-  params.layout = (brume_layout){{kX, kY, kZ}, 0.25f, {-4, -0.25f, -6}};
+  params.layout = (brume_layout){{kX, kY, kZ}, kVoxel, {-4, -0.25f, -6}};
   params.bits = bits;
   params.byte_count = sizeof bits;
   brume_level* level = NULL;
@@ -35,12 +37,12 @@ static brume_level* make_level(brume_context* context) {
   return level;
 }
 
-// Into the middle of the room, through the doorway.
+// A player in the yard throws a grenade through the doorway into the middle of the room.
 static void throw_grenade(brume_world* world) {
   brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, 0);
   check(brume_position_from_metres(0, 1.5, 3, &event.u.smoke.from));
   check(brume_position_from_metres(0, 0.3, -2, &event.u.smoke.at));
-  event.u.smoke.voxels = 7600;  // 119 m^3; the room holds 103, the rest comes out
+  event.u.smoke.voxels = brume_smoke_voxels(118.75, kVoxel);  // the room holds 103 m^3, the rest comes out
   check(brume_world_append(world, &event, 1));
 }
 
@@ -63,14 +65,14 @@ static brume_renderer* make_renderer(brume_context* context, const Offscreen* o)
   return renderer;
 }
 
-// Adds the smoke to a frame whose picture and depth are drawn.
+// Adds the smoke to a frame whose surfaces are drawn.
 static void record_smoke(brume_renderer* renderer, const brume_field* field, const Offscreen* o,
                          uint64_t frame, uint32_t tick) {
   const brume_light light = {BRUME_LIGHT_POINT, {-0.8f, 2.5f, -1.5f}, {0, -1, 0}, {60, 30, 10}, 0, 0};
   brume_frame_params params = brume_frame_defaults();
   params.commands = o->commands;
-  params.frame = frame;
-  params.completed = frame - 1;  // finish_frame waits
+  params.frame_number = frame;
+  params.completed_frame = frame - 1;  // finish_frame waits for the device
   params.camera.position = (brume_point){kEyeX, kEyeY, kEyeZ};
   params.camera.vertical_fov = kFov;
   params.depth = (brume_depth){o->depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kNear, INFINITY, 1};
@@ -106,5 +108,5 @@ int main(int argc, char** argv) {
     finish_frame(&o);
   }
   save_picture(&o, argc > 1 ? argv[1] : "hello.png");
-  return 0;  // a program that runs on destroys what it created, the renderer before the device
+  return 0;  // a program that continues destroys all objects, the renderer before its device
 }

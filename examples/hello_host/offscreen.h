@@ -1,4 +1,4 @@
-// What a Vulkan program has before Brume comes: a device, a picture, a depth, a room drawn into both, and a
+// The program without Brume: a Vulkan device, a colour target, a depth image, a room drawn into both, and a
 // PNG.
 #ifndef OFFSCREEN_H
 #define OFFSCREEN_H
@@ -92,7 +92,7 @@ static void make_device(Offscreen* o, const void* features) {
   vkGetDeviceQueue(o->device, 0, 0, &o->queue);
 }
 
-// `features`: what VkDeviceCreateInfo::pNext has to be.
+// `features`: the chain for VkDeviceCreateInfo::pNext.
 static Offscreen make_offscreen(const void* features) {
   Offscreen o = {0};
   make_device(&o, features);
@@ -155,8 +155,8 @@ static void rectangle(const Offscreen* o, float x0, float y0, float x1, float y1
   vkCmdClearAttachments(o->commands, 2, values, 1, &area);
 }
 
-// A room 6 m wide, 3 m high and 6 m deep behind a front at z = 0 with a doorway, and a yard before it. Begins
-// the commands. Leaves the picture as a colour attachment and the depth to be sampled.
+// A room 6 m wide, 3 m high and 6 m deep behind a wall at z = 0 with a doorway, and a yard in front of the
+// wall. Begins the commands. Afterwards the picture is a colour attachment, and the depth can be sampled.
 static void draw_room(const Offscreen* o) {
   VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   VK(vkBeginCommandBuffer(o->commands, &begin));

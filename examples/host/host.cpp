@@ -1,5 +1,5 @@
-// A renderer of its own with smoke by Brume: its device, its depth, its frames in flight. What it takes to
-// add the smoke is in smoke.hpp; this file draws a few boxes and would do so without it.
+// A small Vulkan renderer with its own device, depth and frames in flight, and smoke by Brume. smoke.hpp
+// contains everything that the smoke requires; this file draws a few boxes, and would work without it.
 //
 //   brume_host_example [-o FRAME.ppm] [--frames N] [--size WxH] [--in-flight N] [--no-smoke]
 //
@@ -29,7 +29,7 @@ struct Options {
   bool smoke = true;
 };
 
-/// clip_from_world, column by column.
+/// The matrix from world space to clip space, column by column.
 std::array<float, 16> matrix_of(const Camera& camera, float aspect) {
   const Vec3 right = unit(cross(camera.forward, camera.up)), up = cross(right, camera.forward),
              f = camera.forward;

@@ -33,9 +33,11 @@ constexpr Box kLevel[] = {{{-8, -0.5f, -8}, {8, 0, 8}, {0.5f, 0.48f, 0.45f}},
                           {{1, 0, -3.25f}, {8, 3, -2.75f}, {0.6f, 0.35f, 0.25f}},
                           {{2.5f, 0, 1}, {3.25f, 3, 1.75f}, {0.3f, 0.4f, 0.55f}}};
 
+/// Edge of a voxel of the smoke [m].
+constexpr float kVoxel = 0.25f;
 /// A light behind the pillar.
 constexpr Vec3 kLight{5, 2, 3.5f};
-/// Depth 1 at 0.1 m, 0 infinitely far.
+/// The depth is 1 at kNear [m] and 0 at infinity.
 constexpr float kNear = 0.1f, kFieldOfView = 1.0f;
 
 struct Camera {
@@ -47,7 +49,7 @@ inline Camera camera_at(double seconds) {
   return {position, unit(minus({0, 1.2f, 0}, position)), {0, 1, 0}};
 }
 
-/// The smoke: all that a host adds.
+/// The smoke: everything that a host adds to its renderer.
 struct Smoke {
   Smoke(const brume_device_params& host, std::uint32_t width, std::uint32_t height)
       : level(context, triangles()),
@@ -56,7 +58,7 @@ struct Smoke {
         device(context, host),
         renderer(device, renderer_params(width, height)) {
     brume_event grenade = brume_event_defaults(BRUME_EVENT_SMOKE, 0);
-    grenade.u.smoke.voxels = 9000;
+    grenade.u.smoke.voxels = brume_smoke_voxels(140, kVoxel);  // m^3
     grenade.u.smoke.from = brume::api::position(0, 1.5, 6);
     grenade.u.smoke.at = brume::api::position(0, 0.3, -1);
     brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 192);
@@ -80,7 +82,7 @@ struct Smoke {
         points.push_back({at[0], at[1], at[2]});
       }
     brume_triangles_params params = brume_triangles_defaults();
-    params.layout = {{64, 24, 64}, 0.25f, {-8, -1, -8}};
+    params.layout = {{64, 24, 64}, kVoxel, {-8, -1, -8}};
     params.points = points.data();
     params.point_count = points.size();
     params.indices = indices.data();
@@ -110,8 +112,8 @@ struct Smoke {
     const Camera camera = camera_at(seconds);
     brume_frame_params params = brume_frame_defaults();
     params.commands = commands;
-    params.frame = frame;
-    params.completed = completed;
+    params.frame_number = frame;
+    params.completed_frame = completed;
     params.jitter_index = static_cast<std::uint32_t>(frame);
     params.camera.position = {camera.position.x, camera.position.y, camera.position.z};
     params.camera.forward = {camera.forward.x, camera.forward.y, camera.forward.z};

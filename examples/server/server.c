@@ -16,8 +16,9 @@
 
 enum { kBots = 12, kPairs = kBots * (kBots - 1) / 2, kTicksPerSecond = 64 };
 enum { kSizeX = 65, kSizeY = 10, kSizeZ = 32 };
+static const float kVoxel = 0.5f;  // m
 
-// Ends the program when a call fails.
+// Ends the program when a call fails, and prints the reason.
 static void check(brume_result result) {
   if (result == BRUME_OK) return;
   fprintf(stderr, "brume_server: %s\n", brume_last_error());
@@ -34,6 +35,7 @@ static brume_level* make_level(brume_context* context) {
     }
   brume_voxels_params params = brume_voxels_defaults();
   params.layout.size = (brume_voxel){kSizeX, kSizeY, kSizeZ};
+  params.layout.voxel_size = kVoxel;
   params.bits = bits;
   params.byte_count = sizeof bits;
   brume_level* level = NULL;
@@ -41,21 +43,21 @@ static brume_level* make_level(brume_context* context) {
   return level;
 }
 
-// A bot's feet: it walks along its own lane to the other room and back.
+// A bot's feet [1/1024 m]: it walks along its own lane to the other room and back.
 static brume_position bot_at(uint32_t bot, uint32_t tick) {
   const uint32_t walked = (tick * 48 + bot * 6000) % 60000;
   const int32_t along = (int32_t)(walked < 30000 ? walked : 60000 - walked);
   return (brume_position){1024 + along, 0, 1024 + (int32_t)bot * 1200};
 }
 
-// 1.6 m above the feet.
+// A bot's eyes, 1.6 m above its feet.
 static brume_position eyes_of(uint32_t bot, uint32_t tick) {
   brume_position position = bot_at(bot, tick);
-  position.y += 1638;
+  position.y += (int32_t)brume_length(1.6);
   return position;
 }
 
-// The input of a tick; in a real match it comes from the network.
+// The input of a tick, with positions in 1/1024 m; in a real match it comes from the network.
 static void take_input(brume_world* world, uint32_t tick) {
   brume_event events[5];
   size_t count = 0;
@@ -71,6 +73,7 @@ static void take_input(brume_world* world, uint32_t tick) {
     *event = brume_event_defaults(BRUME_EVENT_SMOKE, tick);
     event->u.smoke.from = eyes;
     event->u.smoke.at = (brume_position){16000, 512, 15872};
+    event->u.smoke.voxels = brume_smoke_voxels(225, kVoxel);  // m^3
   }
   if (tick % 40 == 0) {
     event = &events[count++];

@@ -1,37 +1,81 @@
-// The public C interface of Brume: the simulation of smoke and the line of sight through it, without Vulkan.
-// Library: libbrume-sim. Walk through: docs/embedding.md. C++: brume.hpp, beside this file.
+// The public C interface of Brume: the simulation of smoke and the line of sight through smoke, without
+// Vulkan. Library: libbrume-sim. Guide: docs/embedding.md. C++: brume.hpp, in the same folder.
 //
 //   context --> level --> world --> state --> field        optical depths, visibility, walls, densities
 //                          ^         |  `---> sender --> packets --> receiver --> state
 //                       events       `-----> bytes (a snapshot) ---> state --> world
 //
-// Results    Each function returns BRUME_OK or an error, and then brume_last_error() is one line about it, of
-//            the calling thread. After an error nothing has changed and no output has been written, except
-//            where the function says otherwise. No exception and no signal reaches the caller for arguments
-//            that are wrong: null, another kind of handle, another struct_size, NaN, out of range.
-//            BRUME_ERROR_MEMORY may stop a change halfway: see BRUME_ERROR_BROKEN.
-// Handles    Created by *_create and similar, released by *_destroy, which accepts null. What a handle refers
-//            to lives as long as required: a level may be destroyed before its worlds. A destroyed handle
-//            must not be used again.
-// Threads    Any function may be called from any thread. Calls that change one handle run one after another,
-//            reads of it run concurrently. Destroying a handle is the last call with it: no other may run.
-//            Nothing is set for the whole process. A context has its own number of threads, which a call may
-//            start and which end before it returns. Calls have their own floating-point environment: rounding
-//            modes, flushed denormals and traps of the caller do not matter.
+// Example    A player throws a smoke grenade, and a bot looks for that player. `check` is your function that
+//            handles an error, `points` and `indices` are your collision mesh [m].
+//
+// ```c
+//   brume_context* context;
+//   brume_level* level;
+//   brume_world* world;
+//   brume_field* field;
+//   brume_triangles_params mesh = brume_triangles_defaults();  // voxels of half a metre
+//   mesh.points = points;
+//   mesh.point_count = point_count;
+//   mesh.indices = indices;
+//   mesh.index_count = index_count;
+//   check(brume_context_create(NULL, &context));
+//   check(brume_level_create_from_triangles(context, &mesh, &level));
+//   check(brume_world_create(level, NULL, &world));  // 64 ticks per second
+//   check(brume_field_create(level, NULL, &field));
+//
+//   brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, 0);  // thrown at tick 0
+//   event.u.smoke.voxels = brume_smoke_voxels(200, mesh.layout.voxel_size);
+//   check(brume_position_from_metres(2, 1.5, 8, &event.u.smoke.from));
+//   check(brume_position_from_metres(2, 0.5, 2, &event.u.smoke.at));
+//   check(brume_world_append(world, &event, 1));
+//
+//   for (uint32_t tick = 0; tick <= 128; ++tick) {
+//     brume_state* state;
+//     uint8_t visible;
+//     check(brume_world_advance_to(world, tick));
+//     check(brume_world_state(world, &state));
+//     check(brume_field_update(field, state));
+//     check(brume_state_destroy(state));  // the field has its own copy
+//     const brume_segment line = {bot_eyes, player_eyes};
+//     check(brume_field_visible(field, &line, 1, 3.0f, &visible));  // 3: at least 5 % of the light passes
+//     printf("tick %u: visible %d\n", (unsigned)tick, visible);
+//     if (tick > 64) check(brume_world_forget_before(world, tick - 64));  // events may be 1 s late
+//   }
+// ```
+//
+// Results    Each function returns BRUME_OK or an error. After an error, brume_last_error() returns one line
+//            about it for the calling thread, nothing has changed and no output has been written, except
+//            where the description of a function states otherwise. Arguments that are wrong (null, another
+//            kind of handle, another struct_size, NaN, out of range) give BRUME_ERROR_ARGUMENT or
+//            BRUME_ERROR_HANDLE; descriptions list further errors. No exception and no signal reaches the
+//            caller. BRUME_ERROR_MEMORY may stop a change halfway: see BRUME_ERROR_BROKEN.
+// Handles    *_create and similar functions create objects, *_destroy releases them and accepts null. An
+//            object lives as long as another one requires it: a level may be destroyed before its worlds. A
+//            destroyed handle must not be used again.
+// Threads    Any function may be called from any thread. Calls that change one object run one after another;
+//            calls that read it run concurrently. The call that destroys an object must be the last one: no
+//            other call with its handle may still be running. The library changes no setting of the process.
+//            A call may start as many threads as its context allows, and ends them before it returns. Calls
+//            run in their own floating-point environment: the caller's rounding mode, flushed denormals and
+//            traps have no effect on results.
 // Structs    Parameter structs begin with `struct_size` = sizeof(the struct) and `next` = NULL. Take their
-//            defaults from the *_defaults functions. Other structs never change, nor does brume_event.
-// Growth     Later versions may add members at the end of a parameter struct, where 0 means what the library
-//            did before. A shorter struct of an earlier header works: the members that it lacks have their
-//            defaults. A longer one of a later header works as long as what this library does not know is 0,
-//            and else is BRUME_ERROR_ARGUMENT. `next` is for structs of later versions; there are none yet.
+//            defaults from the *_defaults functions. The size of other structs never changes, nor does the
+//            size of brume_event.
+// Growth     Later versions may add members at the end of a parameter struct, where 0 selects the behaviour
+//            without the member. A shorter struct of an earlier header works: members that it lacks have
+//            their defaults. A longer struct of a later header works as long as every member that this
+//            library does not have is 0; otherwise the call fails with BRUME_ERROR_ARGUMENT. `next` is
+//            reserved for structs of later versions; there are none yet.
+// Enums      Structs store enumerations as uint32_t: C leaves the size of an enum to the compiler.
 // Arrays     A null pointer is accepted where the count is 0. Outputs must not overlap inputs.
-// Bytes      Functions that write bytes take `buffer`, `capacity` and `size`: *size receives the number of
-//            bytes; a null buffer with capacity 0 queries it. BRUME_ERROR_BUFFER: the capacity is too small;
-//            *size is set, the buffer is unchanged.
-// Lists      The same for functions that write lists: `capacity` and `count` are numbers of elements.
-// Units      Metres, right-handed, Y up. Voxel i of a level covers [i, i + 1) in voxel space;
-//            position_voxel = (position - origin) / voxel_size. Positions of events are integers of 1/1024 m,
-//            times are ticks: the same events give the same bits on every machine.
+// Bytes      Functions that write bytes take `buffer`, `capacity` and `size`. *size receives the number of
+//            bytes; call with a null buffer and capacity 0 to query it. BRUME_ERROR_BUFFER: the capacity is
+//            too small; *size is set, the buffer is unchanged.
+// Lists      Functions that write lists work in the same way: `capacity` and `count` are numbers of elements.
+// Units      Metres, right-handed, Y up. Voxel i of a level covers [i, i + 1) in voxel space; position_voxel
+//            = (position - origin) / voxel_size. Events have integers, so that the same events give the same
+//            bits on every machine: ticks, milliseconds, and lengths in 1/1024 m. The suffix of a member
+//            names its unit: `radius_1024` is in 1/1024 m, `roll_65536` in 1/65536 turn.
 #ifndef BRUME_BRUME_H
 #define BRUME_BRUME_H
 
@@ -40,11 +84,17 @@
 
 #ifdef __cplusplus
 #define BRUME_NOEXCEPT noexcept
-#define BRUME_NULL nullptr
+// clang-format off
+#define BRUME_ZERO {}
+// clang-format on
+#define BRUME_CAST(type, value) static_cast<type>(value)
 extern "C" {
 #else
 #define BRUME_NOEXCEPT
-#define BRUME_NULL NULL
+// clang-format off
+#define BRUME_ZERO {0}
+// clang-format on
+#define BRUME_CAST(type, value) ((type)(value))
 #endif
 
 #if defined(__GNUC__)
@@ -55,7 +105,7 @@ extern "C" {
 
 // ---- Version and errors ----
 
-/// Version of this header. Before 1.0, a minor version may change the interface; the library's SOVERSION
+/// The version of this header. Before 1.0, a minor version may change the interface; the library's SOVERSION
 /// then changes too.
 #define BRUME_VERSION_MAJOR 0
 #define BRUME_VERSION_MINOR 2
@@ -66,29 +116,30 @@ typedef enum brume_result {
   BRUME_ERROR_ARGUMENT = 1,  ///< An argument is null, not finite, out of range, or a struct of another size.
   BRUME_ERROR_HANDLE = 2,    ///< A handle is null, of another kind, or not a handle.
   BRUME_ERROR_DATA = 3,      ///< Received bytes are damaged, truncated, foreign or of another version.
-  BRUME_ERROR_HISTORY = 4,   ///< A tick lies before the history that the world retains.
+  BRUME_ERROR_HISTORY = 4,   ///< A tick is earlier than the history that the world retains.
   BRUME_ERROR_MISMATCH = 5,  ///< Two objects differ in level layout, ticks per second or masks.
-  BRUME_ERROR_ORDER = 6,     ///< Something must come first: the message names it.
+  BRUME_ERROR_ORDER = 6,     ///< Another call must come first: the message names it.
   BRUME_ERROR_BUFFER = 7,    ///< The capacity of an output is too small.
-  BRUME_ERROR_LIMIT = 8,     ///< More than a limit of the library allows.
-  BRUME_ERROR_MEMORY = 9,    ///< Out of memory or threads.
-  /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (world),
-  /// brume_field_update (field) or brume_receiver_reset (receiver) succeeds, only *_destroy works; of a
-  /// sender nothing else ever does.
+  BRUME_ERROR_LIMIT = 8,     ///< The call exceeds a limit of the library.
+  BRUME_ERROR_MEMORY = 9,    ///< Memory or threads are exhausted.
+  /// An earlier call ran out of memory or over a limit halfway. Until brume_world_restore (for a world),
+  /// brume_field_update (for a field) or brume_receiver_reset (for a receiver) succeeds, only *_destroy
+  /// works. A broken sender can only be destroyed.
   BRUME_ERROR_BROKEN = 10,
-  BRUME_ERROR_INTERNAL = 11,  ///< A defect of the library.
-  BRUME_ERROR_DEVICE = 12     ///< The Vulkan device lacks what is required, or is lost (brume_vulkan.h).
+  BRUME_ERROR_INTERNAL = 11,  ///< The library has a defect.
+  BRUME_ERROR_DEVICE = 12     ///< The Vulkan device lacks a required feature, or is lost (brume_vulkan.h).
 } brume_result;
 
 /// Writes the version of the library in use. Any pointer may be null. Never fails.
 BRUME_API brume_result brume_version(uint32_t* major, uint32_t* minor, uint32_t* patch) BRUME_NOEXCEPT;
 
-/// Returns one line about the last failure in this thread: the function, what it expected and what it got;
-/// "" before the first one. UTF-8, at most 511 bytes. Valid until the next failure in this thread; calls that
-/// succeed do not change it.
+/// Returns one line about the last failure in this thread: the function, the expected and the given value; ""
+/// before the first failure. UTF-8, at most 511 bytes. The pointer is valid until the next failure in this
+/// thread; calls that succeed do not change the line.
 BRUME_API const char* brume_last_error(void) BRUME_NOEXCEPT;
 
-/// Returns the name of a result: "BRUME_OK"; "unknown" for a number that is none. A constant.
+/// Returns the name of a result, such as "BRUME_OK"; "unknown" for a number that is not a brume_result. The
+/// string is a constant.
 BRUME_API const char* brume_result_name(brume_result result) BRUME_NOEXCEPT;
 
 // ---- Context ----
@@ -103,37 +154,39 @@ typedef struct brume_receiver brume_receiver;
 typedef struct brume_field brume_field;
 
 /// Receives the line of each failed call with a handle of its context, as brume_last_error() returns it, and
-/// with BRUME_OK warnings, such as of a volume that is shown at a lower resolution. Called in the thread of
-/// that call, after its work, possibly by several threads at once; it may then call any function but the
-/// destruction of the handle in use. Warnings come also from threads that load volumes: there it must call
-/// none. `line` is valid during the call. It must not throw.
+/// warnings with BRUME_OK, for example when a volume is shown at a lower resolution. It is called in the
+/// thread of the failed call, after the call's work, possibly by several threads at once; it may then call
+/// any function except the destruction of the handle in use. Threads that load volumes report warnings, too;
+/// from such a thread it must call no function. `line` is valid during the callback, which must not throw.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
-/// What a context is created with.
+/// The settings of a new context.
 typedef struct brume_context_params {
   uint32_t struct_size;
   const void* next;
   uint32_t thread_count;   ///< Threads of one call, the caller's included: [1, 1024]; 0: one per core.
-  brume_log_callback log;  ///< Null: none.
+  brume_log_callback log;  ///< Null: no callback.
   void* log_user;          ///< Passed to `log`.
 } brume_context_params;
 
+/// Returns the defaults: one thread per core, no callback.
 static inline brume_context_params brume_context_defaults(void) {
-  brume_context_params params = {sizeof(brume_context_params), BRUME_NULL, 0, BRUME_NULL, BRUME_NULL};
+  brume_context_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_context_params);
   return params;
 }
 
-/// Creates a context, which everything else is created from. `params` may be null: the defaults.
+/// Creates a context, from which all other objects are created. `params` may be null: the defaults.
 BRUME_API brume_result brume_context_create(const brume_context_params* params,
                                             brume_context** context) BRUME_NOEXCEPT;
-/// Objects of the context live on, without its log callback: after this call it is not called again, unless a
-/// call in another thread is about to.
+/// Destroys a context; null is ignored. Objects of the context live on, without its log callback: the
+/// callback is not called again, unless a call in another thread is already about to call it.
 BRUME_API brume_result brume_context_destroy(brume_context* context) BRUME_NOEXCEPT;
 
 // ---- Levels ----
 
-/// Voxels per axis of the largest level.
-#define BRUME_MAX_AXIS 4096
+/// The largest number of voxels of a level along one axis.
+#define BRUME_MAX_LEVEL_AXIS 4096
 
 /// A voxel, or a size in voxels.
 typedef struct brume_voxel {
@@ -145,44 +198,41 @@ typedef struct brume_point {
   float x, y, z;  ///< Coordinate [m].
 } brume_point;
 
-/// Where the voxels of a level lie. All machines of a match must use the same bits.
+/// The position and size of a level's voxels. All machines of a match must use the same bits.
 typedef struct brume_layout {
-  brume_voxel size;    ///< Voxels per axis, each in [1, BRUME_MAX_AXIS].
-  float voxel_size;    ///< Edge of a voxel [m], [1/64, 64].
-  brume_point origin;  ///< Low corner of voxel (0, 0, 0) [m], each within +-16384.
+  brume_voxel size;    ///< Voxels per axis, each in [1, BRUME_MAX_LEVEL_AXIS].
+  float voxel_size;    ///< Edge length of a voxel [m], [1/64, 64].
+  brume_point origin;  ///< Low corner of voxel (0, 0, 0) [m], each coordinate within +-16384.
 } brume_layout;
 
-/// What a surface stops. Each role stops less than the one before it.
+/// The obstacle that a surface is. Each role stops less than the previous one.
 typedef enum brume_role {
-  BRUME_ROLE_WALL = 0,    ///< Smoke, sight, shots, bodies and thrown grenades.
-  BRUME_ROLE_GLASS = 1,   ///< The same without sight.
-  BRUME_ROLE_GRILLE = 2,  ///< Bodies and thrown grenades: a fence, leaves.
-  BRUME_ROLE_GHOST = 3    ///< Nothing.
+  BRUME_ROLE_WALL = 0,    ///< Stops smoke, sight, shots, bodies and thrown grenades.
+  BRUME_ROLE_GLASS = 1,   ///< Stops smoke, shots, bodies and thrown grenades, but not sight.
+  BRUME_ROLE_GRILLE = 2,  ///< Stops bodies and thrown grenades: a fence, leaves.
+  BRUME_ROLE_GHOST = 3    ///< Stops nothing.
 } brume_role;
 
 /// A level as solid voxels.
 typedef struct brume_voxels_params {
   uint32_t struct_size;
   const void* next;
-  brume_layout layout;  ///< Where the voxels lie.
+  brume_layout layout;  ///< The position and size of the voxels.
   /// One bit per voxel, 1 = solid, x fastest, then y, then z: voxel (x, y, z) is bit i % 8 of byte i / 8 with
   /// i = x + size.x * (y + size.y * z). Bits after the last voxel are ignored.
   const uint8_t* bits;
-  size_t byte_count;  ///< Of `bits`: (size.x * size.y * size.z + 7) / 8.
-  /// As many bytes, in the same order: which of the solid voxels are glass. Null: none, all are walls.
+  size_t byte_count;  ///< The size of `bits` in bytes: (size.x * size.y * size.z + 7) / 8.
+  /// As many bytes, in the same order: the solid voxels that are glass. Null: all are walls.
   const uint8_t* glass_bits;
-  /// Likewise: which of the others are grilles. Null: none.
+  /// As many bytes, in the same order: the voxels that are grilles, which are not set in `bits`. Null: none.
   const uint8_t* grille_bits;
 } brume_voxels_params;
 
+/// Returns the defaults: voxels of 0.5 m, origin 0. Set `layout.size`, `bits` and `byte_count`.
 static inline brume_voxels_params brume_voxels_defaults(void) {
-  brume_voxels_params params = {sizeof(brume_voxels_params),
-                                BRUME_NULL,
-                                {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}},
-                                BRUME_NULL,
-                                0,
-                                BRUME_NULL,
-                                BRUME_NULL};
+  brume_voxels_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_voxels_params);
+  params.layout.voxel_size = 0.5f;
   return params;
 }
 
@@ -190,53 +240,54 @@ static inline brume_voxels_params brume_voxels_defaults(void) {
 typedef struct brume_triangles_params {
   uint32_t struct_size;
   const void* next;
-  /// With size (0, 0, 0), the smallest layout around all triangles with `margin` voxels on every side and an
-  /// origin that is a multiple of voxel_size; the given origin is ignored then.
+  /// With size (0, 0, 0), the level has the smallest layout around all triangles with `margin` voxels on
+  /// every side and an origin that is a multiple of voxel_size; the given origin is then ignored.
   brume_layout layout;
-  uint32_t margin;            ///< Voxels, [0, 256].
-  const brume_point* points;  ///< Corners [m], finite.
-  size_t point_count;         ///< Of `points`.
-  /// Three numbers of points for each triangle, in any winding. Triangles without area are allowed.
+  uint32_t margin;            ///< Free voxels on every side, [0, 256].
+  const brume_point* points;  ///< Corners of the triangles [m], finite.
+  size_t point_count;         ///< Number of `points`, at most 2^28.
+  /// Three indices into `points` for each triangle, in any winding. Triangles without area are allowed.
   const uint32_t* indices;
-  size_t index_count;  ///< A multiple of 3.
-  /// The brume_role of each triangle: index_count / 3 of them. A voxel has the role that stops most of those
-  /// that touch it. Null: all are walls.
+  size_t index_count;  ///< Number of `indices`: a multiple of 3, at most 2^28.
+  /// The brume_role of each triangle, index_count / 3 bytes. A voxel that several triangles touch has the
+  /// role that stops most. Null: all are walls.
   const uint8_t* roles;
 } brume_triangles_params;
 
+/// Returns the defaults: voxels of 0.5 m, a layout around all triangles with a margin of 2 voxels. Set the
+/// points and the indices.
 static inline brume_triangles_params brume_triangles_defaults(void) {
-  brume_triangles_params params = {sizeof(brume_triangles_params),
-                                   BRUME_NULL,
-                                   {{0, 0, 0}, 0.5f, {0.0f, 0.0f, 0.0f}},
-                                   2,
-                                   BRUME_NULL,
-                                   0,
-                                   BRUME_NULL,
-                                   0,
-                                   BRUME_NULL};
+  brume_triangles_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_triangles_params);
+  params.layout.voxel_size = 0.5f;
+  params.margin = 2;
   return params;
 }
 
-/// Creates a level from solid voxels. Smoke ends at their faces.
+/// Creates a level from solid voxels. Smoke ends at their faces. Errors: BRUME_ERROR_LIMIT when an axis
+/// exceeds BRUME_MAX_LEVEL_AXIS.
 BRUME_API brume_result brume_level_create_from_voxels(brume_context* context,
                                                       const brume_voxels_params* params,
                                                       brume_level** level) BRUME_NOEXCEPT;
-/// Creates a level from the triangles of its collision mesh: every voxel that a wall or glass touches is
+/// Creates a level from the triangles of its collision mesh. Every voxel that a wall or glass touches is
 /// solid, exactly, and smoke ends at the surface of the triangles, not at the grid. The same triangles, roles
 /// and layout give the same level on every machine. Errors: BRUME_ERROR_LIMIT when an axis would exceed
-/// BRUME_MAX_AXIS.
+/// BRUME_MAX_LEVEL_AXIS.
 BRUME_API brume_result brume_level_create_from_triangles(brume_context* context,
                                                          const brume_triangles_params* params,
                                                          brume_level** level) BRUME_NOEXCEPT;
+/// Destroys a level; null is ignored. Its worlds and fields live on.
 BRUME_API brume_result brume_level_destroy(brume_level* level) BRUME_NOEXCEPT;
 
 /// Writes the layout of the level.
 BRUME_API brume_result brume_level_layout(const brume_level* level, brume_layout* layout) BRUME_NOEXCEPT;
-/// Writes which voxels of the box [low, high) are solid as loaded, walls or glass: 1 or 0 each, x fastest,
-/// then y, then z. The box must lie in the level and have a voxel; `count` is the number of its voxels.
+/// Writes 1 for each voxel of the box [low, high) that is a wall or glass in the level as loaded, without the
+/// edits of any world, else 0; x fastest, then y, then z. The box must lie in the level and contain a voxel;
+/// `count` is the number of its voxels.
 BRUME_API brume_result brume_level_solid(const brume_level* level, brume_voxel low, brume_voxel high,
                                          uint8_t* solid, size_t count) BRUME_NOEXCEPT;
-/// Writes the brume_role of each voxel of a box, likewise; BRUME_ROLE_GHOST where it is free.
+/// Writes the brume_role of each voxel of the box [low, high), BRUME_ROLE_GHOST where a voxel is free. Order,
+/// box and `count` are as in brume_level_solid.
 BRUME_API brume_result brume_level_roles(const brume_level* level, brume_voxel low, brume_voxel high,
                                          uint8_t* roles, size_t count) BRUME_NOEXCEPT;
 
@@ -244,34 +295,79 @@ BRUME_API brume_result brume_level_roles(const brume_level* level, brume_voxel l
 
 /// An image of how much smoke a shot removes.
 typedef struct brume_mask_image {
-  uint32_t width, height;  ///< [1, 4094] texels.
-  const uint8_t* texels;   ///< width * height, rows from the top: 255 removes all smoke, 0 none.
+  uint32_t width, height;  ///< Size in texels, each in [1, 4094].
+  const uint8_t* texels;   ///< width * height bytes, rows from the top: 255 removes all smoke, 0 none.
 } brume_mask_image;
 
-/// Creates a set of masks; shots refer to them by their place in `images`. At most 65,536; together they must
-/// fit into 4096 x 4096 texels (BRUME_ERROR_LIMIT). Sender and receiver need the same set.
+/// Creates a set of masks; brume_shot_event::mask_index is an index into `images`, which are copied. At most
+/// 65,536 images. Sender and receiver need the same set. Errors: BRUME_ERROR_LIMIT when the images do not fit
+/// into 4096 x 4096 texels together.
 BRUME_API brume_result brume_masks_create(brume_context* context, const brume_mask_image* images,
                                           size_t count, brume_masks** masks) BRUME_NOEXCEPT;
+/// Destroys a set of masks; null is ignored. Worlds, fields and renderers that use it live on.
 BRUME_API brume_result brume_masks_destroy(brume_masks* masks) BRUME_NOEXCEPT;
 
-// ---- Worlds ----
+// ---- Lengths and amounts of events ----
 
-/// Largest tick: 97 days at 64 ticks per second.
-#define BRUME_MAX_TICK 536870912u
-/// Most events of one call.
-#define BRUME_MAX_EVENTS 1048576u
-/// Largest coordinate of a position: 16384 m.
+/// The largest coordinate of a position and the largest length of an event [1/1024 m]: 16384 m.
 #define BRUME_MAX_COORDINATE 16777216
+/// The largest amount of one smoke [voxels].
+#define BRUME_MAX_SMOKE_VOXELS 134217728u
 
 /// A position of an event [1/1024 m], each coordinate within +-BRUME_MAX_COORDINATE.
 typedef struct brume_position {
   int32_t x, y, z;  ///< Coordinate [1/1024 m].
 } brume_position;
 
-/// Rounds a point [m] to the nearest position. Fails with BRUME_ERROR_ARGUMENT when it is not finite or
-/// farther than 16384 m from the origin on an axis.
+/// Rounds a point [m] to the nearest position. Errors: BRUME_ERROR_ARGUMENT when a coordinate is not finite
+/// or beyond +-16384 m.
 BRUME_API brume_result brume_position_from_metres(double x, double y, double z,
                                                   brume_position* position) BRUME_NOEXCEPT;
+
+/// Returns the integer nearest to `value`, halves rounded up, clamped to [low, high]; `low` for NaN.
+static inline uint32_t brume_rounded(double value, uint32_t low, uint32_t high) {
+  if (!(value > low)) return low;
+  if (value >= high) return high;
+  const uint32_t whole = BRUME_CAST(uint32_t, value);
+  return value - whole >= 0.5 ? whole + 1 : whole;
+}
+
+/// Returns a length [m] in 1/1024 m, rounded to the nearest, clamped to [0, BRUME_MAX_COORDINATE]; 0 for NaN.
+/// The same function converts a speed from m/s to 1/1024 m/s.
+static inline uint32_t brume_length(double metres) {
+  return brume_rounded(metres * 1024.0, 0, BRUME_MAX_COORDINATE);
+}
+
+/// Returns the number of voxels with an edge of voxel_size [m] that an amount of smoke [m^3] fills, rounded
+/// to the nearest, clamped to [1, BRUME_MAX_SMOKE_VOXELS]; 1 where an argument is NaN or voxel_size is not
+/// above 0. Pass brume_layout::voxel_size of the level: the same amount then fills the same volume in any
+/// level.
+static inline uint32_t brume_smoke_voxels(double cubic_metres, double voxel_size) {
+  if (!(voxel_size > 0.0)) return 1;
+  return brume_rounded(cubic_metres / (voxel_size * voxel_size * voxel_size), 1, BRUME_MAX_SMOKE_VOXELS);
+}
+
+// ---- Events ----
+//
+// A state lists the effects of the events up to its tick. The id of a grenade, cloud, hole or blast is the
+// number of its event, in the order in which events take effect, from 0: the same on all machines.
+//
+//   event               effect in a state                      begins with        ends when
+//   BRUME_EVENT_SMOKE   brume_grenade (brume_state_grenades)   the throw          it detonates
+//                       brume_cloud (brume_state_clouds)       the detonation     it has dissolved
+//   BRUME_EVENT_SHOT    brume_hole (brume_state_holes)         the shot           it has closed
+//   BRUME_EVENT_BLAST   brume_blast (brume_state_blasts)       the explosion      its cavity has refilled
+//   BRUME_EVENT_MOVE    brume_body (brume_state_bodies)        the first move     never
+//   BRUME_EVENT_EDIT    the edited level, in no list:          the edit           another edit restores
+//                       brume_field_update takes it over                          the voxels
+//
+// An event may have no effect: a grenade whose path misses the level, a shot that meets no smoke, an
+// explosion inside a wall, an edit that changes no voxel.
+
+/// The largest tick: 97 days at 64 ticks per second.
+#define BRUME_MAX_TICK 536870912u
+/// The largest number of events of one call.
+#define BRUME_MAX_EVENTS 1048576u
 
 typedef enum brume_event_kind {
   BRUME_EVENT_SMOKE = 1,
@@ -287,59 +383,63 @@ typedef enum brume_hole_shape {
   BRUME_HOLE_MASK = 2
 } brume_hole_shape;
 
-/// A smoke grenade is thrown from `from`. It flies straight at 20 m/s through `at` to the first wall, glass
-/// or grille, and detonates in the free voxel before it; without one, at `at`.
+/// A smoke grenade is thrown. It flies straight at 20 m/s from `from` through `at` to the first wall, glass
+/// or grille, and detonates in the last free voxel in front of it; without an obstacle it detonates at `at`.
+/// Times are in ticks, because smoke spreads from tick to tick.
 typedef struct brume_smoke_event {
-  brume_position from, at;  ///< Where it is thrown from, and at.
-  uint32_t voxels;          ///< Amount of smoke: voxels that it fills, [1, 2^27].
-  uint32_t bloom_ticks;     ///< From the detonation to the full amount, [1, BRUME_MAX_TICK].
-  uint32_t hold_ticks;      ///< Then to the start of the dissolve, [0, BRUME_MAX_TICK].
-  uint32_t dissolve_ticks;  ///< Then to its end, [1, BRUME_MAX_TICK].
+  brume_position from, at;  ///< Start of the flight, and a point on its path.
+  uint32_t voxels;          ///< Amount of smoke, [1, BRUME_MAX_SMOKE_VOXELS]: brume_smoke_voxels().
+  uint32_t bloom_ticks;     ///< Time from the detonation to the full amount, [1, BRUME_MAX_TICK].
+  uint32_t hold_ticks;      ///< Time from the full amount to the start of the dissolve, [0, BRUME_MAX_TICK].
+  uint32_t dissolve_ticks;  ///< Time from the start of the dissolve to its end, [1, BRUME_MAX_TICK].
 } brume_smoke_event;
 
-/// A bullet bores a hole into the smoke that is there at this tick. Times are at most 2^30 ms.
+/// A bullet bores a hole into the smoke that is present at this tick. Times are in ms, because a hole is
+/// drawn at any time between two ticks; each is at most 2^30.
 typedef struct brume_shot_event {
-  brume_position origin, toward;  ///< Must differ.
-  uint32_t radius;                ///< Half the edge of a box or mask [1/1024 m], [1, BRUME_MAX_COORDINATE].
-  uint32_t reach_far_ms;          ///< Until the hole is open along its whole length.
-  uint32_t expand_ms;             ///< At each place, until it has its full radius.
-  uint32_t stay_open_ms;          ///< How long it then stays open.
-  uint32_t fade_ms;               ///< How long it then takes to close.
-  uint32_t shape;                 ///< brume_hole_shape.
-  uint32_t mask;                  ///< Number in the masks of the world; 0 unless the shape is a mask.
-  uint32_t roll;                  ///< Clockwise as the shooter sees it [1/65536 turn], [0, 65535].
+  brume_position origin, toward;  ///< The muzzle and a point on the bullet's path; they must differ.
+  /// Radius of a cylinder, half the edge of a box or mask [1/1024 m], [1, BRUME_MAX_COORDINATE]:
+  /// brume_length().
+  uint32_t radius_1024;
+  uint32_t reach_far_ms;  ///< Time until the hole is open along its whole length.
+  uint32_t expand_ms;     ///< Time until the hole, once open at a place, has its full radius there.
+  uint32_t stay_open_ms;  ///< Time for which the hole then stays open.
+  uint32_t fade_ms;       ///< Time in which the hole then closes.
+  uint32_t shape;         ///< A brume_hole_shape.
+  uint32_t mask_index;    ///< Index into the masks of the world; 0 unless the shape is BRUME_HOLE_MASK.
+  uint32_t roll_65536;    ///< Clockwise rotation as the shooter sees it [1/65536 turn], [0, 65535].
 } brume_shot_event;
 
-/// An explosion drives the smoke away from all that is visible from it.
+/// An explosion drives the smoke out of every voxel that is visible from it. Times are in ms, as for shots.
 typedef struct brume_blast_event {
-  brume_position at;          ///< The centre.
-  uint32_t radius;            ///< [1/1024 m], from 1 to 64 voxels.
-  uint32_t speed;             ///< Of the front [1/1024 m/s], [1024, 2^24].
-  uint32_t remaining;         ///< Density that remains, of 255, [0, 255].
-  uint32_t refill_rim_ms;     ///< Until the rim is full again, [1, 2^30].
-  uint32_t refill_middle_ms;  ///< Until the middle is, [refill_rim_ms, 2^30].
+  brume_position at;          ///< The centre of the explosion.
+  uint32_t radius_1024;       ///< Radius of the cavity [1/1024 m], from 1 to 64 voxels: brume_length().
+  uint32_t speed_1024;        ///< Speed of its front [1/1024 m/s], [1024, 2^24]: brume_length().
+  uint32_t remaining_255;     ///< Fraction of the density that remains inside [1/255], [0, 255].
+  uint32_t refill_rim_ms;     ///< Time until the rim is full again, [1, 2^30].
+  uint32_t refill_middle_ms;  ///< Time until the middle is full again, [refill_rim_ms, 2^30].
 } brume_blast_event;
 
 /// A player or object moves. Its first move places it.
 typedef struct brume_move_event {
-  uint32_t body;      ///< A number of the caller's choice.
+  uint32_t body;      ///< The caller's number for the player or object.
   brume_position to;  ///< Its new position.
 } brume_move_event;
 
-/// The level changes: all voxels of the box [low, high) become wall or free of all roles. A door opens, a
-/// wall breaks. The part of the box outside of the level is ignored; the box must have a voxel. In an edited
-/// voxel, smoke ends at the voxel's faces.
+/// The level changes, because a door opens or a wall breaks: all voxels of the box [low, high) become walls,
+/// or free of all roles. The part of the box outside the level is ignored; the box must contain a voxel.
+/// Smoke ends at the faces of edited voxels.
 typedef struct brume_edit_event {
   brume_voxel low, high;  ///< The box [low, high).
-  uint32_t solid;         ///< 1: solid, 0: free.
+  uint32_t solid;         ///< 1: the voxels become walls; 0: they become free.
 } brume_edit_event;
 
 /// An event of a world's log.
 typedef struct brume_event {
   uint32_t struct_size;  ///< sizeof(brume_event), in every version: new kinds fit into `reserved`.
   const void* next;
-  uint32_t kind;  ///< brume_event_kind: which member of the union counts.
-  uint32_t tick;  ///< [0, BRUME_MAX_TICK].
+  uint32_t kind;  ///< A brume_event_kind: it selects the member of `u`.
+  uint32_t tick;  ///< The tick at which the event takes effect, [0, BRUME_MAX_TICK].
   union {
     brume_smoke_event smoke;
     brume_shot_event shot;
@@ -347,85 +447,96 @@ typedef struct brume_event {
     brume_move_event move;
     brume_edit_event edit;
     uint32_t reserved[32];
-  } u;  ///< What the event holds, by its kind.
+  } u;  ///< The contents of the event, by its kind.
 } brume_event;
 
-/// An event of a kind (brume_event_kind) at a tick with the default settings of that kind and all positions
-/// 0. The defaults of ticks are 1 s, 18 s and 3 s at 64 ticks per second.
+/// Returns an event of a kind (brume_event_kind) at a tick with the defaults of that kind. All positions are
+/// 0: set them. A smoke fills 225 m^3 where voxels have edges of 0.5 m, blooms for 1 s, holds for 18 s and
+/// dissolves for 3 s at 64 ticks per second.
 static inline brume_event brume_event_defaults(uint32_t kind, uint32_t tick) {
-  brume_event event = {sizeof(brume_event), BRUME_NULL, kind, tick, {{{0, 0, 0}, {0, 0, 0}, 0, 0, 0, 0}}};
+  brume_event event = BRUME_ZERO;
   for (int i = 0; i < 32; ++i) event.u.reserved[i] = 0;
+  event.struct_size = sizeof(brume_event);
+  event.kind = kind;
+  event.tick = tick;
   if (kind == BRUME_EVENT_SMOKE) {
-    event.u.smoke.voxels = 1800;
+    event.u.smoke.voxels = brume_smoke_voxels(225.0, 0.5);
     event.u.smoke.bloom_ticks = 64;
-    event.u.smoke.hold_ticks = 1152;
-    event.u.smoke.dissolve_ticks = 192;
+    event.u.smoke.hold_ticks = 18 * 64;
+    event.u.smoke.dissolve_ticks = 3 * 64;
   } else if (kind == BRUME_EVENT_SHOT) {
-    event.u.shot.radius = 205;
+    event.u.shot.radius_1024 = brume_length(0.2);
     event.u.shot.reach_far_ms = 250;
     event.u.shot.expand_ms = 50;
     event.u.shot.stay_open_ms = 1000;
     event.u.shot.fade_ms = 350;
   } else if (kind == BRUME_EVENT_BLAST) {
-    event.u.blast.radius = 5 * 1024;
-    event.u.blast.speed = 32 * 1024;
-    event.u.blast.remaining = 5;
+    event.u.blast.radius_1024 = brume_length(5.0);
+    event.u.blast.speed_1024 = brume_length(32.0);
+    event.u.blast.remaining_255 = 5;
     event.u.blast.refill_rim_ms = 500;
     event.u.blast.refill_middle_ms = 5000;
   }
   return event;
 }
 
-/// What a world is created with.
+// ---- Worlds ----
+
+/// The settings of a new world.
 typedef struct brume_world_params {
   uint32_t struct_size;
   const void* next;
-  uint32_t ticks_per_second;  ///< [1, 1000].
-  const brume_masks* masks;   ///< For shots; null: none.
+  uint32_t ticks_per_second;  ///< The tick rate, [1, 1000].
+  const brume_masks* masks;   ///< The masks that shots may use; null: none.
 } brume_world_params;
 
+/// Returns the defaults: 64 ticks per second, no masks.
 static inline brume_world_params brume_world_defaults(void) {
-  brume_world_params params = {sizeof(brume_world_params), BRUME_NULL, 64, BRUME_NULL};
+  brume_world_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_world_params);
+  params.ticks_per_second = 64;
   return params;
 }
 
 /// Creates a world at tick 0, without events. `params` may be null: the defaults.
 BRUME_API brume_result brume_world_create(const brume_level* level, const brume_world_params* params,
                                           brume_world** world) BRUME_NOEXCEPT;
+/// Destroys a world; null is ignored. Its states live on.
 BRUME_API brume_result brume_world_destroy(brume_world* world) BRUME_NOEXCEPT;
 
-/// Adds events to the log, all or none. Those at or before the present tick change the past: the world rolls
-/// back once and replays to the present, with the same result as if they had come in time. Events of one tick
-/// take effect in the order appended.
-/// Errors: BRUME_ERROR_HISTORY for an event of a tick that brume_world_forget_before or brume_world_restore
-/// has dropped.
+/// Adds events to the log, all or none, at most BRUME_MAX_EVENTS. Events at or before the present tick change
+/// the past: the world rolls back once and replays to the present, with the same result as if they had come
+/// in time. Events of one tick take effect in the order in which they were appended. Errors:
+/// BRUME_ERROR_HISTORY for an event of a tick that brume_world_forget_before or brume_world_restore has
+/// dropped.
 BRUME_API brume_result brume_world_append(brume_world* world, const brume_event* events,
                                           size_t count) BRUME_NOEXCEPT;
-/// Replaces all events at or after `tick` by others, each of that tick or later: a prediction is corrected.
-/// Otherwise as brume_world_append.
+/// Replaces all events at or after `tick` by others, each of that tick or later; a client corrects its
+/// prediction with it. Otherwise it works and fails as brume_world_append does.
 BRUME_API brume_result brume_world_replace_from(brume_world* world, uint32_t tick, const brume_event* events,
                                                 size_t count) BRUME_NOEXCEPT;
 
-/// Moves to a tick, forwards or backwards. Costs time only for ticks at which something starts or ends.
-/// Errors: BRUME_ERROR_HISTORY for a tick before brume_world_earliest_tick.
+/// Moves the world to a tick in [0, BRUME_MAX_TICK], forwards or backwards. Only ticks at which an effect
+/// starts or ends cost time. Errors: BRUME_ERROR_HISTORY for a tick before brume_world_earliest_tick.
 BRUME_API brume_result brume_world_advance_to(brume_world* world, uint32_t tick) BRUME_NOEXCEPT;
-/// Moves to the next tick.
+/// Moves the world to the next tick.
 BRUME_API brume_result brume_world_step(brume_world* world) BRUME_NOEXCEPT;
 /// Writes the present tick.
 BRUME_API brume_result brume_world_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT;
-/// Writes the earliest tick that the world can roll back to.
+/// Writes the earliest tick to which the world can roll back.
 BRUME_API brume_result brume_world_earliest_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT;
-/// Drops history before the last checkpoint at or before `tick`, which becomes the earliest tick; in a busy
-/// match checkpoints are about 64 ticks apart. Cheap; to be called every tick, or memory grows with the
-/// length of the match.
+/// Drops the history before the last checkpoint at or before `tick`, which becomes the earliest tick; in a
+/// busy match checkpoints are about 64 ticks apart. Call it every tick: without it, memory grows with the
+/// length of the match. The call is cheap.
 BRUME_API brume_result brume_world_forget_before(brume_world* world, uint32_t tick) BRUME_NOEXCEPT;
-/// Writes the hash of the present state: equal states have equal hashes on every machine.
+/// Writes the hash of the present state. Equal states have equal hashes on every machine.
 BRUME_API brume_result brume_world_hash(const brume_world* world, uint64_t* hash) BRUME_NOEXCEPT;
 
-/// Creates a snapshot of the present state. Cheap: clouds are shared, not copied.
+/// Creates a snapshot of the present state. The call is cheap, because clouds are shared instead of copied.
 BRUME_API brume_result brume_world_state(const brume_world* world, brume_state** state) BRUME_NOEXCEPT;
-/// Adopts a state of a world with the same layout, ticks per second and masks (else BRUME_ERROR_MISMATCH).
-/// Events up to its tick are dropped from the log, later ones remain; its tick becomes the earliest one.
+/// Makes `state` the present state. Events up to its tick are dropped from the log, later ones remain; its
+/// tick becomes the earliest one. Errors: BRUME_ERROR_MISMATCH when the state comes from a world with another
+/// layout, other ticks per second or other masks.
 BRUME_API brume_result brume_world_restore(brume_world* world, const brume_state* state) BRUME_NOEXCEPT;
 
 // ---- States: immutable snapshots ----
@@ -433,97 +544,107 @@ BRUME_API brume_result brume_world_restore(brume_world* world, const brume_state
 /// Counts and times of a state.
 typedef struct brume_state_info {
   uint32_t tick;              ///< The tick of the state.
-  uint32_t ticks_per_second;  ///< As of its world.
-  uint32_t event_count;       ///< Events so far.
+  uint32_t ticks_per_second;  ///< The tick rate of its world.
+  uint32_t event_count;       ///< Events that have taken effect so far.
   uint32_t grenade_count;     ///< Grenades in the air.
-  uint32_t cloud_count;       ///< Smokes.
+  uint32_t cloud_count;       ///< Clouds of smoke.
   uint32_t blast_count;       ///< Cavities of explosions.
   uint32_t hole_count;        ///< Holes of shots.
   uint32_t body_count;        ///< Bodies.
 } brume_state_info;
 
+/// Destroys a state; null is ignored. Fields, senders and worlds that took it over have their own copy.
 BRUME_API brume_result brume_state_destroy(brume_state* state) BRUME_NOEXCEPT;
 /// Writes counts and times.
 BRUME_API brume_result brume_state_describe(const brume_state* state, brume_state_info* info) BRUME_NOEXCEPT;
-/// As brume_world_hash.
+/// Writes the hash of the state, as brume_world_hash does.
 BRUME_API brume_result brume_state_hash(const brume_state* state, uint64_t* hash) BRUME_NOEXCEPT;
-/// Writes the state as bytes, a keyframe of the wire format: a grown cloud takes a few hundred. Equal states
-/// give equal bytes. The first call encodes, further ones copy.
+/// Writes the state as bytes, a keyframe of the wire format; a grown cloud takes a few hundred bytes. Equal
+/// states give equal bytes. The first call encodes, further calls copy.
 BRUME_API brume_result brume_state_save(const brume_state* state, void* buffer, size_t capacity,
                                         size_t* size) BRUME_NOEXCEPT;
-/// Creates a state from the bytes of brume_state_save, which need not be trusted: BRUME_ERROR_DATA when they
-/// are damaged or describe a state that no world has. At most 16 MiB and 2^26 voxels.
+/// Creates a state from the bytes that brume_state_save wrote. At most 16 MiB and 2^26 voxels. The bytes need
+/// not be trusted. Errors: BRUME_ERROR_DATA when they are damaged or describe a state that no world can have.
 BRUME_API brume_result brume_state_load(brume_context* context, const void* bytes, size_t size,
                                         brume_state** state) BRUME_NOEXCEPT;
 
-/// A grenade in the air. An id is the number of the event that something comes from, the same on all
-/// machines.
+/// A grenade in the air.
 typedef struct brume_grenade {
-  uint32_t id;                           ///< Its cloud will have the same.
-  uint32_t throw_tick, detonation_tick;  ///< When its flight begins and ends.
-  brume_voxel landing;                   ///< Where it detonates.
-  brume_point position;                  ///< At the state's tick [m].
+  uint32_t id;                           ///< Number of its event. Its cloud will have the same id.
+  uint32_t throw_tick, detonation_tick;  ///< Start and end of its flight.
+  brume_voxel landing;                   ///< The voxel in which it detonates.
+  brume_point position;                  ///< Its position at the state's tick [m].
 } brume_grenade;
 
-/// A smoke.
+/// The smoke of one grenade.
 typedef struct brume_cloud {
   uint32_t id;               ///< Number of its event.
-  uint32_t detonation_tick;  ///< When it began to bloom.
-  uint32_t end_tick;         ///< When the last of it is gone.
-  brume_voxel source;        ///< Where it detonated.
-  brume_voxel low, high;     ///< Around all voxels that it may fill at some tick, [low, high).
+  uint32_t detonation_tick;  ///< Start of the bloom.
+  uint32_t end_tick;         ///< End of the dissolve: from this tick on the cloud is not listed.
+  brume_voxel source;        ///< The voxel of the detonation.
+  brume_voxel low, high;     ///< A box [low, high) around all voxels that it may fill at any tick.
 } brume_cloud;
 
 /// The cavity of an explosion.
 typedef struct brume_blast {
   uint32_t id;            ///< Number of its event.
-  uint32_t tick;          ///< When it exploded.
-  uint32_t end_tick;      ///< When it has refilled.
-  brume_position centre;  ///< Where it exploded.
-  uint32_t radius;        ///< [1/1024 m]
+  uint32_t tick;          ///< The tick of the explosion.
+  uint32_t end_tick;      ///< The tick from which on the cavity is full again, and not listed.
+  brume_position centre;  ///< The centre of the explosion.
+  uint32_t radius_1024;   ///< Its radius [1/1024 m].
 } brume_blast;
 
-/// A hole of a shot.
+/// The hole of a shot.
 typedef struct brume_hole {
   uint32_t id;                    ///< Number of its event.
-  uint32_t tick;                  ///< Of the shot.
-  brume_position origin, toward;  ///< Where the shot came from, and a point along it.
-  uint32_t radius;                ///< [1/1024 m]
-  uint32_t distance;              ///< Depth from the origin [1/1024 m].
-  uint32_t shape;                 ///< brume_hole_shape.
-  uint32_t mask, roll;            ///< As of brume_shot_event.
+  uint32_t tick;                  ///< The tick of the shot.
+  brume_position origin, toward;  ///< The muzzle and a point on the bullet's path.
+  uint32_t radius_1024;           ///< Radius, or half the edge [1/1024 m].
+  uint32_t distance_1024;         ///< Depth of the hole from the muzzle [1/1024 m].
+  uint32_t shape;                 ///< A brume_hole_shape.
+  uint32_t mask_index;            ///< As in brume_shot_event.
+  uint32_t roll_65536;            ///< As in brume_shot_event.
 } brume_hole;
 
-/// A body, and where it was before its last move.
+/// A body, with its last two positions.
 typedef struct brume_body {
-  uint32_t body;                      ///< The caller's number.
-  uint32_t tick, previous_tick;       ///< When it moved, and the time before.
-  brume_position position, previous;  ///< Its positions after these moves.
+  uint32_t body;                               ///< The caller's number.
+  uint32_t tick, previous_tick;                ///< The ticks of its last move and of the move before.
+  brume_position position, previous_position;  ///< Its positions after these moves.
 } brume_body;
 
-/// Write what a state holds, by rising id (bodies: by rising number).
+/// Writes the grenades in the air, by rising id.
 BRUME_API brume_result brume_state_grenades(const brume_state* state, brume_grenade* grenades,
                                             size_t capacity, size_t* count) BRUME_NOEXCEPT;
+/// Writes the clouds, by rising id.
 BRUME_API brume_result brume_state_clouds(const brume_state* state, brume_cloud* clouds, size_t capacity,
                                           size_t* count) BRUME_NOEXCEPT;
+/// Writes the cavities of explosions, by rising id.
 BRUME_API brume_result brume_state_blasts(const brume_state* state, brume_blast* blasts, size_t capacity,
                                           size_t* count) BRUME_NOEXCEPT;
+/// Writes the holes of shots, by rising id.
 BRUME_API brume_result brume_state_holes(const brume_state* state, brume_hole* holes, size_t capacity,
                                          size_t* count) BRUME_NOEXCEPT;
+/// Writes the bodies, by rising number.
 BRUME_API brume_result brume_state_bodies(const brume_state* state, brume_body* bodies, size_t capacity,
                                           size_t* count) BRUME_NOEXCEPT;
 
 // ---- Packets ----
 
-/// What a sender is created with.
+/// The settings of a new sender.
 typedef struct brume_sender_params {
   uint32_t struct_size;
   const void* next;
-  uint32_t history;  ///< States retained for answers, [1, 65536]. 128 ticks: two seconds.
+  /// Number of past states from which it can answer a receiver with a difference, [1, 65536]. A receiver that
+  /// is further behind gets a whole state.
+  uint32_t history;
 } brume_sender_params;
 
+/// Returns the defaults: a history of 128 states, two seconds at 64 ticks per second.
 static inline brume_sender_params brume_sender_defaults(void) {
-  brume_sender_params params = {sizeof(brume_sender_params), BRUME_NULL, 128};
+  brume_sender_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_sender_params);
+  params.history = 128;
   return params;
 }
 
@@ -531,153 +652,179 @@ static inline brume_sender_params brume_sender_defaults(void) {
 /// `params` may be null: the defaults.
 BRUME_API brume_result brume_sender_create(brume_context* context, const brume_sender_params* params,
                                            brume_sender** sender) BRUME_NOEXCEPT;
+/// Destroys a sender; null is ignored.
 BRUME_API brume_result brume_sender_destroy(brume_sender* sender) BRUME_NOEXCEPT;
-/// Takes the state of a tick, above the last one's (else BRUME_ERROR_ORDER) and of the same world (else
-/// BRUME_ERROR_MISMATCH), and makes its packet: the difference from the last state, or all of the first one.
-/// A state with fewer events than the last one starts a new world.
+/// Takes the state of a tick and makes its packet: the difference from the last state, or the whole state on
+/// the first call. A state with fewer events than the last one starts a new world. Errors: BRUME_ERROR_ORDER
+/// unless its tick is above the last one's; BRUME_ERROR_MISMATCH when it is of another world.
 BRUME_API brume_result brume_sender_push(brume_sender* sender, const brume_state* state) BRUME_NOEXCEPT;
-/// Writes the packet of the last state pushed, to be sent to every receiver. BRUME_ERROR_ORDER before that.
+/// Writes the packet of the last state pushed, to be sent to every receiver. Errors: BRUME_ERROR_ORDER before
+/// the first push.
 BRUME_API brume_result brume_sender_packet(const brume_sender* sender, void* buffer, size_t capacity,
                                            size_t* size) BRUME_NOEXCEPT;
 /// Writes the answer to a receiver's request, to be sent to that receiver: 0 bytes when it is up to date. The
-/// request need not be trusted: BRUME_ERROR_DATA when it is not one. BRUME_ERROR_ORDER before the first push.
+/// request need not be trusted. Errors: BRUME_ERROR_DATA when it is not a request; BRUME_ERROR_ORDER before
+/// the first push.
 BRUME_API brume_result brume_sender_answer(brume_sender* sender, const void* request, size_t request_size,
                                            void* buffer, size_t capacity, size_t* size) BRUME_NOEXCEPT;
 
-/// Limits of a receiver.
+/// The limits of a receiver. A packet above a limit is BRUME_ERROR_DATA.
 typedef struct brume_receiver_params {
   uint32_t struct_size;
   const void* next;
-  uint64_t max_bytes;   ///< Of one packet.
-  uint64_t max_voxels;  ///< Of all smoke of one packet.
-  uint64_t max_items;   ///< Of each list in a packet.
+  uint64_t max_bytes;   ///< Bytes of one packet, [1, 2^24].
+  uint64_t max_voxels;  ///< Voxels of all smoke in one packet, [1, 2^26].
+  uint64_t max_items;   ///< Elements of each list in a packet, [1, 2^20].
 } brume_receiver_params;
 
+/// Returns the defaults, which are also the largest limits.
 static inline brume_receiver_params brume_receiver_defaults(void) {
-  brume_receiver_params params = {sizeof(brume_receiver_params), BRUME_NULL, 16777216u, 67108864u, 1048576u};
+  brume_receiver_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_receiver_params);
+  params.max_bytes = 16777216u;
+  params.max_voxels = 67108864u;
+  params.max_items = 1048576u;
   return params;
 }
 
 typedef enum brume_reception {
-  BRUME_RECEPTION_APPLIED = 0,  ///< The receiver's state is now that of the packet.
-  BRUME_RECEPTION_OLD = 1,      ///< Ignored: its state is of that tick or a later one.
-  BRUME_RECEPTION_MISSED = 2  ///< Ignored: the state that the packet starts from is missing. Send a request.
+  BRUME_RECEPTION_APPLIED = 0,  ///< The receiver now has the packet's state.
+  BRUME_RECEPTION_OLD = 1,      ///< Ignored: the receiver has this state or a later one.
+  BRUME_RECEPTION_MISSED = 2    ///< Ignored: the state on which the packet builds is missing. Send a request.
 } brume_reception;
 
-/// Creates the receiving side, which requires neither level nor world. `params` may be null: the defaults,
-/// which are also the largest values.
+/// Creates the receiving side, which requires neither level nor world. `params` may be null: the defaults.
 BRUME_API brume_result brume_receiver_create(brume_context* context, const brume_receiver_params* params,
                                              brume_receiver** receiver) BRUME_NOEXCEPT;
+/// Destroys a receiver; null is ignored. Its states live on.
 BRUME_API brume_result brume_receiver_destroy(brume_receiver* receiver) BRUME_NOEXCEPT;
-/// Processes a packet or answer, in any order and with gaps, and writes what became of it. It need not be
-/// trusted: BRUME_ERROR_DATA when it is damaged or gives another state than the sender's; the receiver's
-/// state is then unchanged and brume_receiver_behind reports 1. `reception` may be null.
+/// Processes a packet or an answer, in any order and with gaps, and writes the brume_reception; `reception`
+/// may be null. The packet need not be trusted. Errors: BRUME_ERROR_DATA when it is damaged or gives another
+/// state than the sender's; the receiver's state is then unchanged, and brume_receiver_behind writes 1.
 BRUME_API brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet, size_t size,
                                               uint32_t* reception) BRUME_NOEXCEPT;
-/// Writes 1 when a state is known to be missing, else 0: send a request every few ticks until it is 0, and
-/// also when no packet has arrived for a while.
+/// Writes 1 when the receiver has detected that a state is missing, else 0. Send a request every few ticks
+/// until it is 0, and also when no packet has arrived for a while.
 BRUME_API brume_result brume_receiver_behind(const brume_receiver* receiver, uint32_t* behind) BRUME_NOEXCEPT;
 /// Writes a request for the sender, at most 16 bytes.
 BRUME_API brume_result brume_receiver_request(const brume_receiver* receiver, void* buffer, size_t capacity,
                                               size_t* size) BRUME_NOEXCEPT;
-/// Creates a snapshot of the newest state, equal bit for bit to the sender's of that tick. BRUME_ERROR_ORDER
-/// when none has been received.
+/// Creates a snapshot of the newest state, equal bit for bit to the sender's state of that tick. Errors:
+/// BRUME_ERROR_ORDER before the first state has been received.
 BRUME_API brume_result brume_receiver_state(const brume_receiver* receiver,
                                             brume_state** state) BRUME_NOEXCEPT;
-/// Drops all states: a new match starts.
+/// Drops all states, for a new match.
 BRUME_API brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEXCEPT;
 
 // ---- The density field and the line of sight ----
 
-/// Most elements of one array of queries.
+/// The largest number of elements in one array of queries.
 #define BRUME_MAX_QUERIES 268435456u
 
-/// What a field is created with.
+/// The settings of a new field.
 typedef struct brume_field_params {
   uint32_t struct_size;
   const void* next;
-  float extinction;          ///< Of the densest smoke [1/m], [0, 10^6].
-  const brume_masks* masks;  ///< Those of the worlds whose states it shows; null: none.
+  float extinction;          ///< Extinction of the densest smoke, without erosion [1/m], [0, 10^6].
+  const brume_masks* masks;  ///< The masks of the worlds whose states it takes over; null: none.
 } brume_field_params;
 
+/// Returns the defaults: an extinction of 3 per metre, no masks.
 static inline brume_field_params brume_field_defaults(void) {
-  brume_field_params params = {sizeof(brume_field_params), BRUME_NULL, 3.0f, BRUME_NULL};
+  brume_field_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_field_params);
+  params.extinction = 3.0f;
   return params;
 }
 
-/// A line from a to b. Coordinates must be finite and within +-16384 m; they may lie outside of the level,
-/// where there is air.
+/// A line from a to b. Coordinates must be finite and within +-16384 m; they may lie outside the level, where
+/// the air is clear.
 typedef struct brume_segment {
   brume_point a, b;  ///< An end [m].
 } brume_segment;
 
-/// The first voxel of a wall along a segment. Glass and grilles are none.
+/// The first voxel of a wall along a segment. Glass and grilles are not walls.
 typedef struct brume_wall {
-  uint32_t hit;        ///< 1; 0: there is none, and all other members are 0.
+  uint32_t hit;        ///< 1: there is a wall; 0: there is none, and all other members are 0.
   brume_voxel voxel;   ///< The voxel.
-  brume_voxel normal;  ///< Outward normal of the face that the segment enters: a unit vector.
-  float distance;      ///< From a to that face [m].
+  brume_voxel normal;  ///< Outward normal of the face through which the segment enters: a unit vector.
+  float distance;      ///< Distance from a to that face [m].
 } brume_wall;
 
-/// Creates the density field of a level, without smoke. It keeps what a state's queries require: worlds may
-/// advance while others query the field. `params` may be null: the defaults.
+/// Creates the density field of a level, without smoke. The field holds copies of all that its queries read:
+/// worlds may advance while other threads query it. `params` may be null: the defaults.
 BRUME_API brume_result brume_field_create(const brume_level* level, const brume_field_params* params,
                                           brume_field** field) BRUME_NOEXCEPT;
+/// Destroys a field; null is ignored.
 BRUME_API brume_result brume_field_destroy(brume_field* field) BRUME_NOEXCEPT;
-/// Takes over a state, with its holes and level edits. Only what changed since the last update costs time.
-/// Errors: BRUME_ERROR_MISMATCH for a state of another level layout or with other masks; BRUME_ERROR_LIMIT
-/// when the smoke fills more than 2^22 bricks of 8^3 voxels.
+/// Takes over a state with its smoke, holes and level edits. Only changes since the last update cost time.
+/// Errors: BRUME_ERROR_MISMATCH for a state with another level layout or other masks; BRUME_ERROR_LIMIT when
+/// the smoke fills more than 2^22 bricks of 8^3 voxels.
 BRUME_API brume_result brume_field_update(brume_field* field, const brume_state* state) BRUME_NOEXCEPT;
 
-/// Writes the bricks (8^3 voxels, voxel / 8) in which the last update may have changed densities, by rising
-/// z, then y, then x: what a copy of the densities has to read again.
+/// Writes the bricks of 8^3 voxels (voxel / 8) in which the last update may have changed densities, by rising
+/// z, then y, then x. A copy of the densities has to read these bricks again.
 BRUME_API brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* bricks,
                                                   size_t capacity, size_t* count) BRUME_NOEXCEPT;
 
-/// Writes the optical depth of the smoke along each segment, holes included; walls do not count. exp(-depth)
-/// of the light passes. The same bits on every machine, for any number of threads, for one segment or many.
+/// Writes the optical depth of the smoke along each segment, at most BRUME_MAX_QUERIES. Holes count, walls
+/// and the noise of the drawn smoke do not. exp(-depth) of the light passes. The results are the same bits on
+/// every machine, for any number of threads, for one segment or many.
 BRUME_API brume_result brume_field_optical_depths(const brume_field* field, const brume_segment* segments,
                                                   size_t count, float* depths) BRUME_NOEXCEPT;
-/// Writes 1 for each segment whose ends see each other, else 0: no wall between the voxels of a and b, where
-/// glass and grilles are none, and an optical depth of at most `threshold` (at least 0; infinity: walls
-/// only). Faster than the depth: it ends at the first obstacle.
+/// Writes 1 for each segment whose ends are visible from each other, else 0. They are when no wall lies
+/// between the voxels of a and b (sight passes glass and grilles) and the optical depth is at most
+/// `threshold`. Optical depths of 1, 3 and 5 let 37, 5 and 0.7 % of the light pass. `threshold` is at least
+/// 0; infinity tests walls only. Guarantees are as for brume_field_optical_depths; this query is faster, as
+/// it ends at the first obstacle.
 BRUME_API brume_result brume_field_visible(const brume_field* field, const brume_segment* segments,
                                            size_t count, float threshold, uint8_t* visible) BRUME_NOEXCEPT;
-/// How noise erodes smoke in the picture: brume_smoke_look of brume_vulkan.h has the same members.
+
+/// The noise that erodes drawn smoke; brume_smoke_look of brume_vulkan.h has members of the same names. Give
+/// both the same values, and `detail` = 1 - brume_frame_params::detail_reduction.
 typedef struct brume_drawn_params {
   uint32_t struct_size;
   const void* next;
-  float erosion;     ///< How much noise erodes, [0, 1].
-  float noise_size;  ///< Of its largest billows [m], [0.05, 100].
-  float detail;      ///< Weight of what is finer than a tenth of that, [0, 1].
-  float hole_rim;    ///< How far noise frays the rims of holes [m], [0, 1].
-  float swirl;       ///< How far noise swirls [m], [0, 10].
-  float rise;        ///< How fast noise rises [m/s], [-10, 10].
+  float erosion;     ///< Strength of the erosion, [0, 1]; 0: no erosion.
+  float noise_size;  ///< Size of the largest billows [m], [0.05, 100].
+  float detail;      ///< Weight of the noise finer than a tenth of noise_size, [0, 1].
+  float hole_rim;    ///< Distance by which noise frays the rims of holes [m], [0, 1].
+  float swirl;       ///< Distance by which the noise swirls [m], [0, 10].
+  float rise;        ///< Speed at which the noise rises [m/s], [-10, 10].
 } brume_drawn_params;
 
+/// Returns the defaults, equal to the defaults of brume_frame_params in brume_vulkan.h.
 static inline brume_drawn_params brume_drawn_defaults(void) {
-  brume_drawn_params params = {sizeof(brume_drawn_params), BRUME_NULL, 0.5f, 1.5f, 1.0f, 0.06f, 0.2f, 0.12f};
+  brume_drawn_params params = BRUME_ZERO;
+  params.struct_size = sizeof(brume_drawn_params);
+  params.erosion = 0.5f;
+  params.noise_size = 1.5f;
+  params.detail = 1.0f;
+  params.hole_rim = 0.06f;
+  params.swirl = 0.2f;
+  params.rise = 0.12f;
   return params;
 }
 
-/// As brume_field_optical_depths, of the smoke as a renderer draws it at the state's tick: eroded by noise,
-/// with frayed rims. The same bits on every machine; some hundred times as slow. The first query of a
-/// process makes the noise, in a second of processor time; the first after an update, or with other `params`,
+/// Writes the optical depth along each segment as brume_field_optical_depths does, but of the smoke as a
+/// renderer draws it at the state's tick: eroded by noise, with frayed rims of holes. The results are the
+/// same bits on every machine. The query takes some hundred times as long; the first one in a process also
+/// generates the noise, in a second of CPU time, and the first one after an update, or with other `params`,
 /// takes some milliseconds more. `params` may be null: the defaults.
 BRUME_API brume_result brume_field_drawn_depths(const brume_field* field, const brume_drawn_params* params,
                                                 const brume_segment* segments, size_t count,
                                                 float* depths) BRUME_NOEXCEPT;
-/// As brume_field_visible, likewise: whether a player sees through a rim, not only whether the smoke lets
-/// them.
+/// Writes visibility as brume_field_visible does, but through the smoke as a renderer draws it: it answers
+/// whether a player can see through the gaps of a rim. Cost and `params` are as for brume_field_drawn_depths.
 BRUME_API brume_result brume_field_drawn_visible(const brume_field* field, const brume_drawn_params* params,
                                                  const brume_segment* segments, size_t count, float threshold,
                                                  uint8_t* visible) BRUME_NOEXCEPT;
-/// Writes the first voxel of a wall along each segment, other than those that a and b lie in.
+/// Writes the first voxel of a wall along each segment, apart from the voxels that contain a and b.
 BRUME_API brume_result brume_field_first_walls(const brume_field* field, const brume_segment* segments,
                                                size_t count, brume_wall* walls) BRUME_NOEXCEPT;
-/// Writes the density of each voxel of the box [low, high), [0, 255], x fastest, then y, then z. Blasts
-/// count, holes do not; 0 in solid voxels. The box must lie in the level and have a voxel; `count` is the
-/// number of its voxels.
+/// Writes the density of each voxel of the box [low, high), [0, 255], x fastest, then y, then z. Cavities of
+/// explosions count, holes and noise do not; solid voxels have 0. The box must lie in the level and contain a
+/// voxel; `count` is the number of its voxels.
 BRUME_API brume_result brume_field_densities(const brume_field* field, brume_voxel low, brume_voxel high,
                                              uint8_t* densities, size_t count) BRUME_NOEXCEPT;
 

@@ -1,14 +1,14 @@
 // The C interface (brume.h) for C++17: handles that release themselves, vectors instead of pointers,
-// exceptions instead of results. Header only; units, ranges, errors and thread rules are those of the
-// functions it calls.
+// exceptions instead of results. Header only; units, ranges, errors and thread rules are as in the C
+// functions that it calls.
 //
 //   brume::api::Context context;
 //   brume::api::Level level(context, params);
 //   brume::api::World world(level);
 //
 // Errors     Every function throws brume::api::Error where brume.h returns an error.
-// Objects    Can be moved, not copied. An object that was moved from may only be destroyed or assigned to.
-// C          get() is the handle, for functions of brume.h.
+// Objects    Objects can be moved, not copied. An object that was moved from may only be destroyed or
+// assigned to. C          get() returns the handle, for functions of brume.h.
 #ifndef BRUME_BRUME_HPP
 #define BRUME_BRUME_HPP
 
@@ -25,12 +25,12 @@
 
 namespace brume::api {
 
-/// A failed call: its result, and as what() the line of brume_last_error().
+/// A failed call: result() returns its result, what() the line of brume_last_error().
 class Error : public std::runtime_error {
  public:
   /// Takes the line of the calling thread's last failure.
   explicit Error(brume_result result) : std::runtime_error(brume_last_error()), result_(result) {}
-  /// What the call returned.
+  /// The result of the call.
   brume_result result() const noexcept { return result_; }
 
  private:
@@ -102,7 +102,7 @@ inline std::size_t voxels_of(const brume_voxel& low, const brume_voxel& high) {
   };
   const std::array<std::size_t, 3> size{extent(low.x, high.x), extent(low.y, high.y), extent(low.z, high.z)};
   for (const std::size_t axis : size)
-    if (axis > BRUME_MAX_AXIS) return 0;
+    if (axis > BRUME_MAX_LEVEL_AXIS) return 0;
   return size[0] * size[1] * size[2];
 }
 
@@ -170,7 +170,7 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
  public:
   /// Takes over a handle.
   explicit State(brume_state* handle) : Handle(handle) {}
-  /// From the bytes of save().
+  /// Loads the bytes of save().
   State(const Context& context, const Bytes& bytes)
       : Handle(detail::created<brume_state>([&](brume_state** out) {
           return brume_state_load(context.get(), bytes.data(), bytes.size(), out);
@@ -191,13 +191,13 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
       return brume_state_save(get(), buffer, capacity, size);
     });
   }
-  /// Those in the air.
+  /// The grenades in the air.
   std::vector<brume_grenade> grenades() const {
     return detail::list_of<brume_grenade>([&](brume_grenade* list, std::size_t capacity, std::size_t* count) {
       return brume_state_grenades(get(), list, capacity, count);
     });
   }
-  /// All smokes.
+  /// The clouds of smoke.
   std::vector<brume_cloud> clouds() const {
     return detail::list_of<brume_cloud>([&](brume_cloud* list, std::size_t capacity, std::size_t* count) {
       return brume_state_clouds(get(), list, capacity, count);
@@ -254,7 +254,7 @@ class World : public detail::Handle<brume_world, brume_world_destroy> {
   std::uint32_t tick() const {
     return detail::value_of<std::uint32_t>([&](std::uint32_t* out) { return brume_world_tick(get(), out); });
   }
-  /// The earliest tick that it can roll back to.
+  /// The earliest tick to which it can roll back.
   std::uint32_t earliest_tick() const {
     return detail::value_of<std::uint32_t>(
         [&](std::uint32_t* out) { return brume_world_earliest_tick(get(), out); });
@@ -339,7 +339,7 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
       : Handle(detail::created<brume_field>(
             [&](brume_field** out) { return brume_field_create(level.get(), &params, out); })) {}
 
-  /// Shows a state; costs what changed.
+  /// Takes over a state: brume_field_update.
   void update(const State& state) { check(brume_field_update(get(), state.get())); }
 
   /// The bricks of 8^3 voxels that the last update changed.
@@ -349,18 +349,18 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
     });
   }
 
-  /// exp(-depth) of the light passes.
+  /// The optical depth of a segment: exp(-depth) of the light passes.
   float optical_depth(const brume_segment& segment) const {
     return detail::value_of<float>(
         [&](float* out) { return brume_field_optical_depths(get(), &segment, 1, out); });
   }
-  /// One for each segment.
+  /// The optical depth of each segment.
   std::vector<float> optical_depths(const std::vector<brume_segment>& segments) const {
     std::vector<float> out(segments.size());
     check(brume_field_optical_depths(get(), segments.data(), segments.size(), out.data()));
     return out;
   }
-  /// Whether nothing solid lies between, and smoke of an optical depth of at most `threshold`.
+  /// Whether no wall lies between, and the optical depth is at most `threshold`.
   bool visible(const brume_segment& segment, float threshold) const {
     return detail::value_of<std::uint8_t>([&](std::uint8_t* out) {
              return brume_field_visible(get(), &segment, 1, threshold, out);
@@ -372,7 +372,7 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
     check(brume_field_visible(get(), segments.data(), segments.size(), threshold, out.data()));
     return out;
   }
-  /// brume_field_drawn_depths: one for each segment.
+  /// brume_field_drawn_depths: the optical depth of each segment.
   std::vector<float> drawn_depths(const std::vector<brume_segment>& segments,
                                   const brume_drawn_params& params = brume_drawn_defaults()) const {
     std::vector<float> out(segments.size());
@@ -392,7 +392,7 @@ class Field : public detail::Handle<brume_field, brume_field_destroy> {
         [&](brume_wall* out) { return brume_field_first_walls(get(), &segment, 1, out); });
     return wall.hit != 0 ? std::optional<brume_wall>(wall) : std::nullopt;
   }
-  /// One for each segment; see brume_wall::hit.
+  /// The first wall of each segment; see brume_wall::hit.
   std::vector<brume_wall> first_walls(const std::vector<brume_segment>& segments) const {
     std::vector<brume_wall> out(segments.size());
     check(brume_field_first_walls(get(), segments.data(), segments.size(), out.data()));

@@ -76,16 +76,16 @@ class Device : public detail::Handle<brume_device, brume_device_destroy> {
   void set_memory_limit(std::uint64_t bytes) { check(brume_device_set_memory_limit(get(), bytes)); }
 };
 
-/// An image of a renderer, which stays its own.
+/// An image that a renderer owns.
 struct Image {
   VkImage image = VK_NULL_HANDLE;     ///< In VK_IMAGE_LAYOUT_GENERAL.
-  VkImageView view = VK_NULL_HANDLE;  ///< Of all of it.
+  VkImageView view = VK_NULL_HANDLE;  ///< A view of the whole image.
 };
 
-/// What brume_renderer_coarseness writes.
+/// The results of brume_renderer_coarseness.
 struct Coarseness {
-  std::uint32_t level = 0;  ///< Voxels are 2^level times as wide as those of the level.
-  bool dims_less = false;   ///< Smoke out of view dims less light than it should.
+  std::uint32_t level = 0;        ///< Voxels are 2^level times as wide as the level's voxels.
+  bool is_smoke_missing = false;  ///< Smoke out of view has been dropped.
 };
 
 /// A brume_renderer.
@@ -104,7 +104,7 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   void set_march_scale(std::uint32_t march_scale) {
     check(brume_renderer_set_march_scale(get(), march_scale));
   }
-  /// brume_renderer_record. `field`: null: no smoke, and no level.
+  /// brume_renderer_record. `field` may be null: no smoke, and no level.
   void record(const Field* field, const brume_frame_params& params) {
     check(brume_renderer_record(get(), field ? field->get() : nullptr, &params));
   }
@@ -116,9 +116,9 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   Image occlusion() const { return image(brume_renderer_occlusion); }
   /// brume_renderer_coarseness.
   Coarseness coarseness() const {
-    std::uint32_t level = 0, dims_less = 0;
-    check(brume_renderer_coarseness(get(), &level, &dims_less));
-    return {level, dims_less != 0};
+    std::uint32_t level = 0, is_smoke_missing = 0;
+    check(brume_renderer_coarseness(get(), &level, &is_smoke_missing));
+    return {level, is_smoke_missing != 0};
   }
   /// brume_renderer_timings.
   std::vector<brume_timing> timings() const {

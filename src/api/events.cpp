@@ -24,16 +24,21 @@ sim::Event event_of(std::uint32_t tick, const brume_shot_event& e) {
   return sim::Shot{tick,
                    position_of(e.origin),
                    position_of(e.toward),
-                   e.radius,
+                   e.radius_1024,
                    {e.reach_far_ms, e.expand_ms, e.stay_open_ms, e.fade_ms},
                    static_cast<sim::HoleShape>(e.shape),
-                   e.mask,
-                   e.roll};
+                   e.mask_index,
+                   e.roll_65536};
 }
 
 sim::Event event_of(std::uint32_t tick, const brume_blast_event& e) {
-  return sim::Blast{tick,        position_of(e.at), e.radius,          e.speed,
-                    e.remaining, e.refill_rim_ms,   e.refill_middle_ms};
+  return sim::Blast{tick,
+                    position_of(e.at),
+                    e.radius_1024,
+                    e.speed_1024,
+                    e.remaining_255,
+                    e.refill_rim_ms,
+                    e.refill_middle_ms};
 }
 
 sim::Event event_of(std::uint32_t tick, const brume_move_event& e) {
@@ -71,8 +76,8 @@ sim::Event checked_event(const brume_event& event, const voxel::GridLayout& layo
   unwrap(sim::check_event(checked, layout));
   const auto* shot = std::get_if<sim::Shot>(&checked);
   if (shot && shot->shape == sim::HoleShape::mask && shot->mask >= mask_count)
-    refuse("`mask` is " + std::to_string(shot->mask) + ", but the world has " + std::to_string(mask_count) +
-           " masks");
+    refuse("`mask_index` is " + std::to_string(shot->mask) + ", but the world has " +
+           std::to_string(mask_count) + " masks");
   return checked;
 }
 

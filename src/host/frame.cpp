@@ -116,7 +116,7 @@ planning::Quality quality_of(const brume_quality& given) {
       scale_of(given.step_scale, 0.25f, 16, "`quality.step_scale` must be from 0.25 to 16, or 0");
   quality.resolve_error_scale = scale_of(given.resolve_error_scale, 0.25f, 16,
                                          "`quality.resolve_error_scale` must be from 0.25 to 16, or 0");
-  quality.fine_shadows = given.no_fine_shadows == 0;
+  quality.fine_shadows = given.skip_fine_shadows == 0;
   quality.light_update_fraction = scale_of(given.light_update_fraction, 1 / 16.0f, 1,
                                            "`quality.light_update_fraction` must be from 1/16 to 1, or 0");
   quality.indirect_update_fraction =
@@ -127,9 +127,9 @@ planning::Quality quality_of(const brume_quality& given) {
 }
 
 void show_smoke(const brume_frame_params& params, const api::SmokeField& field, planning::FrameInput& input) {
-  require(is_within(params.less_detail, 0, 1), "`less_detail` must be from 0 to 1");
+  require(is_within(params.detail_reduction, 0, 1), "`detail_reduction` must be from 0 to 1");
   scene::SmokeOptions options = options_of(params.look, field.extinction());
-  options.detail = 1 - params.less_detail;
+  options.detail = 1 - params.detail_reduction;
   input.level.voxels = {&field.grid(), field.state().edits, &field.solids().sight};
   input.smoke.volume = &field.volume();
   input.smoke.state = &field.state();
@@ -209,7 +209,7 @@ passes::HostNormals host_normals(const brume_normals& normals) {
           "`normals.encoding` must be a brume_normal_encoding");
   require(normals.view == VK_NULL_HANDLE || can_be_sampled(normals.layout),
           "`normals.layout` must be one in which normals can be sampled");
-  return {nullptr, normals.encoding, normals.of_view != 0, normals.alpha_receives != 0};
+  return {nullptr, normals.encoding, normals.in_view_space != 0, normals.alpha_receives != 0};
 }
 
 void set_frame_input(const brume_frame_params& params, const api::SmokeField* field,
@@ -220,19 +220,18 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.view.camera = camera_of(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
-  input.view.continues = params.continues != 0;
+  input.view.continues = params.continues_previous != 0;
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
   input.environment.sky.ambient = vec3_of(params.ambient);
   require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
-  require(is_within(params.bounce, 0, 1), "`bounce` must be from 0 to 1");
-  input.environment.sky.bounce = params.bounce;
+  require(is_within(params.ambient_indoors, 0, 1), "`ambient_indoors` must be from 0 to 1");
+  input.environment.sky.bounce = params.ambient_indoors;
   require(params.bounces <= 16, "`bounces` must be at most 16");
   input.environment.bounces = params.bounces;
   add_lights(params, input.environment.flashes);
   input.quality = quality_of(params.quality);
   // What is too dark to be seen depends on it.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
-  require(params.reserved == 0, "`reserved` must be 0");
   if (field) show_smoke(params, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
 }

@@ -11,17 +11,13 @@
 
 namespace brume::api {
 
-// The sizes of 0.1 and 0.2.
+// The sizes of 0.1 and 0.2. The members of brume_frame_params had another order then: it has no earlier size.
 template <>
 inline constexpr std::array kEarlierSizes<brume_device_params>{
     std::uint32_t{offsetof(brume_device_params, memory_user)}};
 template <>
 inline constexpr std::array kEarlierSizes<brume_renderer_params>{
     std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};
-template <>
-inline constexpr std::array kEarlierSizes<brume_frame_params>{
-    std::uint32_t{offsetof(brume_frame_params, volumes)},
-    std::uint32_t{offsetof(brume_frame_params, decals)}};
 
 }  // namespace brume::api
 

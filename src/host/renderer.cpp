@@ -75,12 +75,12 @@ bool can_blend(const gpu::Context& context, VkFormat format) {
 
 void check_frame(const brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
   require(params.commands != VK_NULL_HANDLE, "`commands` is null");
-  if (params.frame <= of.device->frame)
-    fail(BRUME_ERROR_ORDER, "`frame` is " + std::to_string(params.frame) + ", the last one was " +
-                                std::to_string(of.device->frame));
-  require(params.completed < params.frame, "`completed` must be below `frame`");
-  if (params.completed < of.device->completed)
-    fail(BRUME_ERROR_ORDER, "`completed` was " + std::to_string(of.device->completed) + " before");
+  if (params.frame_number <= of.device->frame)
+    fail(BRUME_ERROR_ORDER, "`frame_number` is " + std::to_string(params.frame_number) +
+                                ", the last one was " + std::to_string(of.device->frame));
+  require(params.completed_frame < params.frame_number, "`completed_frame` must be below `frame_number`");
+  if (params.completed_frame < of.device->completed)
+    fail(BRUME_ERROR_ORDER, "`completed_frame` was " + std::to_string(of.device->completed) + " before");
   const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
   if (field && field->field->masks() != masks)
     fail(BRUME_ERROR_MISMATCH, "the field has other masks than the renderer");
@@ -200,9 +200,9 @@ void record(Call& call, brume_renderer& of, const brume_field* field, const brum
   add_decals(call, params, of);
   const std::vector<render::TankInput> tanks = tanks_of(call, params);
   // Taken even where the frame fails: the next one has a higher number.
-  of.device->frame = params.frame;
-  of.device->completed = params.completed;
-  of.recording.begin(params.commands, params.frame, params.completed);
+  of.device->frame = params.frame_number;
+  of.device->completed = params.completed_frame;
+  of.recording.begin(params.commands, params.frame_number, params.completed_frame);
   try {
     draw(of, params, input, tanks, range, normals);
     of.recording.end();
@@ -309,14 +309,14 @@ brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image
 }
 
 brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
-                                       uint32_t* dims_less) BRUME_NOEXCEPT {
+                                       uint32_t* is_smoke_missing) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     const brume_renderer& of = call.handle(renderer);
     std::uint32_t& to = required(level, "level");
     call.read(of, [&] {
       if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
       to = static_cast<std::uint32_t>(of.renderer->smoke_level());
-      if (dims_less) *dims_less = of.renderer->is_smoke_missing();
+      if (is_smoke_missing) *is_smoke_missing = of.renderer->is_smoke_missing();
     });
   });
 }

@@ -138,7 +138,7 @@ std::vector<render::TankInput> tanks_of(Call& call, const brume_frame_params& pa
     render::TankInput input{tank.content, nullptr, placement_of(shown, name),
                             static_cast<scene::TankView>(shown.view), shown.samples,
                             // What a picture may have is far below the numbers that remain.
-                            params.jitter_index % 4096 * kMostSamples, shown.continues != 0};
+                            params.jitter_index % 4096 * kMostSamples, shown.continues_previous != 0};
     call.read(tank, [&] { input.light = tank.light; });
     tanks.push_back(std::move(input));
   }

@@ -37,7 +37,7 @@ scene::VolumeOptions options_of(const brume_volume_params& params) {
 std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
   auto data = std::make_shared<VolumeData>();
   data->options = options_of(params);
-  data->wait = params.waits != 0 ? scenario::VolumeWait::until_loaded : scenario::VolumeWait::never;
+  data->wait = params.wait_for_frame != 0 ? scenario::VolumeWait::until_loaded : scenario::VolumeWait::never;
   data->volumes = loaded(scenario::Volumes::load(std::span(&data->options, 1), grids::load_volume_file));
   if (params.max_bytes > 0) {
     scenario::VolumeRoom room;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -206,6 +207,69 @@ TEST_F(CallTest, LevelsThatAreTooLargeAreRejected) {
   indices[1] = 3;
   EXPECT_EQ(brume_level_create_from_triangles(context_.get(), &triangles, &level), BRUME_ERROR_ARGUMENT);
   EXPECT_EQ(level, nullptr);
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Lengths, AreRoundedAndClamped) {
+  EXPECT_EQ(brume_length(0), 0u);
+  EXPECT_EQ(brume_length(1), 1024u);
+  EXPECT_EQ(brume_length(0.2), 205u) << "204.8";
+  EXPECT_EQ(brume_length(0.1), 102u) << "102.4";
+  EXPECT_EQ(brume_length(0.5 / 1024), 1u) << "halves are rounded up";
+  EXPECT_EQ(brume_length(std::nextafter(0.5, 0.0) / 1024), 0u);
+  EXPECT_EQ(brume_length(2.5 / 1024), 3u);
+  EXPECT_EQ(brume_length(16384 - 0.25 / 1024), 16777216u);
+  EXPECT_EQ(brume_length(16384 - 0.75 / 1024), 16777215u);
+  for (const double too_small : {-0.0, -1e-9, -5.0, -kInfinity, kNaN}) EXPECT_EQ(brume_length(too_small), 0u);
+  for (const double too_large : {16384.0, 16385.0, 1e300, kInfinity})
+    EXPECT_EQ(brume_length(too_large), std::uint32_t{BRUME_MAX_COORDINATE});
+  // As positions are.
+  for (int i = 0; i < 1000; ++i) {
+    const double metres = 0.37 * i;
+    EXPECT_EQ(brume_length(metres), static_cast<std::uint32_t>(position(metres, 0, 0).x)) << metres;
+  }
+}
+
+TEST(Lengths, AmountsOfSmokeAreRoundedAndClamped) {
+  EXPECT_EQ(brume_smoke_voxels(225, 0.5), 1800u);
+  EXPECT_EQ(brume_smoke_voxels(225, 0.25), 14400u);
+  EXPECT_EQ(brume_smoke_voxels(225, double{0.5f}), 1800u);
+  EXPECT_EQ(brume_smoke_voxels(2.5, 1), 3u) << "halves are rounded up";
+  EXPECT_EQ(brume_smoke_voxels(2.4, 1), 2u);
+  for (const double too_small : {0.0, 0.4, -3.0, -kInfinity, kNaN})
+    EXPECT_EQ(brume_smoke_voxels(too_small, 1), 1u);
+  for (const double too_large : {134217728.0, 134217729.0, 1e300, kInfinity})
+    EXPECT_EQ(brume_smoke_voxels(too_large, 1), BRUME_MAX_SMOKE_VOXELS);
+  EXPECT_EQ(brume_smoke_voxels(1, 1e-200), BRUME_MAX_SMOKE_VOXELS);
+  EXPECT_EQ(brume_smoke_voxels(1, kInfinity), 1u);
+  for (const double no_edge : {0.0, -1.0, kNaN}) EXPECT_EQ(brume_smoke_voxels(1e9, no_edge), 1u);
+}
+
+TEST(Events, DefaultsAreThoseOfTheSimulation) {
+  const brume_smoke_event smoke = brume_event_defaults(BRUME_EVENT_SMOKE, 0).u.smoke;
+  const sim::SmokeSettings settings;
+  EXPECT_EQ(smoke.voxels, settings.voxels);
+  EXPECT_EQ(smoke.bloom_ticks, settings.bloom_ticks);
+  EXPECT_EQ(smoke.hold_ticks, settings.hold_ticks);
+  EXPECT_EQ(smoke.dissolve_ticks, settings.dissolve_ticks);
+  EXPECT_EQ(std::uint32_t{BRUME_MAX_SMOKE_VOXELS}, sim::kMaxFillVoxels);
+  const brume_shot_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 0).u.shot;
+  const sim::Shot true_shot;
+  EXPECT_EQ(shot.radius_1024, true_shot.radius);
+  EXPECT_EQ(shot.reach_far_ms, true_shot.timing.reach_far);
+  EXPECT_EQ(shot.expand_ms, true_shot.timing.expand);
+  EXPECT_EQ(shot.stay_open_ms, true_shot.timing.stay_open);
+  EXPECT_EQ(shot.fade_ms, true_shot.timing.fade);
+  EXPECT_EQ(shot.shape + shot.mask_index + shot.roll_65536, 0u);
+  const brume_blast_event blast = brume_event_defaults(BRUME_EVENT_BLAST, 0).u.blast;
+  const sim::Blast true_blast;
+  EXPECT_EQ(blast.radius_1024, true_blast.radius);
+  EXPECT_EQ(blast.speed_1024, true_blast.speed);
+  EXPECT_EQ(blast.remaining_255, true_blast.remaining);
+  EXPECT_EQ(blast.refill_rim_ms, true_blast.refill_rim_ms);
+  EXPECT_EQ(blast.refill_middle_ms, true_blast.refill_middle_ms);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ int main(void) {
   const brume_receiver_params receiver = brume_receiver_defaults();
   const brume_field_params field = brume_field_defaults();
   const brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, 1);
+  const uint32_t lengths = brume_length(0.2) + brume_smoke_voxels(225.0, voxels.layout.voxel_size);
   return context.next || voxels.next || triangles.next || world.next || sender.next || receiver.next ||
-         field.next || event.next;
+         field.next || event.next || lengths != 2005;
 }

@@ -122,16 +122,16 @@ brume_event Hostile::event() {
     u.shot.origin = position();
     u.shot.toward = position();
     u.shot.shape = number(chance(0.8) ? 2 : 3);
-    u.shot.mask = chance(0.9) ? 0 : number(3);
-    if (chance(0.1)) u.shot.radius = number(1000);
+    u.shot.mask_index = chance(0.9) ? 0 : number(3);
+    if (chance(0.1)) u.shot.radius_1024 = number(1000);
     if (chance(0.1)) u.shot.stay_open_ms = number(5000);
-    if (chance(0.1)) u.shot.roll = number(70000);
+    if (chance(0.1)) u.shot.roll_65536 = number(70000);
   }
   if (kind == BRUME_EVENT_BLAST) {
     u.blast.at = position();
-    if (chance(0.1)) u.blast.radius = number(40000);
-    if (chance(0.1)) u.blast.speed = number(40000);
-    if (chance(0.1)) u.blast.remaining = number(260);
+    if (chance(0.1)) u.blast.radius_1024 = number(40000);
+    if (chance(0.1)) u.blast.speed_1024 = number(40000);
+    if (chance(0.1)) u.blast.remaining_255 = number(260);
     if (chance(0.1)) u.blast.refill_middle_ms = number(6000);
   }
   if (kind == BRUME_EVENT_MOVE) u.move = {number(9), position()};

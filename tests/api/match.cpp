@@ -64,10 +64,10 @@ void Match::add_shot(std::uint32_t tick, std::uint32_t number) {
   brume_shot_event& shot = event.u.shot;
   shot.origin = place();
   shot.toward = place();
-  shot.radius = static_cast<std::uint32_t>(100 + below(400));
+  shot.radius_1024 = static_cast<std::uint32_t>(100 + below(400));
   shot.shape = number % 3;
-  if (shot.shape == BRUME_HOLE_MASK) shot.mask = number / 3 % kMasks;
-  if (shot.shape != BRUME_HOLE_CYLINDER) shot.roll = static_cast<std::uint32_t>(below(65536));
+  if (shot.shape == BRUME_HOLE_MASK) shot.mask_index = number / 3 % kMasks;
+  if (shot.shape != BRUME_HOLE_CYLINDER) shot.roll_65536 = static_cast<std::uint32_t>(below(65536));
   events.push_back(event);
 }
 
@@ -105,14 +105,19 @@ sim::Event sim_event(const brume_event& event, const voxel::GridLayout& layout) 
       return sim::Shot{event.tick,
                        at(u.shot.origin),
                        at(u.shot.toward),
-                       u.shot.radius,
+                       u.shot.radius_1024,
                        {u.shot.reach_far_ms, u.shot.expand_ms, u.shot.stay_open_ms, u.shot.fade_ms},
                        static_cast<sim::HoleShape>(u.shot.shape),
-                       u.shot.mask,
-                       u.shot.roll};
+                       u.shot.mask_index,
+                       u.shot.roll_65536};
     case BRUME_EVENT_BLAST:
-      return sim::Blast{event.tick,        at(u.blast.at),        u.blast.radius,          u.blast.speed,
-                        u.blast.remaining, u.blast.refill_rim_ms, u.blast.refill_middle_ms};
+      return sim::Blast{event.tick,
+                        at(u.blast.at),
+                        u.blast.radius_1024,
+                        u.blast.speed_1024,
+                        u.blast.remaining_255,
+                        u.blast.refill_rim_ms,
+                        u.blast.refill_middle_ms};
     case BRUME_EVENT_MOVE:
       return sim::MoveBody{event.tick, u.move.body, at(u.move.to)};
     default:

@@ -7,6 +7,7 @@
 
 #include "core/file.hpp"
 #include "tests/api/abi.hpp"
+#include "tests/api/header_example.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::api {
@@ -41,6 +42,37 @@ TEST(Headers, CompileWithoutAWarning) {
                   standard + " " BRUME_SOURCE_DIR "/tests/api/header.c");
     expect_runs("echo '#include <brume/brume.hpp>' | " + std::string(compiler) + warnings +
                 "-Wold-style-cast -std=c++17 -x c++ -");
+  }
+}
+
+// In a room of 16 m x 4 m x 18 m, whose middle the smoke fills.
+TEST(Headers, TheExampleRunsInCAndCpp) {
+  const std::string example = example_of("brume.h");
+  ASSERT_NE(example.find("brume_world_forget_before"), example.npos);
+  const cli::WorkFolder folder;
+  folder.write("example.c",
+               "#include <brume/brume.h>\n#include <stdio.h>\n#include <stdlib.h>\n"
+               "static void check(brume_result result) {\n  if (result == BRUME_OK) return;\n"
+               "  puts(brume_last_error());\n  exit(1);\n}\n"
+               "int main(void) {\n  brume_point points[8];\n"
+               "  for (int i = 0; i < 8; ++i) {\n    points[i].x = i & 1 ? 10.0f : -6.0f;\n"
+               "    points[i].y = i & 2 ? 4.0f : 0.0f;\n    points[i].z = i & 4 ? 10.0f : -8.0f;\n  }\n"
+               "  const uint32_t indices[] = {0, 1, 4, 1, 4, 5, 2, 3, 6, 3, 6, 7, 0, 1, 2, 1, 2, 3,\n"
+               "                              4, 5, 6, 5, 6, 7, 0, 2, 4, 2, 4, 6, 1, 3, 5, 3, 5, 7};\n"
+               "  const size_t point_count = 8, index_count = 36;\n"
+               "  const brume_point bot_eyes = {2.0f, 1.6f, -6.0f}, player_eyes = {2.0f, 1.6f, 8.0f};\n" +
+                   example +
+                   "  check(brume_field_destroy(field));\n  check(brume_world_destroy(world));\n"
+                   "  check(brume_level_destroy(level));\n  check(brume_context_destroy(context));\n"
+                   "  return 0;\n}\n");
+  const std::string program = (folder.path() / "example").string();
+  for (const char* compiler : {"cc -std=c11", "c++ -std=c++17 -x c++"}) {
+    expect_runs(std::string(compiler) + " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I'" +
+                kInclude + "' '" + program + ".c' -x none -o '" + program + "' '" BRUME_LIBRARY "'");
+    const ShellRun run = run_shell("LD_LIBRARY_PATH=\"$(dirname '" BRUME_LIBRARY "')\" '" + program + "'");
+    EXPECT_EQ(run.status, 0) << run.output;
+    EXPECT_EQ(run.output.rfind("tick 0: visible 1\n", 0), 0u) << run.output;
+    EXPECT_TRUE(run.output.ends_with("tick 128: visible 0\n")) << run.output;
   }
 }
 

@@ -90,13 +90,13 @@ TEST_F(WorldTest, ListsWhatAStateHolds) {
     const auto holes = state.holes();
     ASSERT_EQ(holes.size(), truth.holes.size());
     for (std::size_t i = 0; i < holes.size(); ++i) {
-      EXPECT_EQ(holes[i].distance, truth.holes[i].distance);
+      EXPECT_EQ(holes[i].distance_1024, truth.holes[i].distance);
       EXPECT_EQ(holes[i].toward.z, truth.holes[i].shot.toward.z);
     }
     const auto bodies = state.bodies();
     ASSERT_EQ(bodies.size(), truth.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      EXPECT_EQ(bodies[i].previous.x, truth.bodies[i].previous.x);
+      EXPECT_EQ(bodies[i].previous_position.x, truth.bodies[i].previous.x);
     const auto in_air = state.grenades();
     ASSERT_EQ(in_air.size(), truth.flights.size());
     for (std::size_t i = 0; i < in_air.size(); ++i) {

@@ -44,7 +44,7 @@ TEST_F(DecalArgumentsTest, OfAFrameAreRefusedWhereTheHeaderForbidsThem) {
   load_decals();
   make_sides(1, 1);
   brume_frame_params params = frame_of(scenario_, 1);
-  params.frame = 1;
+  params.frame_number = 1;
   params.depth.view = reinterpret_cast<VkImageView>(1);
   const auto refused = [&](const char* words) {
     EXPECT_EQ(brume_renderer_record(smoke_->renderer, nullptr, &params), BRUME_ERROR_ARGUMENT);

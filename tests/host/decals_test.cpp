@@ -147,7 +147,7 @@ TEST_F(DecalsTest, AreThoseOfTheRendererInAFilm) {
   };
   change_params_ = [&](brume_frame_params& params) {
     show(params);
-    params.continues = continues ? 1 : 0;
+    params.continues_previous = continues ? 1 : 0;
     if (!shows) params.decal_count = 0;
   };
   draw_both(1.0, 1);

@@ -164,8 +164,8 @@ class FaultTest : public testing::Test {
       host_.wait_for_compute(commands);
       brume_frame_params params = frame_of(scenario_, seconds);
       params.commands = commands;
-      params.frame = frame;
-      params.completed = completed;
+      params.frame_number = frame;
+      params.completed_frame = completed;
       params.depth.view = depth_.view();
       params.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
       const brume_shown_decal shown = brume_shown_decal_defaults(decal_);

@@ -87,7 +87,7 @@ TEST_F(HeapTest, SteadyFramesOfHolesLightsShadowsAndBounces) {
   brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 250);
   shot.u.shot.origin = position_of(sim::position_from_metres({4, 1, 1}));
   shot.u.shot.toward = position_of(sim::position_from_metres({4, 1, 9}));
-  shot.u.shot.radius = 300;
+  shot.u.shot.radius_1024 = 300;
   shot.u.shot.stay_open_ms = 20'000;
   append(shot);
   const brume_light torch{BRUME_LIGHT_SPOT, {3, 1, 3}, {0, 0, 1}, {0.5f, 0.4f, 0.3f}, 0.2f, 0.6f};

@@ -100,8 +100,8 @@ class HostedPair : public testing::Test {
                         double seconds) {
     brume_frame_params params = frame_of(scenario_, seconds);
     params.commands = commands;
-    params.frame = frame;
-    params.completed = completed;
+    params.frame_number = frame;
+    params.completed_frame = completed;
     params.jitter_index = static_cast<std::uint32_t>(frame);
     const gpu::Image& depth = whole_->targets().gbuffer.depth;
     params.depth.view = depth.view();

@@ -65,7 +65,7 @@ inline brume_event event_of(const sim::Shot& shot) {
   brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, shot.tick);
   event.u.shot.origin = position_of(shot.origin);
   event.u.shot.toward = position_of(shot.toward);
-  event.u.shot.radius = shot.radius;
+  event.u.shot.radius_1024 = shot.radius;
   event.u.shot.reach_far_ms = shot.timing.reach_far;
   event.u.shot.expand_ms = shot.timing.expand;
   event.u.shot.stay_open_ms = shot.timing.stay_open;
@@ -171,7 +171,7 @@ inline brume_frame_params frame_of(const scenario::Scenario& scenario, double se
   params.look.erosion = scenario.timeline.smoke.erosion;
   const scene::SkyOptions& sky = scenario.timeline.sky;
   for (int c = 0; c < 3; ++c) params.ambient[c] = sky.ambient[c];
-  params.bounce = sky.bounce;
+  params.ambient_indoors = sky.bounce;
   params.seconds = seconds;
   return params;
 }

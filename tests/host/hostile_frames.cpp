@@ -179,10 +179,10 @@ void HostileFrames::renderer_read() {
   read_image("brume_renderer_smoke", brume_renderer_smoke);
   read_image("brume_renderer_shadows", brume_renderer_shadows);
   read_image("brume_renderer_occlusion", brume_renderer_occlusion);
-  auto level = output<std::uint32_t>(), dims_less = output<std::uint32_t>();
+  auto level = output<std::uint32_t>(), is_smoke_missing = output<std::uint32_t>();
   const brume_result result =
-      brume_renderer_coarseness(handle(renderers_), level.pointer(), dims_less.pointer());
-  checked("brume_renderer_coarseness", result, level.untouched() && dims_less.untouched());
+      brume_renderer_coarseness(handle(renderers_), level.pointer(), is_smoke_missing.pointer());
+  checked("brume_renderer_coarseness", result, level.untouched() && is_smoke_missing.untouched());
   read_list("brume_renderer_timings", renderers_, brume_renderer_timings);
 }
 
@@ -196,7 +196,7 @@ void HostileFrames::volume_create() {
   if (chance(0.1)) params.color = "density";
   spoil(params.frame_rate, 0.1);
   spoil(params.repeat, 0.1);
-  params.waits = below(2);
+  params.wait_for_frame = below(2);
   params.max_bytes = chance(0.3) ? number(100000) : 0;
   auto out = output<brume_volume*>();
   const brume_result result = brume_volume_create(handle(contexts_), spoiled(params), out.pointer());
@@ -261,7 +261,7 @@ brume_normals HostileFrames::normals() {
   if (chance(0.02)) normals.layout = static_cast<VkImageLayout>(chance(0.5) ? 0 : number(999));
   normals.encoding = below(4);
   spoil(normals.encoding);
-  normals.of_view = below(3);
+  normals.in_view_space = below(3);
   normals.alpha_receives = below(3);
   return normals;
 }
@@ -345,7 +345,7 @@ brume_shown_tank HostileFrames::shown_tank() {
   spoil(shown.view);
   shown.samples = 1 + below(2);
   spoil(shown.samples);
-  shown.continues = below(2);
+  shown.continues_previous = below(2);
   return shown;
 }
 
@@ -368,7 +368,7 @@ void HostileFrames::spoil(brume_frame_params& params) {
                        &params.look.swirl,
                        &params.look.rise,
                        &params.ambient[2],
-                       &params.bounce,
+                       &params.ambient_indoors,
                        &params.quality.step_scale,
                        &params.quality.resolve_error_scale,
                        &params.quality.light_update_fraction,
@@ -390,16 +390,16 @@ void HostileFrames::spoil(brume_frame_params& params) {
   spoil(params.shadow_lights[1], 0.02);
   if (chance(0.02)) params.shadow_light_count = 5 + number(9);
   // Wrong numbers of frames.
-  if (chance(0.02)) params.frame = below(2) * (params.frame - 1);
-  if (chance(0.02)) params.completed = params.frame + number(9);
-  if (chance(0.02) && params.completed > 0) params.completed = 0;
+  if (chance(0.02)) params.frame_number = below(2) * (params.frame_number - 1);
+  if (chance(0.02)) params.completed_frame = params.frame_number + number(9);
+  if (chance(0.02) && params.completed_frame > 0) params.completed_frame = 0;
 }
 
 void HostileFrames::record() {
   brume_frame_params params = brume_frame_defaults();
   params.commands = commands_;
-  params.frame = ++number_;
-  params.completed = completed_;
+  params.frame_number = ++number_;
+  params.completed_frame = completed_;
   params.camera.position = {within(1, 5), within(1, 3), within(5, 12)};
   params.depth = {depth_.view(), VK_IMAGE_LAYOUT_GENERAL, 0.1f, INFINITY, 1};
   const bool draws = !has_drawn_ && chance(0.3);
@@ -424,7 +424,7 @@ void HostileFrames::record() {
   params.tanks = shown_tanks_.data();
   params.tank_count = shown_tanks_.size();
   params.shadow_light_count = lights_.empty() ? 0 : below(3);
-  params.continues = below(2);
+  params.continues_previous = below(2);
   params.seconds = within(0, 9);
   spoil(params);
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);

@@ -50,7 +50,7 @@ class MediaTest : public HostedPair {
       params.heat = options.heat.c_str();
       params.frame_rate = options.frame_rate;
       params.repeat = options.loop ? BRUME_REPEAT_LOOP : BRUME_REPEAT_NONE;
-      params.waits = 1;
+      params.wait_for_frame = 1;
       volumes_.push_back(nullptr);
       ASSERT_OK(brume_volume_create(context_.get(), &params, &volumes_.back()));
     }
@@ -190,7 +190,7 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   EXPECT_NE(log[0].find("of its resolution"), std::string::npos) << log[0];
   brume_volume_info info{};
   ASSERT_OK(brume_volume_describe(volumes_.back(), &info));
-  EXPECT_EQ(info.glows, 1u);
+  EXPECT_EQ(info.has_heat, 1u);
   EXPECT_EQ(info.density, 1);
   EXPECT_GT(info.halvings, 0u) << "density and heat have 10 bricks of 2,000 bytes";
   // A sphere of 1 m, whose edge is 0.1 m soft, in voxels of 0.2 m and more and a filter of as much.

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "image/decode.hpp"
 #include "tests/api/abi.hpp"
+#include "tests/api/header_example.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
@@ -33,6 +34,29 @@ TEST(VulkanHeader, CompilesWithoutAWarning) {
                   "-std=c11 -x c -");
   for (const char* header : {"brume_vulkan.h", "brume_vulkan.hpp"})
     expect_runs("echo '#include <brume/" + std::string(header) + ">' | g++" + flags + "-std=c++17 -x c++ -");
+}
+
+// The frame of brume_vulkan.h, and in it the volume of brume_assets.h.
+TEST(VulkanHeader, TheExamplesCompileAsCAndCpp) {
+  const std::string frame = api::example_of("brume_vulkan.h"), volume = api::example_of("brume_assets.h");
+  ASSERT_NE(frame.find("brume_renderer_record"), frame.npos);
+  ASSERT_NE(volume.find("brume_volume_create"), volume.npos);
+  const cli::WorkFolder folder;
+  folder.write(
+      "example.c",
+      "#include <brume/brume_vulkan.h>\n#include <stdlib.h>\n"
+      "static void check(brume_result result) {\n  if (result != BRUME_OK) exit(1);\n}\n"
+      "void example(VkInstance instance, VkPhysicalDevice physical_device, VkDevice vulkan_device,\n"
+      "             uint32_t queue_family, VkCommandBuffer commands, VkImageView color_view,\n"
+      "             VkImageView depth_view, uint32_t width, uint32_t height, brume_context* context,\n"
+      "             const brume_field* field, uint64_t frame_number, uint64_t completed_frame,\n"
+      "             uint32_t tick, double seconds, brume_point eye, brume_point forward,\n"
+      "             brume_point hearth) {\n" +
+          frame + volume + "}\n");
+  for (const char* compiler : {"cc -std=c11", "c++ -std=c++17 -x c++"})
+    expect_runs(std::string(compiler) +
+                " -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -fsyntax-only -I'" + kInclude +
+                "' '" + (folder.path() / "example.c").string() + "'");
 }
 
 TEST(VulkanLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {

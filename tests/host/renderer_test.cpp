@@ -51,7 +51,7 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
   host_->frame([&](VkCommandBuffer commands, std::uint64_t, std::uint64_t) {
     params.commands = commands;
     refused(BRUME_ERROR_ORDER, "frame");
-    params.frame = 1;
+    params.frame_number = 1;
     refused(BRUME_ERROR_ARGUMENT, "depth.view");
     params.depth.view = reinterpret_cast<VkImageView>(1);
     params.depth.near_plane = NAN;
@@ -66,12 +66,9 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
     params.look.noise_size = 0;
     refused(BRUME_ERROR_ARGUMENT, "noise_size");
     params.look.noise_size = 1;
-    params.less_detail = 1.5f;
-    refused(BRUME_ERROR_ARGUMENT, "less_detail");
-    params.less_detail = 0;
-    params.reserved = 1;
-    refused(BRUME_ERROR_ARGUMENT, "reserved");
-    params.reserved = 0;
+    params.detail_reduction = 1.5f;
+    refused(BRUME_ERROR_ARGUMENT, "detail_reduction");
+    params.detail_reduction = 0;
     params.light_count = 1;
     refused(BRUME_ERROR_ARGUMENT, "lights");
     params.light_count = 0;
@@ -83,22 +80,9 @@ TEST_F(RendererTest, RefusesWhatTheHeaderForbids) {
   EXPECT_EQ(brume_renderer_smoke(smoke_->renderer, nullptr, nullptr), BRUME_ERROR_ORDER);
 }
 
-// Callers with the header of 0.1, whose struct ended before the volumes, and of 0.2, which had no decals.
-TEST_F(RendererTest, DrawsTheFramesOfAnEarlierHeader) {
+// Callers with an earlier header, whose struct ended before `prepare_all`.
+TEST_F(RendererTest, TakesTheParametersOfAnEarlierHeader) {
   make_sides(1, 1);
-  draw_both(2.0, 1);
-  change_params_ = [](brume_frame_params& params) {
-    params.struct_size = offsetof(brume_frame_params, volumes);
-    std::memset(&params.volumes, 0xa5, sizeof params - offsetof(brume_frame_params, volumes));
-  };
-  draw_both(2.0, 1);
-  change_params_ = [](brume_frame_params& params) {
-    params.struct_size = offsetof(brume_frame_params, decals);
-    std::memset(&params.decals, 0xa5, sizeof params - offsetof(brume_frame_params, decals));
-  };
-  draw_both(2.0, 1);
-  host_->wait();
-  for (std::size_t frame = 0; frame < 3; ++frame) expect_same(frame);
   brume_renderer_params params = brume_renderer_defaults();
   params.struct_size = offsetof(brume_renderer_params, prepare_all);
   params.prepare_all = ~0u;
@@ -124,10 +108,10 @@ TEST_F(RendererTest, TakesAsMuchDetailAsTheHostWants) {
   make_sides(2, 1);
   draw_both(3.5, 1);
   change_input_ = [](planning::FrameInput& input) { input.smoke.look.detail = 0.25f; };
-  change_params_ = [](brume_frame_params& params) { params.less_detail = 0.75f; };
+  change_params_ = [](brume_frame_params& params) { params.detail_reduction = 0.75f; };
   draw_both(3.5, 1);
   change_input_ = [](planning::FrameInput& input) { input.smoke.look.detail = 0; };
-  change_params_ = [](brume_frame_params& params) { params.less_detail = 1; };
+  change_params_ = [](brume_frame_params& params) { params.detail_reduction = 1; };
   draw_both(3.5, 1);
   host_->wait();
   const Texels all = expect_same(0), some = expect_same(1), none = expect_same(2);
@@ -145,7 +129,7 @@ TEST_F(RendererTest, TakesSettingsOfQuality) {
   };
   change_params_ = [](brume_frame_params& params) {
     params.quality.step_scale = 4;
-    params.quality.no_fine_shadows = 1;
+    params.quality.skip_fine_shadows = 1;
     params.quality.light_update_fraction = 0.25f;
   };
   draw_both(3.5, 1);

@@ -120,14 +120,14 @@ TEST_F(SoakTest, MemoryComesBackWhenSmokeIsOutOfViewForLong) {
 
 TEST_F(SoakTest, TellsThatMemoryIsShort) {
   make_small({160, 40, 160}, 0.125f);
-  std::uint32_t level = 7, dims_less = 7;
-  EXPECT_EQ(brume_renderer_coarseness(renderer_, &level, &dims_less), BRUME_ERROR_ORDER);
+  std::uint32_t level = 7, is_smoke_missing = 7;
+  EXPECT_EQ(brume_renderer_coarseness(renderer_, &level, &is_smoke_missing), BRUME_ERROR_ORDER);
   smoke(1, {5, 0.6f, 5}, 60'000, 1000);
   smoke(1, {14, 0.6f, 14}, 60'000, 1000);
   advance(100);
   const auto draw_and_ask = [&] {
     draw({1, 3, 1}, {1, -0.1f, 1}, 1.5);
-    EXPECT_OK(brume_renderer_coarseness(renderer_, &level, &dims_less));
+    EXPECT_OK(brume_renderer_coarseness(renderer_, &level, &is_smoke_missing));
     return level;
   };
   EXPECT_EQ(draw_and_ask(), 0u);

@@ -82,8 +82,8 @@ class TankTest : public HostedPair {
       host_->wait_for_compute(commands);
       brume_frame_params params = frame_of(scenario_, 1);
       params.commands = commands;
-      params.frame = frame;
-      params.completed = completed;
+      params.frame_number = frame;
+      params.completed_frame = completed;
       params.camera.position = point_of(camera_.position_world);
       params.camera.forward = point_of(camera_.target_world - camera_.position_world);
       params.camera.up = point_of(camera_.up_world);
@@ -245,7 +245,7 @@ TEST_F(TankTest, AWallThroughItHidesWhatIsBehindTheWall) {
 TEST_F(TankTest, SamplesOfFramesThatContinueAreThoseOfOne) {
   const std::vector<glm::dvec4> one = draw({shown(12)});
   brume_shown_tank tank = shown(4);
-  tank.continues = 1;
+  tank.continues_previous = 1;
   jitter_index_ = 4096;  // the same as 0: that of the first frame counts
   draw({shown(4)});
   for (const std::uint32_t jitter : {7u, 9u}) {

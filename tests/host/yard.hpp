@@ -185,8 +185,8 @@ class YardTest : public testing::Test {
       host_.wait_for_compute(commands);
       brume_frame_params params = brume_frame_defaults();
       params.commands = commands;
-      params.frame = frame;
-      params.completed = completed;
+      params.frame_number = frame;
+      params.completed_frame = completed;
       params.camera.position = point_of(eye);
       params.camera.forward = point_of(forward);
       params.depth.view = depth_.view();
@@ -194,7 +194,7 @@ class YardTest : public testing::Test {
       params.depth.reversed = 1;
       params.seconds = seconds;
       params.jitter_index = static_cast<std::uint32_t>(frame);
-      params.continues = frame > 1;
+      params.continues_previous = frame > 1;
       record(params);
     });
   }
