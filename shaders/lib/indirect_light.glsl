@@ -14,10 +14,12 @@ vec4 indirect_slab(vec3 p_cells, uint slab) {
   return textureLod(indirect_cube, at / vec3(size.xy, float(kIndirectSlabs) * size.z), 0.0);
 }
 
-/// How far a point lies outside of the cells: 0 inside, 1 from a quarter of their width on.
+/// 0 in the cells. Outside, what a place has of the nearest cell's light, less than 1 by this, falls with the third
+/// power of the distance from the middle, as the light of a source above ground does on it.
 float outside_of_cells(vec3 p_cells) {
-  const vec3 size = vec3(frame.indirect.size);
-  return min(4.0 * distance(p_cells, clamp(p_cells, vec3(0.0), size)) / max(size.x, size.z), 1.0);
+  const vec3 size = vec3(frame.indirect.size), middle = 0.5 * size, inside = clamp(p_cells, vec3(0.0), size);
+  const float ratio = distance(inside, middle) / max(distance(p_cells, middle), 1e-6);
+  return 1.0 - min(ratio * ratio * ratio, 1.0);
 }
 
 /// Irradiance / pi on a surface. Interpolates free cells only, so that no light leaks through walls.
