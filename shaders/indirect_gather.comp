@@ -7,7 +7,8 @@
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kMediaInCells = 1u;  // 0: there are none
+layout(constant_id = 0) const uint kMediaInCells = 1u;   // 0: there are none
+layout(constant_id = 1) const uint kSmallEmitters = 1u;  // likewise
 layout(scalar, binding = kBindIndirectProbes) readonly buffer Probes { uint probes[]; };
 layout(scalar, binding = kBindIndirectHits) readonly buffer Hits { uint hits[]; };
 layout(scalar, binding = kBindEmitterSamples) readonly buffer Samples { EmitterSample emitter_samples[]; };
@@ -58,7 +59,7 @@ void main() {
       sums[2u * axis + 1u] += down[axis] * light;
     }
   }
-  for (uint i = 0u; i < params.emitter_rays; ++i) {
+  for (uint i = 0u; kSmallEmitters != 0u && i < kEmitterRays; ++i) {
     const EmitterRay ray = emitter_rays[i * params.probe_count + probe];
     if (ray.weight <= 0.0) continue;
     const EmitterSample emitter = emitter_samples[ray.emitter_sample];

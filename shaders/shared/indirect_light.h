@@ -65,12 +65,11 @@ struct IndirectParams {
   ivec3 media_low;  // cells that may hold smoke
   ivec3 media_high;
   uint patch_count, probe_count, light_count;
-  uint emitter_rays;  // of a probe: kEmitterRays or 0
   uint first_probe, end_probe;  // that gather in a dispatch
   float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
   float g;           // mean cosine of the phase function of media
 };
-SHARED_SIZE(IndirectParams, 56);
+SHARED_SIZE(IndirectParams, 52);
 
 /// Slabs of the cube, those of light, and those of the formulas.
 SHARED_CONST uint kIndirectSlabs = 8u;

@@ -55,8 +55,6 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
       medium_light_pass_(context, shaders::indirect_medium_light_comp),
       patch_radiance_pass_(context, shaders::indirect_patch_radiance_comp),
       medium_source_pass_(context, shaders::indirect_medium_source_comp),
-      gather_pass_(context, shaders::indirect_gather_comp, {0u}),
-      gather_in_media_pass_(context, shaders::indirect_gather_comp, {1u}),
       smooth_pass_(context, shaders::indirect_smooth_comp),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
@@ -76,7 +74,11 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
   gpu::grow(context_, probes_, std::max<std::size_t>(probe_count_, 1) * sizeof(std::uint32_t));
   gpu::grow(context_, hits_,
             std::max<std::size_t>(probe_count_, 1) * shared::kProbeRays * sizeof(std::uint32_t));
-  emitter_rays_of_probe_ = level.emitter_rays.empty() ? 0 : shared::kEmitterRays;
+  small_emitters_ = level.emitter_rays.empty() ? 0 : 1;
+  for (const std::uint32_t media : {0u, 1u})
+    if (const std::array key{media, small_emitters_}; !gather_passes_.contains(key))
+      gather_passes_.try_emplace(key, context_, shaders::indirect_gather_comp,
+                                 std::vector{media, small_emitters_});
   gpu::grow(context_, emitter_samples_,
             std::max<std::size_t>(level.emitter_samples.size(), 1) * sizeof(shared::EmitterSample));
   gpu::grow(context_, emitter_rays_,
@@ -128,7 +130,6 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
   }
   params_.patch_count = patch_count_;
   params_.probe_count = probe_count_;
-  params_.emitter_rays = emitter_rays_of_probe_;
   params_.light_count = static_cast<std::uint32_t>(lights.size());
   params_.g = in.g;
   upload_list(recorder, lights_, lights);
@@ -216,7 +217,7 @@ void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in,
   params_.first_probe = static_cast<std::uint32_t>(probes * slice / all);
   params_.end_probe = static_cast<std::uint32_t>(probes * (slice + count) / all);
   if (params_.first_probe == params_.end_probe) return;
-  const gpu::ComputePipeline& gather = has_media() ? gather_in_media_pass_ : gather_pass_;
+  const gpu::ComputePipeline& gather = gather_passes_.at({has_media() ? 1u : 0u, small_emitters_});
   recorder.bind(gather,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindIndirectProbes, gpu::read(probes_)},

@@ -1,6 +1,7 @@
 // Light that surfaces and smoke pass on to each other (shared/indirect_light.h).
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 
@@ -61,12 +62,14 @@ class IndirectLightPass {
 
   gpu::Context& context_;
   gpu::ComputePipeline patches_pass_, medium_light_pass_, patch_radiance_pass_, medium_source_pass_,
-      gather_pass_, gather_in_media_pass_, smooth_pass_;
+      smooth_pass_;
+  /// By whether there are media and small emitters.
+  std::map<std::array<std::uint32_t, 2>, gpu::ComputePipeline> gather_passes_;
   std::map<std::uint32_t, gpu::ComputePipeline> medium_passes_;  ///< By the media of a frame.
   gpu::Sampler linear_, compare_;
   gpu::Buffer patches_, probes_, hits_, emitter_samples_, emitter_rays_, irradiance_, radiance_, lights_;
   gpu::Image cube_, next_cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
-  std::uint32_t patch_count_ = 0, probe_count_ = 0, emitter_rays_of_probe_ = 0;
+  std::uint32_t patch_count_ = 0, probe_count_ = 0, small_emitters_ = 0;
   shared::IndirectParams params_{};  ///< Of the light that is being found.
 };
 
