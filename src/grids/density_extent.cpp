@@ -16,14 +16,26 @@ constexpr double kDeep = 0.95;
 struct ColumnBrick {
   glm::ivec3 at{0};
   double sum = 0;  // of its voxels
-  Box<float> seen = kEmptyBox;
+  int count = 0, seen_count = 0;
+  Box<float> any = kEmptyBox, seen = kEmptyBox;  // where filtering finds more than 0, and what is seen
+  bool strays = false;
+
+  void add(float value, float least, const Box<float>& voxels, int voxel_count) {
+    count += voxel_count;
+    any = united(any, {voxels.low - 0.5f, voxels.high + 0.5f});
+    if (!(value > least)) return;
+    // Beside a voxel of 0 the value falls to the least that is seen within a voxel from the centre.
+    const float beyond = std::max(0.5f - least / value, 0.0f);
+    seen_count += voxel_count;
+    seen = united(seen, {voxels.low - beyond, voxels.high + beyond});
+  }
 };
 
 ColumnBrick uniform_column_brick(const volume::UniformBrick& brick, const BrickVolume& density, float least) {
   const float value = std::min(density.unit * glm::unpackHalf1x16(brick.texel), density.densest);
   const glm::vec3 low(shared::kBrickVoxels * brick.at);
   ColumnBrick out{brick.at, 512 * double{value}};
-  if (value > least) out.seen = {low, low + float{shared::kBrickVoxels}};
+  if (value > 0) out.add(value, least, {low, low + float{shared::kBrickVoxels}}, 512);
   return out;
 }
 
@@ -40,9 +52,75 @@ ColumnBrick column_brick(std::uint32_t slot, const BrickVolume& density, float l
         if (value <= 0) continue;
         brick.sum += double{std::min(value, density.densest)};
         const glm::vec3 low = first + glm::vec3(x, y, z);
-        if (value > least) brick.seen = united(brick.seen, {low, low + 1.0f});
+        brick.add(value, least, {low, low + 1.0f}, 1);
       }
   return brick;
+}
+
+/// Of what is seen, or of all where nothing is, what lies along each axis between the outermost kStray of it.
+Box<int> middle_of(const std::vector<ColumnBrick>& bricks) {
+  double all = 0;
+  for (const ColumnBrick& brick : bricks) all += brick.seen_count;
+  const bool any = !(all > 0);
+  const auto weight = [any](const ColumnBrick& brick) { return any ? brick.count : brick.seen_count; };
+  if (any)
+    for (const ColumnBrick& brick : bricks) all += brick.count;
+  Box<int> middle{glm::ivec3(0), glm::ivec3(0)};
+  std::vector<std::pair<int, int>> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    for (const ColumnBrick& brick : bricks) along.emplace_back(brick.at[axis], weight(brick));
+    std::ranges::sort(along);
+    const auto after = [&](const auto& list) {
+      double sum = 0;
+      for (const auto& [at, count] : list)
+        if ((sum += count) > kStray * all) return at;
+      return list.front().first;
+    };
+    middle.low[axis] = after(along);
+    std::ranges::reverse(along);
+    middle.high[axis] = after(along);
+  }
+  return middle;
+}
+
+/// From a box to another, along each axis; 0 where they overlap.
+glm::dvec3 gap_between(const Box<float>& a, const Box<float>& b) {
+  return glm::dvec3(glm::max(glm::max(b.low - a.high, a.low - b.high), glm::vec3(0)));
+}
+
+/// Finds what strays. `voxel`: edges in the file's world.
+void find_strays(std::vector<ColumnBrick>& bricks, const glm::dvec3& voxel, DensityExtent& extent) {
+  if (bricks.empty()) return;
+  const Box<int> middle = middle_of(bricks);
+  for (ColumnBrick& brick : bricks) {
+    brick.strays =
+        glm::any(glm::lessThan(brick.at, middle.low)) || glm::any(glm::greaterThan(brick.at, middle.high));
+    if (!brick.strays) extent.bulk = united(extent.bulk, brick.any);
+  }
+  // What is near belongs to the bulk, and what is near that.
+  for (bool grows = true; grows;) {
+    grows = false;
+    const Box<float> bulk = extent.bulk;
+    const glm::dvec3 size = glm::dvec3(bulk.high - bulk.low) * voxel;
+    const double reach = std::max({size.x, size.y, size.z});
+    for (ColumnBrick& brick : bricks) {
+      const glm::dvec3 gap = gap_between(bulk, brick.any) * voxel;
+      if (!brick.strays || std::max({gap.x, gap.y, gap.z}) > reach) continue;
+      brick.strays = false;
+      extent.bulk = united(extent.bulk, brick.any);
+      grows = true;
+    }
+  }
+  double all = 0, strays = 0;
+  for (const ColumnBrick& brick : bricks) {
+    all += brick.count;
+    if (!brick.strays) continue;
+    strays += brick.count;
+    extent.stray_reach =
+        std::max(extent.stray_reach, glm::length(gap_between(extent.bulk, brick.any) * voxel));
+  }
+  extent.stray_part = strays / all;
 }
 
 /// The integrals along an axis, of columns of bricks.
@@ -81,9 +159,12 @@ DensityExtent measure_extent(const BrickVolume& density, float seen_fraction) {
 
   DensityExtent extent;
   std::vector<double> depths;
+  glm::dvec3 voxel;
+  for (int axis = 0; axis < 3; ++axis) voxel[axis] = glm::length(glm::dvec3(density.world_from_voxel[axis]));
+  find_strays(bricks, voxel, extent);
+  std::erase_if(bricks, [](const ColumnBrick& brick) { return brick.strays; });
   for (const ColumnBrick& brick : bricks) extent.seen = united(extent.seen, brick.seen);
-  for (int axis = 0; axis < 3; ++axis)
-    add_depths(bricks, axis, glm::length(glm::dvec3(density.world_from_voxel[axis])), depths);
+  for (int axis = 0; axis < 3; ++axis) add_depths(bricks, axis, voxel[axis], depths);
   if (depths.empty()) return extent;
   const auto deep = depths.begin() +
                     static_cast<std::ptrdiff_t>(std::floor(kDeep * static_cast<double>(depths.size() - 1)));

@@ -82,6 +82,11 @@ void warn_of_values(const std::filesystem::path& file, const VolumeFrame& first)
   if (!first.value_note.empty()) log_warning(file.string() + ": " + first.value_note);
 }
 
+/// Where a camera is fitted to the volume, and a part of it lies far outside of the picture.
+void warn_of_strays(const std::filesystem::path& file, const VolumeExtent& extent) {
+  if (const std::string note = stray_note(extent); !note.empty()) log_warning(file.string() + ": " + note);
+}
+
 /// Whether the simulation accepts it.
 bool is_near_origin(const voxel::GridLayout& layout) {
   const glm::vec3 high = layout.origin_world + glm::vec3(layout.size) * layout.voxel_size;
@@ -125,8 +130,9 @@ Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewO
     log_warning("--kelvin: nothing of " + file.string() + " glows");
   scene::Scene scene;
   (*volumes)->measure_sequence(0);
-  scene::Timeline timeline =
-      prepare_volume_view(file, (*volumes)->typical_frame(0), (*volumes)->extent(0), options);
+  const VolumeExtent extent = (*volumes)->extent(0);
+  if (!options.camera) warn_of_strays(file, extent);
+  scene::Timeline timeline = prepare_volume_view(file, (*volumes)->typical_frame(0), extent, options);
   if ((*volumes)->is_sequence(0))
     timeline.duration = static_cast<float>((*volumes)->length(0)) / timeline.volumes.front().frame_rate;
   place_volumes(timeline, **volumes, scene);
@@ -211,7 +217,10 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
     warn_of_values(timeline.volumes[i].file, (*volumes)->typical_frame(i));
   // A camera that the timeline leaves to be fitted is to see all frames.
   if (timeline.camera.empty() && !scene->camera)
-    for (std::size_t i = 0; i < timeline.volumes.size(); ++i) (*volumes)->measure_sequence(i);
+    for (std::size_t i = 0; i < timeline.volumes.size(); ++i) {
+      (*volumes)->measure_sequence(i);
+      warn_of_strays(timeline.volumes[i].file, (*volumes)->extent(i));
+    }
   place_volumes(timeline, **volumes, *scene);
   apply_level_options(timeline, *scene);
   return assemble(std::move(timeline), std::move(*scene), std::move(*volumes), 16.0f / 9.0f, cache_folder);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
@@ -100,19 +101,25 @@ bool shows_nothing(const VolumeFrame& frame) {
   return frame.density.sum <= 0 && !frame.heat;
 }
 
+// What is less dense is not seen; what is less hot does not glow: by the fourth power.
+constexpr float kSeen = 0.01f, kGlows = 0.4f;
+
 VolumeExtent extent_of(const VolumeFrame& frame) {
-  // What is less dense is not seen; what is less hot does not glow: by the fourth power.
-  constexpr float kSeen = 0.01f, kGlows = 0.4f;
   VolumeExtent extent{.bounds = frame.bounds};
-  const auto add_seen = [&](const grids::BrickVolume& volume, float fraction) {
+  Box<float> bulk = kEmptyBox;
+  const auto add = [&](const grids::BrickVolume& volume, float fraction) {
     const grids::DensityExtent of = grids::measure_extent(volume, fraction);
-    if (!of.seen.empty())
-      extent.seen = united(extent.seen, transformed(glm::mat4(volume.world_from_voxel), of.seen));
+    const glm::mat4 matrix(volume.world_from_voxel);
+    if (!of.seen.empty()) extent.seen = united(extent.seen, transformed(matrix, of.seen));
+    if (!of.bulk.empty()) bulk = united(bulk, transformed(matrix, of.bulk));
+    extent.stray_part = std::max(extent.stray_part, of.stray_part);
+    extent.stray_reach = std::max(extent.stray_reach, of.stray_reach);
     return of.depth;
   };
-  extent.depth = add_seen(frame.density, kSeen);
-  if (frame.heat) add_seen(*frame.heat, kGlows);
-  if (extent.seen.empty()) extent.seen = frame.bounds;
+  extent.depth = add(frame.density, kSeen);
+  if (frame.heat) add(*frame.heat, kGlows);
+  if (extent.stray_part > 0) extent.bounds = intersection(frame.bounds, bulk);
+  if (extent.seen.empty()) extent.seen = extent.bounds;
   return extent;
 }
 
@@ -135,6 +142,25 @@ VolumeAt placed(const LoadedVolume& loaded, const scene::VolumeOptions& options)
 }
 
 }  // namespace
+
+std::string stray_note(const VolumeExtent& extent) {
+  if (!(extent.stray_part > 0)) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%.2g %% of its voxels lie far from the rest, up to %.4g units, outside of the first picture: "
+                "--camera shows them",
+                100 * extent.stray_part, extent.stray_reach);
+  return text;
+}
+
+Result<std::string> stray_note(const grids::Grid& density) {
+  // At a lower resolution a large grid takes little memory, and strays as far.
+  constexpr std::uint32_t kMostBricks = 1u << 15;
+  const auto volume = grids::make_brick_volume(density, {.max_bricks = kMostBricks});
+  if (!volume) return volume.failure();
+  const grids::DensityExtent extent = grids::measure_extent(*volume, kSeen);
+  return stray_note(VolumeExtent{.stray_part = extent.stray_part, .stray_reach = extent.stray_reach});
+}
 
 glm::mat4 world_from_file(const scene::VolumeOptions& options) {
   const glm::mat4 matrix =
@@ -181,6 +207,8 @@ std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Vol
   const VolumeFrame& frame = volumes.typical_frame(i);
   const volume::SparseVolume& volume = *frame.density.volume;
   const glm::dmat4 world = glm::dmat4(world_from_file(options)) * frame.density.world_from_voxel;
+  const VolumeExtent extent = volumes.extent(i);
+  const glm::mat4 file_from_voxel(frame.density.world_from_voxel);
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
     if (!volume.in_use(slot)) continue;
     // A brick inside of others, whose aprons reach its corners, is inside of their hull.
@@ -188,6 +216,8 @@ std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Vol
     if (std::ranges::find(around, volume::SparseVolume::kNoSlot) == around.end()) continue;
     const Box<float> box = dense_box(volume, slot);
     if (box.empty()) continue;
+    if (extent.stray_part > 0 && intersection(transformed(file_from_voxel, box), extent.bounds).empty())
+      continue;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::vec3 p = glm::mix(box.low, box.high, glm::bvec3(corner & 1, corner & 2, corner & 4));
       const glm::vec3 inside = glm::clamp(p, volume.layout().bounds_min, volume.layout().bounds_max);
@@ -328,6 +358,8 @@ void Volumes::measure_sequence(std::size_t volume) {
     const VolumeExtent own = extent_of(**frame);
     sequence.extent->bounds = united(sequence.extent->bounds, own.bounds);
     sequence.extent->seen = united(sequence.extent->seen, own.seen);
+    sequence.extent->stray_part = std::max(sequence.extent->stray_part, own.stray_part);
+    sequence.extent->stray_reach = std::max(sequence.extent->stray_reach, own.stray_reach);
     if (own.depth <= sequence.extent->depth) continue;
     sequence.extent->depth = own.depth;
     sequence.typical = {std::move(*frame), nullptr};

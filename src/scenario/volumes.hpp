@@ -30,10 +30,17 @@ struct VolumeAt {
 
 /// Where a volume can be seen over its frames, in the world of its files, and how deep it is.
 struct VolumeExtent {
-  Box<float> bounds = kEmptyBox;  ///< Around what can be dense.
+  Box<float> bounds = kEmptyBox;  ///< Around what can be dense and does not stray.
   Box<float> seen = kEmptyBox;    ///< Around what is dense enough to be seen, or glows: what a camera frames.
   double depth = 0;               ///< As grids::DensityExtent::depth: of the deepest frame.
+  /// As grids::DensityExtent: most of any frame.
+  double stray_part = 0, stray_reach = 0;
 };
+
+/// What lies far outside of the picture, a sentence; empty: nothing.
+std::string stray_note(const VolumeExtent& extent);
+/// The same of a grid of density.
+Result<std::string> stray_note(const grids::Grid& density);
 
 /// What to do about a frame that is not loaded yet.
 enum class VolumeWait {

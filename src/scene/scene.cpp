@@ -75,7 +75,9 @@ Camera default_camera(const Scene& scene, float aspect) {
   if (scene.camera) return *scene.camera;
   Camera camera;
   camera.vertical_fov = 0.85f;
-  const Box<float> bounds = world_bounds(scene);
+  // What of volumes is framed may lie far from the middle of their bounds.
+  Box<float> bounds = level_bounds(scene);
+  for (const Volume& volume : scene.volumes) bounds = united(bounds, volume.core_world);
   if (bounds.empty()) return camera;
   const float radius = std::max(glm::length(bounds.high - bounds.low) / 2, 0.05f);
   const glm::vec3 middle = (bounds.low + bounds.high) / 2.0f;
