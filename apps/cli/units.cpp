@@ -24,8 +24,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKeyMagic = "BRUMEKEY 1";
 
+// Hidden: engines that import a folder skip it.
 fs::path key_path(const std::string& output) {
-  return output + ".key";
+  const fs::path path(output);
+  return path.parent_path() / ("." + path.filename().string() + ".key");
 }
 
 // "input HEX PATH" or "output HEX NAME".

@@ -25,11 +25,12 @@ class Units : public testing::Test {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     return outcome;
   }
-  /// The files whose names begin so.
+  /// The files whose names begin so, hidden ones too.
   Files files(const std::string& start) const {
     Files files;
     for (const std::string& name : folder_.files())
-      if (name.starts_with(start)) files[name] = read_text_file(folder_.path() / name).value_or_throw();
+      if (name.starts_with(start) || name.starts_with("." + start))
+        files[name] = read_text_file(folder_.path() / name).value_or_throw();
     return files;
   }
   void remove(const std::string& start) const {
@@ -73,7 +74,7 @@ TEST_F(Units, AnAdditionToTheSeedNumbersThem) {
   one[3] = "one.spheres";
   run(one, {"--seed", "5"});
   EXPECT_EQ(*read_text_file(folder_.path() / "one.spheres"), files("tank_").at("tank_05.spheres"));
-  EXPECT_FALSE(fs::exists(folder_.path() / "one.spheres.key"));
+  EXPECT_FALSE(fs::exists(folder_.path() / ".one.spheres.key"));
 }
 
 TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
@@ -81,6 +82,9 @@ TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
   EXPECT_EQ(run(slices_, {"--resume"}).error, "brume: frames 1-3: missing\n");
   const Files whole = files("s_");
   ASSERT_EQ(whole.size(), 9u) << "an image, a description and a key each";
+  for (const auto& [name, bytes] : whole)
+    EXPECT_TRUE(name.ends_with(".png") || name.ends_with(".json") || name.starts_with('.'))
+        << name << " would be imported with the textures";
   const Outcome nothing = run(slices_, {"--resume"});
   EXPECT_EQ(nothing.out + nothing.error, "");
 
@@ -94,11 +98,11 @@ TEST_F(Units, ResumingMakesWhatIsMissingDamagedOrOfOtherInputs) {
   folder_.write("s_2.json", whole.at("s_1.json"));
   folder_.write("s_3.png", whole.at("s_3.png").substr(0, 40));
   check("brume: frame 1: missing\nbrume: frames 2-3: damaged; made again\n");
-  fs::remove(folder_.path() / "s_2.png.key");
-  folder_.write("s_3.png.key", whole.at("s_1.png.key"));
+  fs::remove(folder_.path() / ".s_2.png.key");
+  folder_.write(".s_3.png.key", whole.at(".s_1.png.key"));
   check("brume: frame 2: without a key; made again\nbrume: frame 3: of another number; made again\n");
-  folder_.write("s_1.png.key", whole.at("s_1.png.key").substr(0, 30));
-  folder_.write("s_3.png.key", "BRUMEKEY");
+  folder_.write(".s_1.png.key", whole.at(".s_1.png.key").substr(0, 30));
+  folder_.write(".s_3.png.key", "BRUMEKEY");
   check(
       "brume: frame 1: of other settings, another program; made again\nbrume: frame 3: without a key; made "
       "again\n");
@@ -233,12 +237,12 @@ TEST_F(Units, AnInterruptedUnitSaysWhichOfItsFilesAreThere) {
     ASSERT_TRUE(stopped.exit_code == 0 || stopped.exit_code == 6 || stopped.exit_code == 128 + SIGTERM);
     EXPECT_EQ(stopped.exit_code == 128 + SIGTERM, made.empty()) << stopped.error;
     EXPECT_EQ(stopped.exit_code == 0, made.size() == 4) << stopped.error;
-    const bool has_no_key = made.contains("cloud_1.brv") && !made.contains("cloud_1.brv.key");
+    const bool has_no_key = made.contains("cloud_1.brv") && !made.contains(".cloud_1.brv.key");
     without_key += has_no_key ? 1 : 0;
     if (has_no_key) {
       EXPECT_EQ(stopped.error,
                 "brume: interrupted; 0 of 2 frames written; of the next, written: cloud_1.brv; not written: "
-                "cloud_1.brv.key; continue with --resume\n");
+                ".cloud_1.brv.key; continue with --resume\n");
     }
   }
   EXPECT_GT(without_key, 0);
@@ -247,11 +251,11 @@ TEST_F(Units, AnInterruptedUnitSaysWhichOfItsFilesAreThere) {
 TEST_F(Units, FilesOfAllUnitsAreCheckedBeforeTheFirst) {
   make_clouds();
   const Arguments convert{"convert", "cloud_%d.brv", "c_%d.nvdb", "--frames", "1-3"};
-  fs::create_directory(folder_.path() / "c_3.nvdb.key");
-  expect_failure(folder_, convert, 2, {"c_3.nvdb.key: is a folder"});
-  fs::remove(folder_.path() / "c_3.nvdb.key");
-  folder_.write("c_2.nvdb.key", "a poem");
-  expect_failure(folder_, convert, 2, {"c_2.nvdb.key: exists and is no ", "--force"});
+  fs::create_directory(folder_.path() / ".c_3.nvdb.key");
+  expect_failure(folder_, convert, 2, {".c_3.nvdb.key: is a folder"});
+  fs::remove(folder_.path() / ".c_3.nvdb.key");
+  folder_.write(".c_2.nvdb.key", "a poem");
+  expect_failure(folder_, convert, 2, {".c_2.nvdb.key: exists and is no ", "--force"});
   folder_.write("s_3.json", "[1, 2]");
   expect_failure(folder_, slices_, 2, {"s_3.json: exists and is no ", "--force"});
   fs::create_directory(folder_.path() / "c_3.raw");
