@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "scene/ray.hpp"
 
@@ -84,6 +86,39 @@ std::array<glm::vec3, 4> other_points(const scene::Scene& scene, const scene::Ca
   return {entry, middle + aside * axes.right, middle - aside * axes.right, glm::mix(eye, subject, 0.5f)};
 }
 
+/// Whether a grown smoke stands before most of a level that is seen from outside and hardly larger.
+bool hides_level(const Box<float>& bounds, const SmokeView& view, glm::vec3 place, float diameter) {
+  const glm::vec3 eye = view.camera.position_world;
+  if (bounds.empty() || bounds.contains(eye)) return false;
+  const glm::vec3 extent = bounds.high - bounds.low, middle = 0.5f * (bounds.low + bounds.high);
+  const glm::vec3 along = middle - eye, smoke = middle_of_smoke(place, diameter) - eye;
+  const float t = glm::dot(smoke, along) / glm::dot(along, along);
+  return t > 0 && t < 1 && glm::length(smoke - t * along) < 0.5f * diameter &&
+         std::max({extent.x, extent.y, extent.z}) < 4 * diameter;
+}
+
+/// Where a grown smoke stands beside the level, in view as a whole; empty: nowhere.
+std::optional<glm::vec3> place_beside(const scene::Scene& scene, const SmokeView& view, float diameter) {
+  const ViewAxes axes = axes_of(view.camera);
+  const Box<float> bounds = scene::level_bounds(scene);
+  const glm::vec3 middle = 0.5f * (bounds.low + bounds.high), extent = bounds.high - bounds.low;
+  const float aside = 0.5f * glm::dot(extent, glm::abs(axes.right)) + 0.6f * diameter;
+  std::array places{middle + aside * axes.right, middle - aside * axes.right};
+  // First the one that is nearer to the middle of the view.
+  const auto off = [&](glm::vec3 place) {
+    return std::abs(glm::dot(place - view.camera.position_world, axes.right));
+  };
+  if (off(places[1]) < off(places[0])) std::swap(places[0], places[1]);
+  for (glm::vec3 place : places) {
+    place.y = bounds.low.y;
+    const glm::vec3 smoke = middle_of_smoke(place, diameter);
+    const bool is_whole = is_in_view(view, smoke + 0.5f * diameter * axes.right) &&
+                          is_in_view(view, smoke - 0.5f * diameter * axes.right);
+    if (is_whole && is_smoke_seen(scene, view, place, diameter)) return place;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 glm::vec3 subject_point(const scene::Scene& scene, const scene::Camera& camera) {
@@ -113,6 +148,8 @@ glm::vec3 choose_smoke_place(const scene::Scene& scene, const SmokeView& view, f
   const glm::vec3 subject = subject_point(scene, view.camera);
   const auto is_seen = [&](glm::vec3 place) { return is_smoke_seen(scene, view, place, diameter); };
   const glm::vec3 usual = on_floor(scene, before(view.camera, subject, diameter), diameter);
+  if (view.is_of_scene && hides_level(scene::level_bounds(scene), view, usual, diameter))
+    if (const auto beside = place_beside(scene, view, diameter)) return *beside;
   if (is_seen(usual)) return usual;
   const auto others = other_points(scene, view.camera, subject, diameter);
   for (const glm::vec3 point : others) {

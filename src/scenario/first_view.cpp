@@ -292,7 +292,8 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   const bool is_fitted = !scene.camera && !options.camera;
   timeline.smokes = options.smokes;
   if (is_fitted) camera = camera_with_smoke(scene, timeline.smokes, 0, options.aspect);
-  const SmokeView view{options.camera.value_or(camera), options.aspect, !is_fitted};
+  const SmokeView view{options.camera.value_or(camera), options.aspect, !is_fitted,
+                       !is_fitted && !options.camera};
   const float diameter = smoke_size(view.camera, subject_point(scene, view.camera), options);
   Box<float> extent = bounds;
   for (const scene::SmokeEvent& smoke : timeline.smokes)

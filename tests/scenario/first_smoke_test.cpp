@@ -9,6 +9,7 @@
 
 #include "core/log.hpp"
 #include "scenario/scenario.hpp"
+#include "scene/load.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -137,6 +138,31 @@ TEST_F(FirstSmokeTest, IsInARoomThatTheCameraIsIn) {
     options.camera = scene::Camera{{0, 1.6f, -1}, target, 1};
     expect_seen(options);
   }
+}
+
+// A model with a camera of its own, which sees room beside it: the ray to its middle misses the smoke.
+TEST_F(FirstSmokeTest, StandsBesideASmallModelOfItsOwnCamera) {
+  add_box({-0.8f, 0, -0.6f}, {0.8f, 1.5f, 0.6f});
+  const scene::Scene scene = scene::load_scene(path()).value_or_throw();
+  const glm::vec3 middle(0, 0.75f, 0);
+  const auto off_middle = [&](const SmokeView& view, float diameter) {
+    const glm::vec3 eye = view.camera.position_world, along = glm::normalize(middle - eye);
+    const glm::vec3 place = choose_smoke_place(scene, view, diameter);
+    EXPECT_TRUE(is_smoke_seen(scene, view, place, diameter));
+    const glm::vec3 smoke = place + glm::vec3(0, 0.25f * diameter, 0) - eye;
+    return glm::length(smoke - glm::dot(smoke, along) * along);
+  };
+  for (const glm::vec3 eye : {glm::vec3(4, 4.6f, -4.3f), glm::vec3(0, 1, 7), glm::vec3(-6, 2, 1)}) {
+    SmokeView view{scene::Camera{eye, {0.3f, 0.4f, -0.4f}, 0.66f}, 16.0f / 9.0f, true, true};
+    for (const float diameter : {0.6f, 1.2f, 1.8f})
+      EXPECT_GT(off_middle(view, diameter), 0.5f * diameter) << eye.x << ' ' << diameter;
+    // A camera that is given may be one on the smoke.
+    view.is_of_scene = false;
+    EXPECT_LT(off_middle(view, 1.2f), 0.6f) << eye.x;
+  }
+  // Where there is no room in view, it is before the model.
+  const SmokeView near{scene::Camera{{0, 1, 3.2f}, {0, 0.75f, 0}, 0.6f}, 16.0f / 9.0f, true, true};
+  EXPECT_LT(off_middle(near, 1.2f), 0.6f);
 }
 
 // Inside of a wall, where no smoke fits: one line.
