@@ -343,14 +343,19 @@ Box<float> bounds_of(const Grid& grid, const glm::ivec3& origin, int halvings) {
   return {glm::vec3((active.low + 0.5) * per_voxel), glm::vec3((active.high + 0.5) * per_voxel)};
 }
 
-/// Where voxels are counted from, so that floats hold places between them: the grid's own origin unless that
-/// is too far [bricks].
+/// Where the voxels of any grid are counted from, so that floats hold places between them: the grid's own
+/// origin unless that is too far; then near the corner of its bricks, or their middle where a few of them lie
+/// far from the others. Halvings and tiles keep their alignment [bricks].
 glm::ivec3 near_origin(const GridNumbers& numbers) {
   constexpr int kFar = 1 << 14;
   const Box<int> box = numbers.brick_box();
   if (box.empty()) return glm::ivec3(0);
   const glm::ivec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
-  return std::max({farthest.x, farthest.y, farthest.z}) > kFar ? box.low : glm::ivec3(0);
+  if (std::max({farthest.x, farthest.y, farthest.z}) <= kFar) return glm::ivec3(0);
+  constexpr int kLargestTile = 4096 / kBrickEdge;
+  const glm::ivec3 size = box.high - box.low;
+  const bool is_near = std::max({size.x, size.y, size.z}) <= kFar;
+  return (is_near ? box.low : numbers.middle_brick()) & ~(kLargestTile - 1);
 }
 
 /// From the voxels of a level to those before it was halved: voxel i of level l has its centre at index

@@ -119,6 +119,7 @@ class ChannelColors {
     const glm::dvec3 p(glm::inverse(grid.world_from_index) * (first_ * glm::dvec4(index, 1)));
     const glm::dvec3 low = glm::floor(p + kRounding), weight = glm::clamp(p - low, 0.0, 1.0);
     std::optional<double> sum;
+    if (!may_hold(low)) return sum;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
       const glm::dvec3 w = glm::mix(1.0 - weight, weight, glm::dvec3(side));
@@ -154,6 +155,7 @@ class Mean {
 template <typename Colors>
 glm::vec3 color_at(Colors& lookup, glm::dvec3 p_index) {
   const glm::dvec3 low = glm::floor(p_index + kRounding);
+  if (!may_hold(low)) return glm::vec3(1);
   const glm::vec3 weight(glm::clamp(p_index - low, 0.0, 1.0));
   Mean filtered, around;
   for (int corner = 0; corner < 8; ++corner) {

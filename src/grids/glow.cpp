@@ -33,6 +33,7 @@ struct Moments {
 
 /// The value of the density at a point of its voxel space.
 double density_at(const volume::SparseVolume& volume, glm::dvec3 p_voxel) {
+  if (!may_hold(p_voxel)) return 0;
   const glm::ivec3 voxel(glm::floor(p_voxel)), brick = voxel >> 3, local = (voxel & 7) + 1;
   if (const auto uniform = volume.uniform_at(brick)) return double{glm::unpackHalf1x16(*uniform)};
   const std::uint32_t slot = volume.slot_at(brick);

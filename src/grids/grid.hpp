@@ -111,13 +111,18 @@ std::uint64_t count_active(const Grid& grid);
 /// Whether the number of an active voxel or tile is finite and above `value`.
 bool any_above(const Grid& grid, double value);
 
-/// Whether its values are distances to a surface, negative inside: by its class, or, where a program lost that, by its
-/// values: both signs, none beyond the background, which is above 0.
+/// Whether its values are distances to a surface, negative inside: by its class, or, where a program lost
+/// that, by its values: both signs, none beyond the background, which is above 0.
 bool is_level_set(const Grid& grid);
 
 /// Around all active voxels, in index space: whole voxels, so that one voxel at 0 gives [-0.5, 0.5]. Empty
 /// (low > high) without any.
 Box<double> active_bounds(const Grid& grid);
+
+/// Whether a voxel around a point of index space may be in a grid: its index fits 32 bits, with room to add.
+inline bool may_hold(const glm::dvec3& p_index) {
+  return glm::all(glm::lessThan(glm::abs(p_index), glm::dvec3(1 << 30)));
+}
 
 /// Bytes that its bricks, values and tiles take.
 std::uint64_t memory_of(const Grid& grid);

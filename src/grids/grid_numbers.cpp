@@ -28,8 +28,8 @@ std::size_t voxel_number(glm::ivec3 v) {
   return static_cast<std::size_t>(v.x + 8 * (v.y + 8 * v.z));
 }
 
-/// A value kFarBeyond times as large as all but a part kOutliers of them is ignored: half floats are scaled to
-/// the largest value, and would have no precision left for the rest.
+/// A value kFarBeyond times as large as all but a part kOutliers of them is ignored: half floats are scaled
+/// to the largest value, and would have no precision left for the rest.
 constexpr double kOutliers = 1e-3, kFarBeyond = 1024;
 
 /// How many values there are of each power of two, and the largest of each.
@@ -289,6 +289,21 @@ Box<int> GridNumbers::brick_box() const {
   for (const glm::ivec3 at : at_) add({at, at + 1});
   for (const Cube& cube : cubes_) add({cube.origin, cube.origin + cube.edge});
   return box;
+}
+
+glm::ivec3 GridNumbers::middle_brick() const {
+  glm::ivec3 middle(0);
+  std::vector<int> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    for (const glm::ivec3 at : at_) along.push_back(at[axis]);
+    for (const Cube& cube : cubes_) along.push_back(cube.origin[axis] + cube.edge / 2);
+    if (along.empty()) break;
+    const auto half = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+    std::ranges::nth_element(along, half);
+    middle[axis] = *half;
+  }
+  return middle;
 }
 
 void GridNumbers::expand_cubes() {

@@ -78,6 +78,8 @@ class GridNumbers {
   std::uint64_t brick_count() const;
   /// Around all of them [bricks]; empty without any.
   Box<int> brick_box() const;
+  /// The median along each axis of its bricks and of the middles of its cubes; 0 without any.
+  glm::ivec3 middle_brick() const;
   /// Cubes become bricks, in their order behind the others. brick_count() of them must fit the memory.
   void expand_cubes();
 

@@ -50,6 +50,7 @@ class MaskValues {
 /// The values at a point of index space, linear between voxel centres.
 float value_at(MaskValues& values, const glm::dvec3& p_index) {
   const glm::dvec3 low = glm::floor(p_index);
+  if (!may_hold(low)) return 0;
   const glm::vec3 weight(p_index - low);
   float sum = 0;
   for (int corner = 0; corner < 8; ++corner) {
