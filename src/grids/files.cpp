@@ -63,18 +63,6 @@ Result<GridFile> load_described(const fs::path& json, const GridLimits& limits) 
   return to_grids(*atlas);
 }
 
-/// Files that are read as a whole: of their grids those that are chosen.
-Result<GridFile> chosen_of(Result<GridFile> file, const GridChoice& choice) {
-  if (!file || !choice) return file;
-  std::vector<const Grid*> heads;
-  for (const Grid& grid : file->grids) heads.push_back(&grid);
-  const auto positions = choice(heads);
-  if (!positions) return positions.failure();
-  GridFile chosen{{}, std::move(file->metadata)};
-  for (const std::size_t position : *positions) chosen.grids.push_back(std::move(file->grids[position]));
-  return chosen;
-}
-
 Result<GridFile> load_spheres(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
   const auto tank = spheres::load_tank(path);
   if (!tank) return tank.failure();

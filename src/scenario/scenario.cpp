@@ -80,6 +80,7 @@ void warn_of_values(const std::filesystem::path& file, const VolumeFrame& first)
   if (!first.heat_note.empty() && (!first.heat || first.heat_is_kelvin))
     log_warning(file.string() + ": " + first.heat_note);
   if (!first.value_note.empty()) log_warning(file.string() + ": " + first.value_note);
+  for (const std::string& note : first.grid_notes) log_warning(file.string() + ": " + note);
 }
 
 /// Where a camera is fitted to the volume, and a part of it lies far outside of the picture.

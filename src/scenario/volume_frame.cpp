@@ -1,175 +1,25 @@
 #include "scenario/volume_frame.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
 #include "core/log.hpp"
-#include "core/similar.hpp"
 #include "grids/color_bricks.hpp"
 #include "grids/coverage.hpp"
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
+#include "scenario/volume_grids.hpp"
+#include "scenario/volumes.hpp"
 
 namespace brume::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The names that Blender, Houdini and EmberGen give, in order.
-constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
-constexpr std::array kColorNames{"Cd", "color", "colour", "Color", "Colour"};
-/// Of colours in channels, as Mantaflow names them: color_r, color_g, color_b.
-constexpr const char* kChannelName = "color";
-constexpr std::array kTemperatureNames{"temperature", "heat"};
-constexpr std::array kFireNames{"flame", "flames", "fire", "burn"};
-
-bool is_number_grid(const grids::Grid* grid) {
-  return grid->type == grids::ValueType::float32 || grid->type == grids::ValueType::float64;
-}
-
-bool is_whole_numbers(const grids::Grid* grid) {
-  return grid->type == grids::ValueType::int32 || grid->type == grids::ValueType::int64 ||
-         grid->type == grids::ValueType::boolean;
-}
-
-bool is_colors(const grids::Grid* grid) {
-  return grids::is_color_grid(*grid);
-}
-
 /// Voxels of a tank at most: with colours 20 bytes each on the device.
 constexpr std::uint64_t kMostTankVoxels = std::uint64_t{1} << 25;
-
-/// The grid of a name; without one the first of the usual names; null: none.
-using GridList = std::span<const grids::Grid* const>;
-Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
-                                       std::span<const char* const> usual,
-                                       bool (*fits)(const grids::Grid*) = is_number_grid) {
-  std::vector<std::string> known;
-  for (const grids::Grid* grid : grids) {
-    if (!name.empty() && grid->name == name) return grid;
-    known.push_back(grid->name);
-  }
-  if (!name.empty())
-    return Failure{ErrorCode::bad_input, "has no grid \"" + name + "\"" + suggestion(name, known, "\"")};
-  for (const char* const one : usual)
-    for (const grids::Grid* grid : grids)
-      if (grid->name == one && fits(grid)) return grid;
-  return static_cast<const grids::Grid*>(nullptr);
-}
-
-/// Whether "dens" is in a name, in any case.
-bool names_density(const std::string& name) {
-  const auto is_same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  constexpr std::string_view kPart = "dens";
-  return std::search(name.begin(), name.end(), kPart.begin(), kPart.end(), is_same) != name.end();
-}
-
-Result<const grids::Grid*> choose_density(GridList grids, const std::string& name) {
-  auto grid = choose_grid(grids, name, kDensityNames);
-  if (!grid || *grid) return grid;
-  for (const grids::Grid* one : grids)
-    if (is_number_grid(one) && names_density(one->name)) return one;
-  for (const auto fits : {is_number_grid, is_whole_numbers})
-    if (const auto first = std::ranges::find_if(grids, fits); first != grids.end()) return *first;
-  std::string names;
-  for (const grids::Grid* one : grids)
-    names += (names.empty() ? "\"" : ", \"") + one->name + "\" (" + std::string(name_of(one->type)) + ")";
-  return Failure{ErrorCode::bad_input,
-                 "has no grid of numbers to render" +
-                     (names.empty() ? "" : ", only " + names + "; name one of vectors to see its lengths")};
-}
-
-/// Whether a name is kNoGrid, and no grid's.
-bool says_none(GridList grids, const std::string& name) {
-  return name == kNoGrid &&
-         std::ranges::none_of(grids, [](const grids::Grid* grid) { return grid->name == kNoGrid; });
-}
-
-/// Red, green and blue as a grid of numbers each.
-using ColorParts = std::array<const grids::Grid*, 3>;
-
-/// The channels of a colour: NAME_r, NAME_g and NAME_b; nulls where one is missing.
-ColorParts color_channels(GridList grids, const std::string& name) {
-  ColorParts parts{};
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (const grids::Grid* grid : grids)
-      if (!parts[i] && is_number_grid(grid) && grid->name == name + '_' + "rgb"[i]) parts[i] = grid;
-  return std::ranges::count(parts, nullptr) > 0 ? ColorParts{} : parts;
-}
-
-/// What is rendered of a file.
-struct Chosen {
-  const grids::Grid* density = nullptr;
-  const grids::Grid* heat = nullptr;   ///< Null: nothing glows.
-  const grids::Grid* fire = nullptr;   ///< A grid that says where it burns; null: none.
-  bool names_heat = false;             ///< Whether the options do.
-  const grids::Grid* color = nullptr;  ///< Null: no colours, or in channels.
-  ColorParts channels = {};            ///< Of colours; null: none.
-  std::vector<const grids::Grid*> masks = {};
-
-  bool has(const grids::Grid* grid) const {
-    return grid == density || grid == heat || grid == fire || grid == color ||
-           std::ranges::find(channels, grid) != channels.end() ||
-           std::ranges::find(masks, grid) != masks.end();
-  }
-};
-/// The grids of masks, and the density only if the options name one.
-Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options) {
-  Chosen chosen;
-  for (const scene::VolumeMask& mask : options.masks) {
-    const auto grid = choose_grid(grids, mask.grid, {});
-    if (!grid) return grid.failure();
-    chosen.masks.push_back(*grid);
-  }
-  for (const auto& [name, member] :
-       {std::pair(options.density, &Chosen::density), {options.heat, &Chosen::heat}}) {
-    if (name.empty() || (member == &Chosen::heat && says_none(grids, name))) continue;
-    const auto grid = choose_grid(grids, name, {});
-    if (!grid) return grid.failure();
-    chosen.*member = *grid;
-  }
-  chosen.names_heat = !options.heat.empty();
-  return chosen;
-}
-
-/// A grid of vectors, else the channels of a colour.
-Result<void> choose_colors(GridList grids, const std::string& name, Chosen& chosen) {
-  if (says_none(grids, name)) return {};
-  const bool has_name = std::ranges::find(grids, name, &grids::Grid::name) != grids.end();
-  if (!has_name) chosen.channels = color_channels(grids, name.empty() ? kChannelName : name);
-  if (chosen.channels[0] && !name.empty()) return {};
-  const auto color = choose_grid(grids, name, kColorNames, is_colors);
-  if (!color) return color.failure();
-  chosen.color = *color;
-  if (chosen.color) chosen.channels = {};
-  return {};
-}
-
-Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
-  if (!options.masks.empty()) return choose_masks(grids, options);
-  const auto density = choose_density(grids, options.density);
-  if (!density) return density.failure();
-  const bool none = says_none(grids, options.heat);
-  const auto heat = choose_grid(grids, none ? "" : options.heat, kTemperatureNames);
-  if (!heat) return heat.failure();
-  const grids::Grid* const fire = *choose_grid(grids, "", kFireNames);
-  Chosen chosen{.density = *density, .names_heat = !options.heat.empty()};
-  if (auto colors = choose_colors(grids, options.color, chosen); !colors) return colors.failure();
-  if (none) return chosen;
-  if (chosen.names_heat) {
-    chosen.heat = *heat;
-    return chosen;
-  }
-  // One grid is both only if the options say so.
-  const auto hot = *heat ? *heat : fire;
-  chosen.heat = hot == *density ? nullptr : hot;
-  chosen.fire = fire;
-  return chosen;
-}
 
 /// Whether the file says so: Blender's solver names the resolution of its domain.
 bool is_z_up(const grids::Grid& grid) {
@@ -219,7 +69,7 @@ constexpr double kColdest = 600;
 /// Whether the heat of a file glows, and what to say about it. Solvers of smoke keep a temperature that lifts
 /// it: without a fire beside it that is no glow, unless the options give it a name or kelvin of its own, or
 /// it is in kelvin.
-bool glows(const Chosen& chosen, const scene::VolumeOptions& options, VolumeFrame& frame) {
+bool glows(const ChosenGrids& chosen, const scene::VolumeOptions& options, VolumeFrame& frame) {
   if (!chosen.heat) return false;
   const std::string name = '"' + chosen.heat->name + '"';
   frame.heat_is_kelvin = any_above(*chosen.heat, double{kMostFactor});
@@ -287,10 +137,26 @@ std::string note_of_negative(const grids::Grid& grid) {
   return '"' + grid.name + text;
 }
 
+/// Around the active voxels of a grid.
+Box<double> world_box(const grids::Grid& grid) {
+  const Box<double> active = active_bounds(grid);
+  Box<double> box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+  for (int corner = 0; corner < 8 && !active.empty(); ++corner) {
+    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+    const glm::dvec3 p(grid.world_from_index * glm::dvec4(glm::mix(active.low, active.high, high), 1));
+    box = united(box, {p, p});
+  }
+  return box;
+}
+
 /// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density, which files
 /// that other programs wrote again do not say.
-Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const Chosen& chosen,
+Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const fs::path& file, const ChosenGrids& chosen,
                                                            const grids::BrickVolume& density) {
+  const grids::Grid& first = chosen.color ? *chosen.color : *chosen.channels[0];
+  if (intersection(world_box(first), world_box(*chosen.density)).empty())
+    log_warning(file.string() + ": \"" + first.name + "\" colours nothing: it lies nowhere where \"" +
+                chosen.density->name + "\" is");
   if (chosen.color) return grids::make_color_bricks(*chosen.color, density);
   const bool multiplied = is_z_up(*chosen.density) || grids::are_multiplied(chosen.channels, *chosen.density);
   return grids::make_color_bricks(
@@ -311,71 +177,147 @@ Result<void> add_heat(const fs::path& file, const grids::Grid& heat, grids::Bric
   return {};
 }
 
-/// Where heat is in the voxels of a density of another transform.
-std::optional<grids::Grid> coverage_of_heat(const fs::path& file, const grids::Grid* heat,
-                                            const grids::Grid& density) {
-  if (!heat || heat->world_from_index == density.world_from_index) return std::nullopt;
-  auto covered = grids::coverage_of(*heat, density.world_from_index);
-  if (!covered)
-    log_warning(file.string() + ": \"" + heat->name + "\" is not drawn beyond the voxels of \"" +
-                density.name + "\", which are too small for that");
-  return covered;
+/// Entries of a page table for the voxels in a box, at least.
+double pages_of(const Box<double>& box) {
+  const glm::dvec3 nodes = glm::ceil((box.high - box.low) / 64.0);
+  return box.empty() ? 0 : nodes.x * nodes.y * nodes.z;
 }
 
-Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
-                                                const scene::VolumeOptions& options, const VolumeRoom& room) {
-  std::vector<const grids::Grid*> list;
-  for (const grids::Grid& grid : grids.grids) list.push_back(&grid);
-  const auto chosen = choose(list, options);
-  if (!chosen) return chosen.failure();
-  const std::vector<const grids::Grid*>& masks = chosen->masks;
-  auto frame = std::make_shared<VolumeFrame>();
-  const grids::Grid* density = chosen->density;
-  const bool has_colors = chosen->color || chosen->channels[0];
-  const grids::Grid* const heat = glows(*chosen, options, *frame) ? chosen->heat : nullptr;
-  grids::Grid joined;
-  if (!masks.empty()) {
-    auto all = grids::joined_masks(masks);
+/// Where heat is, in voxels of the density: what BrickVolumeOptions::also needs; null where it takes so much
+/// of the page table that the density would have no room at its own resolution. `covered` holds it where the
+/// voxels of both differ.
+const grids::Grid* reach_of(const grids::Grid& heat, const grids::Grid& density, std::uint32_t max_pages,
+                            std::optional<grids::Grid>& covered) {
+  const bool is_same = heat.world_from_index == density.world_from_index;
+  if (!is_same) covered = grids::coverage_of(heat, density.world_from_index);
+  const grids::Grid* const reach = is_same ? &heat : covered ? &*covered : nullptr;
+  const Box<double> own = active_bounds(density);
+  const double most = max_pages;
+  if (reach && (pages_of(own) > most || pages_of(united(own, active_bounds(*reach))) <= most)) return reach;
+  return nullptr;
+}
+
+/// What the grids of a frame are made into.
+struct FrameMaker {
+  const fs::path& file;
+  const ChosenGrids& chosen;
+  const scene::VolumeOptions& options;
+  const VolumeRoom& room;
+  VolumeFrame& frame;
+  const grids::Grid* density = chosen.density;
+  const grids::Grid* heat = nullptr;
+  bool is_cut = false;  ///< Whether the heat is drawn only where the density is.
+  grids::Grid joined = {};
+
+  bool has_colors() const { return chosen.color || chosen.channels[0]; }
+  /// Heat has the same room as the density.
+  std::uint32_t part(std::uint64_t of, std::uint32_t fewest, std::uint32_t most) const {
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(heat ? of / 2 : of, fewest, most));
+  }
+  std::uint32_t max_bricks() const {
+    return part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
+  }
+  std::uint32_t max_pages() const {
+    return part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
+  }
+  Result<void> add_density();
+  Result<void> add_colors_and_masks();
+  void cut_heat();
+};
+
+Result<void> FrameMaker::add_density() {
+  if (!chosen.masks.empty()) {
+    auto all = grids::joined_masks(chosen.masks);
     if (!all) return all.failure();
     joined = std::move(*all);
     if (!density) density = &joined;
   }
-  const auto covered = masks.empty() ? coverage_of_heat(file, heat, *density) : std::nullopt;
-  // Heat has the same room as the density.
-  const auto part = [&, has_heat = heat != nullptr](std::uint64_t of, std::uint32_t fewest,
-                                                    std::uint32_t most) {
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(has_heat ? of / 2 : of, fewest, most));
-  };
-  const std::uint32_t max_bricks = part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
-  const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
   // Bricks of colours and masks have the slots of the density's, which reach wherever a mask does.
-  const grids::Grid* also = density != &joined && !masks.empty() ? &joined : nullptr;
-  if (covered) also = &*covered;
-  if (heat && heat->world_from_index == density->world_from_index) also = heat;
+  const grids::Grid* also = density != &joined && !chosen.masks.empty() ? &joined : nullptr;
+  std::optional<grids::Grid> covered;
+  if (heat && (chosen.masks.empty() || heat->world_from_index == density->world_from_index)) {
+    const grids::Grid* const reach = reach_of(*heat, *density, max_pages(), covered);
+    is_cut = !reach;
+    if (reach) also = reach;
+  }
   const auto shift = density == &joined ? std::nullopt : shift_of(options);
   auto bricks = grids::make_brick_volume(
-      *density, {max_bricks, max_pages, also, !has_colors && masks.empty(), false, shift});
+      *density, {max_bricks(), max_pages(), also, !has_colors() && chosen.masks.empty(), false, shift});
   if (!bricks) return bricks.failure();
   const bool is_chosen = !options.opacity.empty() && options.range && options.range->x < 0;
-  if (density != &joined && !is_chosen) frame->value_note = note_of_negative(*density);
-  frame->density = std::move(*bricks);
-  warn_of_level(file, *density, frame->density);
-  warn_of_odd(file, *density, frame->density);
-  if (heat)
-    if (auto done = add_heat(file, *heat, {.max_bricks = max_bricks, .max_pages = max_pages}, *frame); !done)
-      return done.failure();
-  if (has_colors) {
-    auto colors = color_bricks(*chosen, frame->density);
+  if (density != &joined && !is_chosen) frame.value_note = note_of_negative(*density);
+  frame.density = std::move(*bricks);
+  frame.density_name = density->name;
+  warn_of_level(file, *density, frame.density);
+  warn_of_odd(file, *density, frame.density);
+  return {};
+}
+
+Result<void> FrameMaker::add_colors_and_masks() {
+  if (has_colors()) {
+    auto colors = color_bricks(file, chosen, frame.density);
     if (!colors) return colors.failure();
-    frame->colors = std::move(*colors);
+    frame.colors = std::move(*colors);
   }
-  if (!masks.empty()) {
-    frame->colors = grids::make_mask_bricks(masks, frame->density);
-    if (auto done = find_mask_glow(masks, *frame); !done) return done.failure();
+  if (chosen.masks.empty()) return {};
+  frame.colors = grids::make_mask_bricks(chosen.masks, frame.density);
+  return find_mask_glow(chosen.masks, frame);
+}
+
+/// Heat that is cut off at the bounds of the density, of which nothing may remain.
+void FrameMaker::cut_heat() {
+  if (!is_cut || !frame.heat) return;
+  const shared::VolumeLayout& layout = frame.heat->volume->layout();
+  const Box<float> place =
+      transformed(glm::mat4(frame.heat->world_from_voxel), {layout.bounds_min, layout.bounds_max});
+  const std::string name = '"' + heat->name + '"', of = '"' + density->name + '"';
+  if (!intersection(place, frame.bounds).empty()) {
+    log_warning(file.string() + ": " + name + " is drawn only where " + of +
+                " is: beyond it takes more voxels of " + of + " than one volume has");
+    return;
   }
-  frame->density_name = density->name;
-  measure_first_view(*density, *frame);
+  frame.heat.reset();
+  frame.glow.clear();
+  frame.heat_note = name + " does not glow: it lies too far from " + of + " to be drawn with it";
+}
+
+Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const ChosenGrids& chosen,
+                                                const scene::VolumeOptions& options, const VolumeRoom& room) {
+  auto frame = std::make_shared<VolumeFrame>();
+  FrameMaker maker{file, chosen, options, room, *frame};
+  if (glows(chosen, options, *frame)) maker.heat = chosen.heat;
+  if (auto done = maker.add_density(); !done) return done.failure();
+  if (maker.heat)
+    if (auto done = add_heat(file, *maker.heat,
+                             {.max_bricks = maker.max_bricks(), .max_pages = maker.max_pages()}, *frame);
+        !done)
+      return done.failure();
+  if (auto done = maker.add_colors_and_masks(); !done) return done.failure();
+  measure_first_view(*maker.density, *frame);
+  maker.cut_heat();
   return frame;
+}
+
+/// The grids to read, and for each pointer of `chosen` which of these it is.
+std::vector<std::size_t> positions_of(GridList heads, ChosenGrids& chosen,
+                                      std::vector<std::optional<std::size_t>>& read_positions) {
+  std::vector<std::size_t> positions;
+  const auto position_of = [&](const grids::Grid* grid) {
+    return static_cast<std::size_t>(std::ranges::find(heads, grid) - heads.begin());
+  };
+  chosen.each([&](const grids::Grid* grid) {
+    if (grid) positions.push_back(position_of(grid));
+  });
+  std::ranges::sort(positions);
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  read_positions.clear();
+  chosen.each([&](const grids::Grid* grid) {
+    read_positions.emplace_back();
+    if (grid)
+      read_positions.back() = static_cast<std::size_t>(
+          std::ranges::lower_bound(positions, position_of(grid)) - positions.begin());
+  });
+  return positions;
 }
 
 }  // namespace
@@ -397,7 +339,7 @@ std::optional<grids::ValueShift> shift_of(const scene::VolumeOptions& options) {
 Result<std::string> shown_grids(const grids::GridFile& file) {
   std::vector<const grids::Grid*> list;
   for (const grids::Grid& grid : file.grids) list.push_back(&grid);
-  const auto chosen = choose(list, {});
+  const auto chosen = choose_grids(list, {});
   if (!chosen) return chosen.failure();
   VolumeFrame frame;
   glows(*chosen, {}, frame);
@@ -405,7 +347,12 @@ Result<std::string> shown_grids(const grids::GridFile& file) {
                             : chosen->channels[0]
                                 ? std::string(", coloured by \"color_r\", \"color_g\", \"color_b\"")
                                 : "";
-  return '"' + chosen->density->name + '"' + color + (frame.heat_note.empty() ? "" : "; " + frame.heat_note);
+  std::string text = '"' + chosen->density->name + '"' + color;
+  if (!frame.heat_note.empty()) text += "; " + frame.heat_note;
+  for (const std::string& note : chosen->notes) text += "; " + note;
+  const auto strays = stray_note(*chosen->density);
+  if (strays && !strays->empty()) text += "; " + *strays;
+  return text;
 }
 
 Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
@@ -425,26 +372,31 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                                                              grids::GridReader read) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
   std::vector<std::string> number_grids, color_grids;
+  // Files are read for the grids that were chosen by their heads.
+  ChosenGrids chosen;
+  std::vector<std::optional<std::size_t>> read_positions;
   const auto grids = read(file, {.tank_voxels = kMostTankVoxels, .stopped = stopped},
                           [&](GridList heads) -> Result<std::vector<std::size_t>> {
-                            for (const grids::Grid* head : heads) {
-                              if (is_number_grid(head)) number_grids.push_back(head->name);
-                              if (is_colors(head)) color_grids.push_back(head->name);
-                            }
-                            if (color_channels(heads, kChannelName)[0]) color_grids.push_back(kChannelName);
-                            const auto chosen = choose(heads, options);
-                            if (!chosen) return chosen.failure();
-                            std::vector<std::size_t> positions;
-                            for (std::size_t i = 0; i < heads.size(); ++i)
-                              if (chosen->has(heads[i])) positions.push_back(i);
-                            return positions;
+                            number_grids = titles_of(heads, is_number_grid);
+                            color_grids = titles_of(heads, is_color_vectors);
+                            if (has_color_channels(heads)) color_grids.push_back(kChannelName);
+                            auto of_heads = choose_grids(heads, options);
+                            if (!of_heads) return of_heads.failure();
+                            chosen = std::move(*of_heads);
+                            return positions_of(heads, chosen, read_positions);
                           });
   if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
   if (stopped && *stopped) return Failure{ErrorCode::internal, file.string() + ": stopped"};
-  auto frame = make_frame(file, *grids, options, room);
+  std::size_t next = 0;
+  chosen.each([&](const grids::Grid*& grid) {
+    const auto position = read_positions[next++];
+    grid = position ? &grids->grids[*position] : nullptr;
+  });
+  auto frame = make_frame(file, chosen, options, room);
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
   (*frame)->number_grids = std::move(number_grids);
   (*frame)->color_grids = std::move(color_grids);
+  (*frame)->grid_notes = std::move(chosen.notes);
   return std::shared_ptr<const VolumeFrame>(std::move(*frame));
 }
 

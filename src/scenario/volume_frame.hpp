@@ -42,9 +42,12 @@ struct VolumeFrame {
   bool heat_is_kelvin = false;
   std::string density_name;  ///< Of the grid that is dense.
   std::string heat_note;     ///< What was decided about the heat, a sentence; empty: there is none.
-  std::string value_note;    ///< About values below 0 that count as 0, a sentence; empty: there are none.
-  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
-  /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
+  /// ChosenGrids::notes.
+  std::vector<std::string> grid_notes;
+  std::string value_note;  ///< About values below 0 that count as 0, a sentence; empty: there are none.
+  bool z_is_up = false;    ///< As Blender writes files; other programs have y up.
+  /// Names of the file's grids that can be dense or glow, and of those that can hold colours; of several of
+  /// one name as titles_of.
   std::vector<std::string> number_grids, color_grids;
 };
 

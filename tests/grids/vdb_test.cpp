@@ -7,6 +7,7 @@
 
 #include "core/file.hpp"
 #include "grids/files.hpp"
+#include "grids/volume_files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
 
@@ -57,6 +58,26 @@ TEST_F(Vdb, KeepsGridsOfEveryType) {
   const GridFile again = through("a.vdb", file);
   expect_same(sorted(again), sorted(file));
   expect_same(sorted(through("b.vdb", again)), sorted(file));
+}
+
+// Of every format the grids that are chosen are read, in their order.
+TEST_F(Vdb, ReadsTheChosenGridsOfEveryFormat) {
+  const GridFile file{{smoke_grid("a", 5), smoke_grid("b", 7), smoke_grid("b", 9), smoke_grid("c", 11)}, {}};
+  for (const char* name : {"a.brv", "a.vdb", "a.nvdb"}) {
+    save_grid_file(path(name), file).value_or_throw();
+    std::vector<std::string> names;
+    const auto choice = [&](std::span<const Grid* const> heads) -> Result<std::vector<std::size_t>> {
+      for (const Grid* head : heads) names.push_back(head->name);
+      return std::vector<std::size_t>{0, 2};
+    };
+    const GridFile read = load_grid_file(path(name), {}, choice).value_or_throw();
+    EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "b", "c"})) << name;
+    expect_same({read.grids, {}}, {{file.grids[0], file.grids[2]}, {}});
+    const auto refused = load_volume_file(path(name), {}, [](std::span<const Grid* const>) {
+      return Result<std::vector<std::size_t>>(Failure{ErrorCode::bad_input, "none"});
+    });
+    ASSERT_FALSE(refused) << name;
+  }
 }
 
 TEST_F(Vdb, NanoKeepsGridsOfEveryTypeThatItHas) {

@@ -84,6 +84,44 @@ TEST_F(VolumeValuesTest, HotFiresAreExposedForThemselves) {
   EXPECT_NEAR(exposure_of(3800), -4, 0.01f);
 }
 
+TEST_F(VolumeValuesTest, OfGridsOfOneNameTheNumberChooses) {
+  scene::VolumeOptions options{save("a.brv", {cube("fuel", 9), cube("density", 1), cube("density", 2)})};
+  const auto frame = [&] { return load_volume_frame(options.file, options).value_or_throw(); };
+  const std::vector<std::string> note{
+      "2 grids are called \"density\": \"density\" is drawn; name another, such as \"density[1]\", to see "
+      "it"};
+  EXPECT_EQ(frame()->density.high, 1);
+  EXPECT_EQ(frame()->grid_notes, note);
+  EXPECT_EQ(frame()->number_grids, (std::vector<std::string>{"fuel", "density", "density[1]"}));
+  for (const auto& [name, value] : {std::pair("density[0]", 1.0f), {"density[1]", 2.0f}, {"fuel[0]", 9.0f}}) {
+    options.density = name;
+    EXPECT_EQ(frame()->density.high, value) << name;
+    EXPECT_TRUE(frame()->grid_notes.empty()) << name;
+  }
+  options.density = "density[2]";
+  EXPECT_NE(load_volume_frame(options.file, options).failure().message.find("has no grid \"density[2]\""),
+            std::string::npos);
+  // What is called so is meant.
+  options.density = "density[1]";
+  options.file = save("b.brv", {cube("density", 1), cube("density", 2), cube("density[1]", 3)});
+  EXPECT_EQ(frame()->density.high, 3);
+  const auto shown = shown_grids(grids::load_grid_file(folder_ / "a.brv").value_or_throw());
+  EXPECT_EQ(*shown, "\"density\"; " + note[0]);
+}
+
+TEST_F(VolumeValuesTest, TwoOfThreeChannelsAreNamed) {
+  scene::VolumeOptions options{save("a.brv", {cube("density", 1), cube("color_r", 1), cube("color_b", 1)})};
+  const std::string note =
+      "the colour of \"color_r\", \"color_b\" is not drawn, as the file has no \"color_g\"";
+  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  EXPECT_FALSE(frame->colors);
+  EXPECT_EQ(frame->grid_notes, std::vector{note});
+  options.color = "color";
+  EXPECT_NE(load_volume_frame(options.file, options).failure().message.find(note), std::string::npos);
+  options.color = "none";
+  EXPECT_TRUE(load_volume_frame(options.file, options).value_or_throw()->grid_notes.empty());
+}
+
 // As Mantaflow saves them, of which Blender's are multiplied by the density.
 TEST_F(VolumeValuesTest, ThreeGridsOfChannelsAreColours) {
   const auto color_of = [&](std::vector<grids::Grid> grids, const std::string& name) {
