@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -16,7 +17,7 @@ constexpr volume::ChannelId kChannel{0};
 
 /// Sums over voxels, weighted by GlowBall::power.
 struct Moments {
-  double weight = 0, values = 0, densities = 0;
+  double weight = 0, values = 0, densities = 0, voxels = 0;
   glm::dvec3 places{0}, squares{0};
 
   void add(const Moments& other, double part) {
@@ -54,6 +55,7 @@ Moments moments_of(glm::ivec3 brick, const BrickVolume& density, const glm::dmat
     const double weight = power == GlowPower::linear ? value : value * value * value * value;
     const glm::dvec3 p = glm::dvec3(8 * brick + local) + 0.5;
     sum.weight += weight;
+    sum.voxels += 1;
     sum.values += weight * value;
     sum.places += weight * p;
     sum.squares += weight * p * p;
@@ -161,6 +163,25 @@ std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& dens
   for (std::size_t octant = 0; octant < octants.size(); ++octant)
     if (octants[octant].weight > 1e-9 * all.weight) balls.push_back(ball_of(octants, octant, division));
   return balls;
+}
+
+std::vector<GlowColumn> glow_columns(const BrickVolume& heat, const BrickVolume& density) {
+  const std::vector<Moments> bricks = bricks_of(heat, density, GlowPower::fourth);
+  const double power = std::pow(double{heat.unit}, 4);
+  constexpr double kColumn = 64;  // voxels across a brick
+  std::vector<GlowColumn> columns;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = glm::length(glm::dvec3(heat.world_from_voxel[axis])) / kColumn;
+    std::map<std::pair<int, int>, GlowColumn> across;
+    for (const Moments& brick : bricks) {
+      const glm::ivec3 at(glm::floor(brick.middle() / 8.0));
+      GlowColumn& column = across[{at[(axis + 1) % 3], at[(axis + 2) % 3]}];
+      column.power += power * length * brick.weight;
+      column.density += double{density.unit} * length * brick.voxels * brick.densities / brick.weight;
+    }
+    for (const auto& [at, column] : across) columns.push_back(column);
+  }
+  return columns;
 }
 
 double escape_from_ball(double x) {

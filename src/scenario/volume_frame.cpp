@@ -10,8 +10,8 @@
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
+#include "scenario/volume_extent.hpp"
 #include "scenario/volume_grids.hpp"
-#include "scenario/volumes.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -72,7 +72,7 @@ constexpr double kColdest = 600;
 bool glows(const ChosenGrids& chosen, const scene::VolumeOptions& options, VolumeFrame& frame) {
   if (!chosen.heat) return false;
   const std::string name = '"' + chosen.heat->name + '"';
-  frame.heat_is_kelvin = any_above(*chosen.heat, double{kMostFactor});
+  frame.heat_is_kelvin = frame.heat_is_kelvin || any_above(*chosen.heat, double{kMostFactor});
   if (chosen.names_heat && !any_above(*chosen.heat, 0)) {
     frame.heat_note = name + " does not glow: none of its values is above 0";
     return false;
@@ -282,8 +282,10 @@ void FrameMaker::cut_heat() {
 }
 
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const ChosenGrids& chosen,
-                                                const scene::VolumeOptions& options, const VolumeRoom& room) {
+                                                const scene::VolumeOptions& options, const VolumeRoom& room,
+                                                bool in_kelvin) {
   auto frame = std::make_shared<VolumeFrame>();
+  frame->heat_is_kelvin = in_kelvin;
   FrameMaker maker{file, chosen, options, room, *frame};
   if (glows(chosen, options, *frame)) maker.heat = chosen.heat;
   if (auto done = maker.add_density(); !done) return done.failure();
@@ -369,7 +371,7 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                                                              const scene::VolumeOptions& options,
                                                              const VolumeRoom& room,
                                                              const std::atomic<bool>* stopped,
-                                                             grids::GridReader read) {
+                                                             grids::GridReader read, bool in_kelvin) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
   std::vector<std::string> number_grids, color_grids;
   // Files are read for the grids that were chosen by their heads.
@@ -392,7 +394,7 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
     const auto position = read_positions[next++];
     grid = position ? &grids->grids[*position] : nullptr;
   });
-  auto frame = make_frame(file, chosen, options, room);
+  auto frame = make_frame(file, chosen, options, room, in_kelvin);
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
   (*frame)->number_grids = std::move(number_grids);
   (*frame)->color_grids = std::move(color_grids);

@@ -38,7 +38,8 @@ struct VolumeFrame {
   Box<float> bounds;                ///< Around what can be dense, in the file's world.
   /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
   bool is_extinction = false;
-  /// Whether values of the heat are above kMostFactor: kelvin, and no factors of a temperature.
+  /// Whether values of the heat, or of that of another frame, are above kMostFactor: kelvin, and no factors
+  /// of a temperature.
   bool heat_is_kelvin = false;
   std::string density_name;  ///< Of the grid that is dense.
   std::string heat_note;     ///< What was decided about the heat, a sentence; empty: there is none.
@@ -87,12 +88,13 @@ VolumeRoom room_of(const VolumeFrame& frame);
 
 /// Loads the grids that the options name, reduced until they fit into the room, with a warning that names
 /// the error. Fails as `read`, and with bad_input for grids that do not exist; soon once `stopped` (null:
-/// never) is true.
+/// never) is true. `in_kelvin`: another frame of the sequence has heat in kelvin, and so has this one.
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const std::filesystem::path& file,
                                                              const scene::VolumeOptions& options,
                                                              const VolumeRoom& room = {},
                                                              const std::atomic<bool>* stopped = nullptr,
-                                                             grids::GridReader read = grids::load_grid_file);
+                                                             grids::GridReader read = grids::load_grid_file,
+                                                             bool in_kelvin = false);
 
 /// Around a box under an affine transform.
 Box<float> transformed(const glm::mat4& matrix, const Box<float>& box);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "core/log.hpp"
 #include "scene/daylight.hpp"
@@ -66,13 +67,34 @@ double chosen_extinction(const VolumeFrame& frame, const VolumeExtent& extent,
   return std::max(std::min(kViewDepth / depth, kVoxelDepth / (usual * edge)), kLeastDepth / depth);
 }
 
-/// That of daylight, or as much less as a hot fire asks for: one that is opaque is white at most in its
-/// middle [EV].
-float fire_exposure(const VolumeFrame& frame, const scene::VolumeOptions& volume) {
-  // The luminance of what is opaque (docs/volume-light.md).
-  const double kelvin = double{kelvin_of(volume, frame)} * double{frame.heat->densest};
-  const double luminance = double{volume.emission} * std::pow(kelvin / 1900, 4);
-  return -static_cast<float>(std::log2(std::max(luminance, 1.0)));
+/// Radiance that leaves a column of heat: what it emits, less what it absorbs of that. [1 at 1,900 K]
+double radiance_of(const grids::GlowColumn& column, double kelvin, const scene::VolumeOptions& volume) {
+  const double extinction = double{volume.extinction} * double{volume.scale};
+  const double emitted = double{volume.emission} * extinction * std::pow(kelvin / 1900, 4) * column.power;
+  const double absorbed = extinction * column.density * (1 - double{volume.albedo.x});
+  return absorbed > 1e-3 ? emitted * -std::expm1(-absorbed) / absorbed : emitted;
+}
+
+/// That of daylight, or as much less as the brightest of all frames that were measured asks for: its bright
+/// columns, the 95th percentile, are white at most [EV]. What is red is mostly so by one channel, and counts
+/// as more than its luminance.
+float fire_exposure(const VolumeFrame& frame, const VolumeExtent& extent,
+                    const scene::VolumeOptions& volume) {
+  constexpr double kBright = 0.95, kWhite = 1900, kRed = 1000;  // [K]
+  const double kelvin{kelvin_of(volume, frame)};
+  double brightest = 0;
+  for (const std::vector<grids::GlowColumn>& columns : extent.glow) {
+    std::vector<double> radiances;
+    for (const grids::GlowColumn& column : columns) radiances.push_back(radiance_of(column, kelvin, volume));
+    if (radiances.empty()) continue;
+    const auto bright =
+        radiances.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(radiances.size() - 1));
+    std::ranges::nth_element(radiances, bright);
+    brightest = std::max(brightest, *bright);
+  }
+  const double hottest = std::max(kelvin * double{extent.hottest}, kRed);
+  const double red = std::pow(std::max(kWhite / hottest, 1.0), 3);
+  return -static_cast<float>(std::log2(std::max(brightest * red, 1.0)));
 }
 
 }  // namespace
@@ -108,8 +130,9 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   volume.color_map = options.color_map;
   volume.range = options.range;
   volume.extinction = static_cast<float>(std::clamp(chosen_extinction(frame, extent, volume), 1e-36, 1e12));
-  volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
-  volume.anisotropy = frame.heat ? 0.2f : 0.5f;
+  const bool glows = !extent.glow.empty();
+  volume.albedo = glm::vec3(glows ? 0.7f : 0.99f);
+  volume.anisotropy = glows ? 0.2f : 0.5f;
   if (frame.is_extinction && volume.opacity.empty()) {
     // As it is: just as opaque when it is scaled; its albedo is all in its colours, its phase isotropic.
     volume.extinction = 1 / volume.scale;
@@ -124,10 +147,10 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   timeline.sky.horizon = {0.13f, 0.22f, 0.40f};
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
   const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
-  timeline.exposure = options.exposure.value_or(frame.heat ? fire_exposure(frame, volume)
-                                                           : kVolumeExposure - std::log2(dimmed));
+  timeline.exposure = options.exposure.value_or(glows ? fire_exposure(frame, extent, volume)
+                                                      : kVolumeExposure - std::log2(dimmed));
   // Clipped flames are yellow; compressed ones are pink.
-  timeline.tone = options.tone.value_or(frame.heat ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
+  timeline.tone = options.tone.value_or(glows ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
   if (options.has_ground) timeline.ground = 0.0f;
   timeline.grid.voxel =
       options.voxel.value_or(std::clamp(largest * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));

@@ -15,7 +15,7 @@ namespace brume::scenario {
 /// - extinction: an optical depth of kViewDepth through the deep parts of the deepest frame, whatever its
 /// units; less
 ///   where voxels would be opaque one by one. With an opacity curve: through a ball of the volume's size;
-/// - light: a sun before a deep blue sky, exposed for white clouds, or for a fire hotter than 1,900 K;
+/// - light: a sun before a deep blue sky, exposed for white clouds, or for the brightest fire of all frames;
 /// - ground: below it, for its shadow;
 /// - tone curve: ToneCurve::standard for what glows: flames stay yellow.
 ///

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
-#include "grids/density_extent.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -101,28 +99,6 @@ bool shows_nothing(const VolumeFrame& frame) {
   return frame.density.sum <= 0 && !frame.heat;
 }
 
-// What is less dense is not seen; what is less hot does not glow: by the fourth power.
-constexpr float kSeen = 0.01f, kGlows = 0.4f;
-
-VolumeExtent extent_of(const VolumeFrame& frame) {
-  VolumeExtent extent{.bounds = frame.bounds};
-  Box<float> bulk = kEmptyBox;
-  const auto add = [&](const grids::BrickVolume& volume, float fraction) {
-    const grids::DensityExtent of = grids::measure_extent(volume, fraction);
-    const glm::mat4 matrix(volume.world_from_voxel);
-    if (!of.seen.empty()) extent.seen = united(extent.seen, transformed(matrix, of.seen));
-    if (!of.bulk.empty()) bulk = united(bulk, transformed(matrix, of.bulk));
-    extent.stray_part = std::max(extent.stray_part, of.stray_part);
-    extent.stray_reach = std::max(extent.stray_reach, of.stray_reach);
-    return of.depth;
-  };
-  extent.depth = add(frame.density, kSeen);
-  if (frame.heat) add(*frame.heat, kGlows);
-  if (extent.stray_part > 0) extent.bounds = intersection(frame.bounds, bulk);
-  if (extent.seen.empty()) extent.seen = extent.bounds;
-  return extent;
-}
-
 /// Whether the axes of a volume span space.
 bool has_inverse(const scene::VolumeOptions& options) {
   const glm::dmat3 axes(options.x_axis, options.y_axis, options.z_axis);
@@ -142,25 +118,6 @@ VolumeAt placed(const LoadedVolume& loaded, const scene::VolumeOptions& options)
 }
 
 }  // namespace
-
-std::string stray_note(const VolumeExtent& extent) {
-  if (!(extent.stray_part > 0)) return "";
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%.2g %% of its voxels lie far from the rest, up to %.4g units, outside of the first picture: "
-                "--camera shows them",
-                100 * extent.stray_part, extent.stray_reach);
-  return text;
-}
-
-Result<std::string> stray_note(const grids::Grid& density) {
-  // At a lower resolution a large grid takes little memory, and strays as far.
-  constexpr std::uint32_t kMostBricks = 1u << 15;
-  const auto volume = grids::make_brick_volume(density, {.max_bricks = kMostBricks});
-  if (!volume) return volume.failure();
-  const grids::DensityExtent extent = grids::measure_extent(*volume, kSeen);
-  return stray_note(VolumeExtent{.stray_part = extent.stray_part, .stray_reach = extent.stray_reach});
-}
 
 glm::mat4 world_from_file(const scene::VolumeOptions& options) {
   const glm::mat4 matrix =
@@ -241,6 +198,7 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
     Sequence sequence{one, std::move(*files)};
     auto frame = load_volume_frame(sequence.files.begin()->second, one, {}, nullptr, read);
     if (!frame) return frame.failure();
+    sequence.in_kelvin = (*frame)->heat_is_kelvin;
     sequence.typical = sequence.shown = {std::move(*frame), nullptr};
     sequence.typical_number = sequence.shown_number = sequence.files.begin()->first;
     // Simulations begin with nothing.
@@ -248,6 +206,7 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
       for (const std::int64_t number : measured_numbers(sequence.files)) {
         auto other = load_volume_frame(sequence.files.at(number), one, {}, nullptr, read);
         if (!other || shows_nothing(**other)) continue;
+        sequence.in_kelvin = sequence.in_kelvin || (*other)->heat_is_kelvin;
         sequence.typical = {std::move(*other), nullptr};
         sequence.typical_number = number;
         break;
@@ -266,20 +225,22 @@ void Volumes::start_loader() {
     scene::VolumeOptions options;
     std::map<std::int64_t, fs::path> files;
     VolumeRoom room;
+    bool in_kelvin;
   };
   // A copy: the thread shares nothing with the sequences.
   auto sources = std::make_shared<std::vector<Source>>();
   for (const Sequence& sequence : sequences_)
-    sources->push_back({sequence.options, sequence.files, sequence.room});
-  loader_ = std::make_unique<VolumeLoader>([sources, previews = has_previews_, read = read_](
-                                               const VolumeLoader::Key& key,
-                                               const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
-    const Source& source = (*sources)[key.volume];
-    auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped, read);
-    if (!frame) return frame.failure();
-    auto preview = previews ? scenario::make_previews(**frame) : nullptr;
-    return LoadedVolume{std::move(*frame), std::move(preview)};
-  });
+    sources->push_back({sequence.options, sequence.files, sequence.room, sequence.in_kelvin});
+  loader_ = std::make_unique<VolumeLoader>(
+      [sources, previews = has_previews_, read = read_](
+          const VolumeLoader::Key& key, const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
+        const Source& source = (*sources)[key.volume];
+        auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped,
+                                       read, source.in_kelvin);
+        if (!frame) return frame.failure();
+        auto preview = previews ? scenario::make_previews(**frame) : nullptr;
+        return LoadedVolume{std::move(*frame), std::move(preview)};
+      });
 }
 
 Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOptions& options) {
@@ -288,6 +249,7 @@ Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOption
   auto frame =
       load_volume_frame(sequence.files.at(sequence.typical_number), options, sequence.room, nullptr, read_);
   if (!frame) return frame.failure();
+  sequence.in_kelvin = (*frame)->heat_is_kelvin;
   auto preview = has_previews_ ? scenario::make_previews(**frame) : nullptr;
   sequence.typical = sequence.shown = {std::move(*frame), std::move(preview)};
   sequence.shown_number = sequence.typical_number;
@@ -313,7 +275,7 @@ Result<void> Volumes::limit(const VolumeRoom& room) {
     VolumeRoom takes{bricks[i], pages[i]};
     if (brick_parts[i] < bricks[i] || page_parts[i] < pages[i]) {
       auto frame = load_volume_frame(sequence.files.at(sequence.typical_number), sequence.options,
-                                     {brick_parts[i], page_parts[i]}, nullptr, read_);
+                                     {brick_parts[i], page_parts[i]}, nullptr, read_, sequence.in_kelvin);
       if (!frame) return frame.failure();
       sequence.typical = sequence.shown = {std::move(*frame), nullptr};
       sequence.shown_number = sequence.typical_number;
@@ -346,22 +308,44 @@ std::int64_t Volumes::length(std::size_t volume) const {
   return files.rbegin()->first - files.begin()->first + 1;
 }
 
+Result<std::shared_ptr<const VolumeFrame>> Volumes::load_frame(const Sequence& sequence,
+                                                               std::int64_t number) const {
+  return load_volume_frame(sequence.files.at(number), sequence.options, sequence.room, nullptr, read_,
+                           sequence.in_kelvin);
+}
+
 void Volumes::measure_sequence(std::size_t volume) {
   Sequence& sequence = sequences_[volume];
+  const bool was_in_kelvin = sequence.in_kelvin;
+  measure(sequence);
+  if (sequence.in_kelvin == was_in_kelvin) return;
+  // Again, without those frames that were taken for factors of a temperature.
+  for (const auto& [loaded, number] :
+       {std::pair(&sequence.typical, sequence.typical_number), {&sequence.shown, sequence.shown_number}})
+    if (auto frame = load_frame(sequence, number)) *loaded = {std::move(*frame), nullptr};
+  measure(sequence);
+  if (has_previews_) make_previews();
+  start_loader();
+}
+
+void Volumes::measure(Sequence& sequence) {
   sequence.extent = extent_of(*sequence.typical.frame);
   for (const std::int64_t number : measured_numbers(sequence.files)) {
     if (number == sequence.typical_number) continue;
     // One that cannot be read is warned of when it is shown.
-    auto frame =
-        load_volume_frame(sequence.files.at(number), sequence.options, sequence.room, nullptr, read_);
+    auto frame = load_frame(sequence, number);
     if (!frame || shows_nothing(**frame)) continue;
+    sequence.in_kelvin = sequence.in_kelvin || (*frame)->heat_is_kelvin;
     const VolumeExtent own = extent_of(**frame);
-    sequence.extent->bounds = united(sequence.extent->bounds, own.bounds);
-    sequence.extent->seen = united(sequence.extent->seen, own.seen);
-    sequence.extent->stray_part = std::max(sequence.extent->stray_part, own.stray_part);
-    sequence.extent->stray_reach = std::max(sequence.extent->stray_reach, own.stray_reach);
-    if (own.depth <= sequence.extent->depth) continue;
-    sequence.extent->depth = own.depth;
+    VolumeExtent& all = *sequence.extent;
+    all.bounds = united(all.bounds, own.bounds);
+    all.seen = united(all.seen, own.seen);
+    all.stray_part = std::max(all.stray_part, own.stray_part);
+    all.stray_reach = std::max(all.stray_reach, own.stray_reach);
+    all.glow.insert(all.glow.end(), own.glow.begin(), own.glow.end());
+    all.hottest = std::max(all.hottest, own.hottest);
+    if (own.depth <= all.depth) continue;
+    all.depth = own.depth;
     sequence.typical = {std::move(*frame), nullptr};
     sequence.typical_number = number;
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "scenario/volume_extent.hpp"
 #include "scenario/volume_frame.hpp"
 #include "scenario/volume_loader.hpp"
 #include "scene/scene.hpp"
@@ -27,20 +28,6 @@ struct VolumeAt {
   glm::mat4 world_from_density{1}, world_from_heat{1};
   glm::mat4 world_from_density_preview{1}, world_from_heat_preview{1};
 };
-
-/// Where a volume can be seen over its frames, in the world of its files, and how deep it is.
-struct VolumeExtent {
-  Box<float> bounds = kEmptyBox;  ///< Around what can be dense and does not stray.
-  Box<float> seen = kEmptyBox;    ///< Around what is dense enough to be seen, or glows: what a camera frames.
-  double depth = 0;               ///< As grids::DensityExtent::depth: of the deepest frame.
-  /// As grids::DensityExtent: most of any frame.
-  double stray_part = 0, stray_reach = 0;
-};
-
-/// What lies far outside of the picture, a sentence; empty: nothing.
-std::string stray_note(const VolumeExtent& extent);
-/// The same of a grid of density.
-Result<std::string> stray_note(const grids::Grid& density);
 
 /// What to do about a frame that is not loaded yet.
 enum class VolumeWait {
@@ -85,7 +72,8 @@ class Volumes {
   /// Frames of a sequence, those that are missing between its first and its last included; 1 of a single
   /// file.
   std::int64_t length(std::size_t volume) const;
-  /// Loads up to a dozen frames of a sequence, for its extent and its typical frame.
+  /// Loads up to a dozen frames of a sequence, for its extent, its typical frame, and whether its heat is in
+  /// kelvin, which one frame decides for all.
   void measure_sequence(std::size_t volume);
   /// Of the frames that were measured; else of the typical one.
   VolumeExtent extent(std::size_t volume) const;
@@ -101,6 +89,7 @@ class Volumes {
     std::optional<VolumeExtent> extent = {};  ///< Of measure_sequence.
     std::set<std::int64_t> unreadable = {};   ///< Frames of which a warning was given.
     VolumeRoom room = {};                     ///< Of each frame.
+    bool in_kelvin = false;                   ///< Whether a frame that was loaded has heat in kelvin.
   };
   std::optional<std::int64_t> frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
                                        double seconds) const;
@@ -108,6 +97,8 @@ class Volumes {
                                           std::int64_t number) const;
   void show(std::size_t volume, std::int64_t number, Result<LoadedVolume> loaded);
   void start_loader();
+  Result<std::shared_ptr<const VolumeFrame>> load_frame(const Sequence& sequence, std::int64_t number) const;
+  void measure(Sequence& sequence);
 
   grids::GridReader read_ = nullptr;
   std::vector<Sequence> sequences_;

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "core/log.hpp"
 #include "grids/files.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/volume_extent.hpp"
 #include "scenario/volume_view.hpp"
 #include "scenario/volumes.hpp"
 #include "tests/scenario/volume_folder.hpp"
@@ -70,18 +75,62 @@ TEST_F(VolumeValuesTest, WhatIsTooColdDoesNotGlow) {
   EXPECT_EQ(note_of(333, "temperature"), "\"temperature\" glows: its values are kelvin");
 }
 
-// Fires of 1,900 K and below are as bright as the day beside them; a hotter one darkens the picture as much
-// as it outshines that.
-TEST_F(VolumeValuesTest, HotFiresAreExposedForThemselves) {
-  const auto exposure_of = [&](float kelvin) {
-    std::vector<scene::VolumeOptions> options(1);
-    options[0].file = save("a.brv", {cube("density", 1), cube("temperature", kelvin)});
-    const auto volumes = Volumes::load(options).value_or_throw();
-    return prepare_volume_view(options[0].file, volumes->typical_frame(0), volumes->extent(0), {}).exposure;
+/// Exposure of the first picture of a sequence.
+float exposure_of(const std::filesystem::path& file, bool measured) {
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = file;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  if (measured) volumes->measure_sequence(0);
+  return prepare_volume_view(file, volumes->typical_frame(0), volumes->extent(0), {}).exposure;
+}
+
+// The picture darkens by as much as a fire outshines white; by a stop for twice the radiance.
+TEST_F(VolumeValuesTest, FiresAreExposedForThemselves) {
+  const auto of = [&](float kelvin, float density) {
+    return exposure_of(save("a.brv", {cube("density", density), cube("temperature", kelvin)}), false);
   };
-  EXPECT_EQ(exposure_of(1200), 0);
-  EXPECT_EQ(exposure_of(1900), 0);
-  EXPECT_NEAR(exposure_of(3800), -4, 0.01f);
+  // Thin: what it emits grows with the fourth power; opaque: it is that over what absorbs.
+  EXPECT_NEAR(of(7600, 1) - of(3800, 1), -4, 0.01f);
+  EXPECT_NEAR(of(3800, 1) - of(1900, 1), -4, 0.01f);
+  EXPECT_LT(of(1900, 1), 0);
+  EXPECT_EQ(of(650, 1), 0) << "dark red does not outshine daylight";
+  // What is red counts as the first power.
+  EXPECT_NEAR(of(1900, 1) - of(1500, 1), -std::log2(1900.0f / 1500), 0.01f);
+}
+
+// Whichever frame is the hottest, and whichever is shown first or is the deepest.
+TEST_F(VolumeValuesTest, AllFramesOfASequenceDecideItsExposure) {
+  const auto frame = [&](float density, float kelvin) {
+    return std::vector{cube("density", density), cube("temperature", kelvin)};
+  };
+  save("a_1.brv", frame(1, 1000));
+  save("a_2.brv", frame(1, 3000));
+  save("b_1.brv", frame(1, 3000));
+  save("b_2.brv", frame(1, 1000));
+  save("c_1.brv", frame(1, 3000));
+  const float alone = exposure_of(folder_ / "c_1.brv", true);
+  EXPECT_FLOAT_EQ(exposure_of(folder_ / "a_%d.brv", true), alone);
+  EXPECT_FLOAT_EQ(exposure_of(folder_ / "b_%d.brv", true), alone);
+}
+
+// A frame whose heat is below 100 is one of kelvin beside others that are.
+TEST_F(VolumeValuesTest, AllFramesOfASequenceDecideWhetherItIsInKelvin) {
+  const auto frame = [&](float kelvin) {
+    return std::vector{cube("density", 1), cube("flame", 1), cube("temperature", kelvin)};
+  };
+  save("a_1.brv", frame(80));
+  save("a_2.brv", frame(1500));
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "a_%d.brv";
+  options[0].frame_rate = 1;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  volumes->measure_sequence(0);
+  for (const double seconds : {0.0, 1.0, 0.0}) {
+    const auto shown = volumes->at(options, seconds)[0].frame;
+    EXPECT_TRUE(shown->heat_is_kelvin) << seconds;
+    EXPECT_EQ(shown->heat.has_value(), seconds > 0) << "80 K is dark";
+  }
+  EXPECT_EQ(volumes->extent(0).glow.size(), 1u);
 }
 
 TEST_F(VolumeValuesTest, OfGridsOfOneNameTheNumberChooses) {
@@ -120,6 +169,135 @@ TEST_F(VolumeValuesTest, TwoOfThreeChannelsAreNamed) {
   EXPECT_NE(load_volume_frame(options.file, options).failure().message.find(note), std::string::npos);
   options.color = "none";
   EXPECT_TRUE(load_volume_frame(options.file, options).value_or_throw()->grid_notes.empty());
+}
+
+/// What is logged while a frame loads.
+std::vector<std::string> said_of(const scene::VolumeOptions& options,
+                                 std::shared_ptr<const VolumeFrame>& frame) {
+  std::vector<std::string> said;
+  set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
+  frame = load_volume_frame(options.file, options).value_or_throw();
+  set_log_callback({});
+  return said;
+}
+
+// Grids whose own indices lie far out, but whose transforms bring them together, give the same bricks.
+TEST_F(VolumeValuesTest, FarIndicesAreExactInEveryGrid) {
+  const glm::ivec3 far(100'000'000, 8, -80'000'000);
+  const auto moved = [&](grids::Grid grid) {
+    grid.bricks[0].origin += far;
+    grid.world_from_index[3] -= glm::dvec4(glm::dvec3(far), 0);
+    return grid;
+  };
+  grids::Grid colors = cube("Cd", 0.5f);
+  colors.type = grids::ValueType::vec3f;
+  colors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
+  const std::vector near{cube("density", 1), cube("temperature", 1500), colors};
+  std::shared_ptr<const VolumeFrame> expected, frame;
+  EXPECT_TRUE(said_of({save("a.brv", near)}, expected).empty());
+  for (std::size_t grid = 0; grid < near.size(); ++grid) {
+    std::vector some = near;
+    some[grid] = moved(near[grid]);
+    EXPECT_TRUE(said_of({save("b.brv", some)}, frame).empty());
+    EXPECT_EQ(frame->density.level, 0);
+    ASSERT_TRUE(frame->heat && frame->colors);
+    // Where heat is in voxels of another transform is known to a voxel.
+    EXPECT_TRUE(frame->bounds.contains(expected->bounds)) << grid;
+    EXPECT_TRUE(
+        (Box<float>{expected->bounds.low - 1.0f, expected->bounds.high + 1.0f}).contains(frame->bounds))
+        << grid;
+    // Counted from up to 4,096 voxels away: floats have 1/2048 there.
+    const Box<float> seen = extent_of(*frame).seen, usual = extent_of(*expected).seen;
+    EXPECT_LT(glm::distance(seen.low, usual.low) + glm::distance(seen.high, usual.high), 4e-3f) << grid;
+    const auto place_of_ball = [](const VolumeFrame& of) {
+      return glm::dvec3(of.heat->world_from_voxel * glm::dvec4(of.glow.at(0).middle, 1));
+    };
+    // Doubles of 1e8 have 1e-8.
+    EXPECT_LT(glm::distance(place_of_ball(*frame), place_of_ball(*expected)), 1e-6) << grid;
+    const auto texels = [](const VolumeFrame& of) {
+      const glm::ivec3 brick(
+          glm::floor(glm::dvec3(glm::inverse(of.density.world_from_voxel) * glm::dvec4(3, 3, 3, 1)) / 8.0));
+      const auto all = of.colors->texels<std::uint64_t>(volume::ChannelId{0}, of.colors->slot_at(brick));
+      return std::vector(all.begin(), all.end());
+    };
+    EXPECT_EQ(texels(*frame), texels(*expected)) << grid;
+  }
+}
+
+// What really lies far away is not drawn, and does not blur the rest.
+TEST_F(VolumeValuesTest, FarGridsAreRefusedWithALine) {
+  const auto moved = [&](grids::Grid grid) {
+    grid.bricks[0].origin = {100'000'000, 8, -80'000'000};
+    return grid;
+  };
+  std::shared_ptr<const VolumeFrame> frame, alone;
+  said_of({save("alone.brv", {cube("density", 1)})}, alone);
+  EXPECT_TRUE(
+      said_of({save("a.brv", {cube("density", 1), moved(cube("temperature", 1500))})}, frame).empty());
+  EXPECT_EQ(frame->heat_note,
+            "\"temperature\" does not glow: it lies too far from \"density\" to be drawn with it");
+  EXPECT_FALSE(frame->heat);
+  EXPECT_TRUE(frame->glow.empty());
+  EXPECT_EQ(frame->density.level, 0);
+  EXPECT_EQ(frame->bounds, alone->bounds);
+  EXPECT_EQ(extent_of(*frame).seen, extent_of(*alone).seen);
+  // Some of it here and some there: what is here is drawn.
+  grids::Grid both = cube("temperature", 1500);
+  both.bricks.insert(both.bricks.begin(), moved(both).bricks[0]);
+  const std::vector<std::byte> values = both.values;
+  both.values.insert(both.values.end(), values.begin(), values.end());
+  const auto heat = said_of({save("c.brv", {cube("density", 1), both})}, frame);
+  EXPECT_EQ(std::ranges::count_if(heat,
+                                  [](const std::string& line) {
+                                    return line.find("\"temperature\" is drawn only where \"density\" is") !=
+                                           std::string::npos;
+                                  }),
+            1);
+  EXPECT_EQ(frame->density.level, 0);
+  EXPECT_TRUE(frame->heat);
+  EXPECT_EQ(frame->bounds, alone->bounds);
+  grids::Grid colors = moved(cube("Cd", 0.5f));
+  colors.type = grids::ValueType::vec3f;
+  colors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
+  const auto color = said_of({save("b.brv", {cube("density", 1), colors})}, frame);
+  ASSERT_EQ(color.size(), 1u);
+  EXPECT_NE(color[0].find("\"Cd\" colours nothing"), std::string::npos) << color[0];
+}
+
+// A voxel a hundred times as far away as a cloud is wide: the same place, size and light as without it.
+TEST_F(VolumeValuesTest, AStrayVoxelChangesNoFirstPicture) {
+  const auto view_of = [&](const std::vector<grids::Grid>& grids, std::vector<std::string>& said) {
+    said.clear();
+    set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
+    const auto scenario = load_scenario(save("a.brv", grids), {}, {}).value_or_throw();
+    set_log_callback({});
+    return std::pair(scenario.timeline.volumes[0], scenario.camera);
+  };
+  grids::Grid cloud = cube("density", 1);
+  for (int i = 1; i < 8; ++i) {
+    cloud.bricks.push_back(cloud.bricks[0]);
+    cloud.bricks.back().origin.x = 8 * i;
+  }
+  const std::vector<std::byte> values = cloud.values;
+  for (int i = 1; i < 8; ++i) cloud.values.insert(cloud.values.end(), values.begin(), values.end());
+  std::vector<std::string> said;
+  const auto [alone, camera] = view_of({cloud}, said);
+  EXPECT_TRUE(said.empty());
+  for (const float value : {1e-3f, 1.0f}) {
+    grids::Grid strays = cloud;
+    strays.bricks.push_back({{0, 0, 8000}, {1}});
+    strays.values.resize(strays.values.size() + values.size());
+    std::memcpy(strays.values.data() + cloud.values.size(), &value, sizeof value);
+    const auto [volume, view] = view_of({strays}, said);
+    EXPECT_EQ(volume.position_world, alone.position_world);
+    EXPECT_EQ(volume.scale, alone.scale);
+    EXPECT_FLOAT_EQ(volume.extinction, alone.extinction);
+    // Places near 1,000 m are rounded to 1e-4.
+    EXPECT_LT(glm::distance(view.position_world, camera.position_world), 1e-3f);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("0.024 % of its voxels lie far from the rest"), std::string::npos) << said[0];
+    EXPECT_NE(shown_grids({{strays}, {}})->find(said[0].substr(said[0].find("0.024"))), std::string::npos);
+  }
 }
 
 // As Mantaflow saves them, of which Blender's are multiplied by the density.
