@@ -46,6 +46,8 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
   }
   if (!info_.handle)
     throw Error(ErrorCode::no_device, "the host's physical device is not one of its instance");
+  if (!info_.unsupported.empty())
+    throw Error(ErrorCode::no_device, "the device " + info_.name + " cannot be used: " + info_.unsupported);
   vk_.load_device(device_);
   read_properties();
   // What a host is short of comes and goes in smaller blocks.

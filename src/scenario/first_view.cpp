@@ -68,6 +68,8 @@ glm::vec3 chosen_origin(const scene::Scene& scene, const std::filesystem::path& 
   return middle;
 }
 
+constexpr glm::vec3 kGroundColor{0.34f, 0.33f, 0.31f};
+
 /// A plane to the horizon.
 void add_ground(scene::Scene& scene, float height) {
   const Box<float> bounds = scene::world_bounds(scene);
@@ -83,7 +85,7 @@ void add_ground(scene::Scene& scene, float height) {
   mesh.indices = {0, 1, 2, 0, 2, 3};
   scene::Material material;
   material.name = "ground";
-  material.base_color = {0.34f, 0.33f, 0.31f};
+  material.base_color = kGroundColor;
   material.roughness = 0.95f;
   scene.meshes.push_back(std::move(mesh));
   scene.materials.push_back(material);
@@ -280,6 +282,8 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   // As long as it is not measured, by the lights alone.
   timeline.exposure = options.exposure.value_or(std::clamp(-std::log2(light), -20.0f, 20.0f));
   if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
+  // What volumes are lit by from below is the ground, as nothing else is there.
+  if (timeline.ground && scene.objects.empty()) timeline.sky.bounce = luminance(kGroundColor);
   apply_level_options(timeline, scene);
   const Box<float> bounds = scene::world_bounds(scene);
   if (!bounds.empty() && is_line(bounds))

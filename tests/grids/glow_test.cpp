@@ -211,5 +211,36 @@ TEST(Glow, EscapesFromABallAsRandomPathsDo) {
   }
 }
 
+// Along each axis of a block the length of its edge, of the fourth power and of the density; whatever unit
+// halves are stored in.
+TEST(GlowColumns, OfABlockAreItsEdges) {
+  constexpr double kVoxel = 0.25;
+  const glm::ivec3 size(16, 24, 8);
+  const auto block = [&](float value) {
+    Grid grid = grid_of(24, [&](glm::ivec3 at) { return glm::all(glm::lessThan(at, size)) ? value : 0.0f; });
+    grid.world_from_index = glm::dmat4(glm::dmat3(kVoxel));
+    return bricks_of(grid);
+  };
+  for (const float value : {0.5f, 3072.0f}) {
+    const std::vector<GlowColumn> columns = glow_columns(block(value), block(2));
+    std::vector<double> expected;  // columns across x, y and z
+    for (const auto& [axis, count] : {std::pair(0, 3), {1, 2}, {2, 6}})
+      expected.insert(expected.end(), static_cast<std::size_t>(count), kVoxel * size[axis]);
+    ASSERT_EQ(columns.size(), expected.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      EXPECT_DOUBLE_EQ(columns[i].power, expected[i] * std::pow(double{value}, 4)) << i;
+      EXPECT_DOUBLE_EQ(columns[i].density, 2 * expected[i]) << i;
+    }
+  }
+  // The density counts where it glows: half of the voxels of a brick.
+  const BrickVolume half = bricks_of(grid_of(8, [](glm::ivec3 at) { return at.x < 4 ? 1.0f : 0.0f; }));
+  const BrickVolume whole = bricks_of(grid_of(8, [](glm::ivec3) { return 1.0f; }));
+  for (const GlowColumn& column : glow_columns(half, whole)) {
+    EXPECT_DOUBLE_EQ(column.power, 4);
+    EXPECT_DOUBLE_EQ(column.density, 4);
+  }
+  EXPECT_TRUE(glow_columns(bricks_of(grid_of(8, [](glm::ivec3) { return 0.0f; })), whole).empty());
+}
+
 }  // namespace
 }  // namespace brume::grids
