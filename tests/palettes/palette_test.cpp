@@ -12,7 +12,7 @@
 namespace brume::palettes {
 namespace {
 
-/// What docs/palettes.md promises.
+/// What docs/guides/spheres.md promises.
 constexpr std::size_t kLeastPalettes = 2500;
 
 Palette palette_of(std::initializer_list<glm::u8vec3> colors) {
@@ -43,10 +43,10 @@ TEST(Palettes, AreManyWithUniqueNamesAndColours) {
   }
 }
 
-TEST(Palettes, OfEveryCollectionAreCountedInTheTableOfThePage) {
+TEST(Palettes, OfEveryCollectionAreCountedInPalettesMd) {
   std::map<std::string, std::size_t> counts;
   for (const Palette& palette : built_in()) ++counts[palette.collection];
-  const auto page = read_text_file(BRUME_SOURCE_DIR "/docs/palettes.md");
+  const auto page = read_text_file(BRUME_SOURCE_DIR "/data/palettes/PALETTES.md");
   const auto licences = read_text_file(BRUME_SOURCE_DIR "/data/palettes/LICENSES.txt");
   ASSERT_TRUE(page && licences);
   for (const auto& [collection, count] : counts) {
