@@ -1,4 +1,4 @@
-"""The page: machines, what the README claims beside what was measured, plots, and a table of all results."""
+"""The page: machines, what the documentation claims beside what was measured, plots, and a table of all results."""
 import pathlib
 import string
 
@@ -93,7 +93,7 @@ in an arrow where it leaves the plot.</p>
             if lacking:
                 cases = ", ".join(f'<code>{escaped(claim["case"])}</code>' for claim in lacking)
                 out.append(f'<div class="note" role="note"><p>{self.letter(i)}{len(lacking)} of the '
-                           f'{len(self.claims)} figures of the README are missing: {cases}. '
+                           f'{len(self.claims)} claimed figures are missing: {cases}. '
                            f'<code>script/bench-claims</code> measures all.</p></div>')
         return "".join(out)
 
@@ -108,7 +108,7 @@ in an arrow where it leaves the plot.</p>
         unit = claim["unit"] if "detail" in claim else m.unit
         small = [] if "detail" in claim else [f"{number(m.min)} to {number(m.max)}, {m.repetitions} repetitions"]
         if "value" in claim and claim["unit"] == unit:
-            small.append(f"{number(value / claim['value'])} times the README's figure")
+            small.append(f"{number(value / claim['value'])} times the claimed figure")
         return f"{begin}>{escaped(f'{number(value)} {unit}')}<small>{escaped('; '.join(small))}</small></td>"
 
     def claimed(self):
@@ -121,15 +121,15 @@ in an arrow where it leaves the plot.</p>
             cells = "".join(self.cell(claim, i) for i in range(len(self.files)))
             case = f'<small><code>{escaped(claim["case"])}</code></small>'
             rows.append(f'<tr role="row"><th scope="row" role="rowheader">{escaped(claim["what"])}{case}</th>'
-                        f'<td role="cell" data-label="README">{escaped(claim["figure"])}{on}</td>{cells}</tr>')
-        return f"""<h2 id="claims">What the README claims</h2>
+                        f'<td role="cell" data-label="Claimed">{escaped(claim["figure"])}{on}</td>{cells}</tr>')
+        return f"""<h2 id="claims">What the documentation claims</h2>
 {self.notes()}
 <div class="scroll" role="region" aria-labelledby="claims" tabindex="0">
 <table id="claims-table" role="table" aria-labelledby="claims">
-<caption>The README's figures, with the machine that they are of, beside those of this page. Other machines give other
+<caption>The claimed figures, with the machine that they are of, beside those of this page. Other machines give other
 figures.</caption>
 <thead role="rowgroup"><tr role="row"><th scope="col" role="columnheader">Figure</th>
-<th scope="col" role="columnheader">README</th>{heads}</tr></thead>
+<th scope="col" role="columnheader">Claimed</th>{heads}</tr></thead>
 <tbody role="rowgroup">
 {chr(10).join(rows)}
 </tbody>

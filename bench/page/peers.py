@@ -1,4 +1,4 @@
-"""The README's figures beside other renderers, as results of `brume bench`: multiples of what another one takes, from
+"""The claimed figures beside other renderers, as results of `brume bench`: multiples of what another one takes, from
 the results of script/bench-peers and script/compare-cycles."""
 import re
 

@@ -1,4 +1,4 @@
-"""Reads what `brume bench --json` writes, and the figures that README.md claims."""
+"""Reads what `brume bench --json` writes, and the figures that the documentation claims."""
 import dataclasses
 import json
 import math
@@ -115,8 +115,9 @@ def load(path):
 
 
 def claims():
-    """Of README.md, each with
-    - what: a title, text: a passage of README.md, figure: its part that says how much, on: the machine it is of,
+    """Of the README and other pages, each with
+    - what: a title, page: where it stands, text: the passage, figure: its part that says how much,
+    - condition: texts that every page with the figure has, too, on: the machine it is of,
     - case: the name of the result, detail: of a secondary one, run: what brume bench calls the case, if otherwise,
     - value and unit: the figure as a number, where it is one,
     - by: the script that adds the case to those of brume bench, where one does (peers.py)."""
