@@ -80,7 +80,7 @@ class BrowserTest(Case):
                 self.assertLessEqual(abs(number - value), 0.005 * value, cell)
         self.assertEqual(sum("not measured here" in text for text in page.texts("td")), len(CLAIMS) - 3)
         note = " ".join(page.texts("div", role="note"))
-        self.assertIn(f"{len(CLAIMS) - 3} of the {len(CLAIMS)} figures", note)
+        self.assertIn(f"{len(CLAIMS) - 3} of the {len(CLAIMS)} claimed figures", note)
         self.assertIn("march/1080p", note)
         self.assertNotIn("wire/keyframe", note)
 
