@@ -10,7 +10,7 @@
 //   x_inscatter(...)                 radiance towards the eye where the extinction is above 0
 //   x_glow                           of a sample: radiance per metre, for a medium that glows without an extinction
 //
-// and a line in each function here, and in lib/media_block.glsl. See docs/OVERVIEW.md, "A new medium".
+// and a line in each function here, and in lib/media_block.glsl. See CONTRIBUTING.md, "Add a medium".
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
 #include "lib/media_block.glsl"

@@ -60,7 +60,7 @@ TEST(Links, TheLibrariesNeedTheseAndNoOthers) {
   expected.emplace("libzstd.so.1", "bricks of .brv files are compressed");
   expected.emplace("libembree3.so.3", "rays of indirect light meet the triangles of the level");
   EXPECT_EQ(names_of(needed_by(folder.path(), "libbrume.so.0")), names_of(expected))
-      << "docs/dependencies.md says how libbrume stays free of others";
+      << "docs/OVERVIEW.md says how libbrume stays free of others";
 }
 
 }  // namespace

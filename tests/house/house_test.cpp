@@ -178,19 +178,22 @@ TEST(House, ScenesAreWhatTheirScriptsMake) {
 }
 
 TEST(House, NothingUsesAWordThatTheGlossaryReplaces) {
-  const Strings words = replaced_words(*read_text_file(kRoot / "docs/glossary.md"));
+  const std::string guide = *read_text_file(kRoot / "CONTRIBUTING.md");
+  const std::size_t begin = guide.find("\n## Words\n");
+  ASSERT_NE(begin, std::string::npos);
+  const Strings words = replaced_words(guide.substr(begin, guide.find("\n## ", begin + 1) - begin));
   ASSERT_GT(words.size(), 10u);
   for (const char* folder :
        {"include", "src", "apps", "bench", "tests", "examples", "fuzz", "python", "shaders"})
     for_each_source(kRoot / folder, [&](const auto& path, const std::string& text) {
       if (folder_of(path) == "tests" && path.string().find("/house/") != std::string::npos) return;
       for (const std::string& word : occurring(words, text))
-        ADD_FAILURE() << path << " says \"" << word << "\", which docs/glossary.md replaces";
+        ADD_FAILURE() << path << " says \"" << word << "\", which CONTRIBUTING.md replaces";
     });
-  for (const auto& page : std::filesystem::directory_iterator(kRoot / "docs")) {
-    if (page.path().extension() != ".md" || page.path().filename() == "glossary.md") continue;
+  for (const auto& page : std::filesystem::recursive_directory_iterator(kRoot / "docs")) {
+    if (page.path().extension() != ".md") continue;
     for (const std::string& word : occurring(words, *read_text_file(page.path())))
-      ADD_FAILURE() << page.path() << " says \"" << word << "\", which docs/glossary.md replaces";
+      ADD_FAILURE() << page.path() << " says \"" << word << "\", which CONTRIBUTING.md replaces";
   }
 }
 
