@@ -20,7 +20,7 @@ class TankSampler {
   /// Uploads the tank; resize must follow. `context` and `stream` must outlive it, `tank` and its `lists`
   /// need not. Throws resource_limit when the device has too little memory.
   /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
-  /// and slower on every device so far (docs/performance.md).
+  /// and slower on every device so far (bench/LOG.md).
   TankSampler(gpu::Context& context, gpu::CommandStream& stream, const spheres::Tank& tank,
               const spheres::BrickLists& lists, bool with_ids = false);
 
