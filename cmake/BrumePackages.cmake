@@ -1,4 +1,4 @@
-# cpack: Debian packages, one for each of these parts of what the build installs (docs/packages.md).
+# cpack: Debian packages, one for each of these parts of what the build installs (docs/start/install.md).
 set(brume_packages program brume sim_library libbrume-sim0 library libbrume0 development libbrume-dev
                    blender brume-blender documentation brume-doc)
 if(BRUME_PYTHON_BUILT)

@@ -11,7 +11,7 @@ target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshad
                                                # (https://gcc.gnu.org/PR105651): shown, but no error
                                                $<$<CXX_COMPILER_ID:GNU>:-Wno-error=array-bounds -Wno-error=restrict>)
 # One rounding everywhere: no fused multiply-add, which g++ makes of a * b + c where the processor has one, and
-# which rounds once instead of twice (docs/determinism.md).
+# which rounds once instead of twice (docs/how/simulation.md).
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
 target_include_directories(brume_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 target_compile_definitions(brume_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR)

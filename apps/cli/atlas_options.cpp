@@ -15,7 +15,7 @@ namespace {
 using grids::AtlasDepth;
 
 /// What the importer of an engine expects of a volume whose y is up, in metres, right-handed
-/// (docs/volume-textures-engines.md).
+/// (docs/guides/volume-textures.md).
 struct Preset {
   const char* name;
   const char* axes;

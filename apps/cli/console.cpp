@@ -39,7 +39,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Version of the JSON objects: docs/json.md.
+/// Version of the JSON objects: docs/reference/command-line.md.
 constexpr int kJsonSchema = 1;
 constexpr std::size_t kDefaultWidth = 80;
 /// Jobs shorter than this show no progress.

@@ -1,4 +1,4 @@
-// `brume render --flipbook`: frames as the tiles of sheets, for sprites (docs/flipbooks.md).
+// `brume render --flipbook`: frames as the tiles of sheets, for sprites (docs/guides/volume-textures.md).
 #pragma once
 
 #include <functional>

@@ -10,7 +10,7 @@
 namespace brume::cli {
 namespace {
 
-/// Which way green points in the maps of an engine (docs/flipbooks.md).
+/// Which way green points in the maps of an engine (docs/guides/volume-textures.md).
 struct FlipbookPreset {
   const char* name;
   bool normals_up, motion_up;

@@ -14,7 +14,7 @@
 
 namespace brume::cli {
 
-/// The facts in order. docs/json.md lists the keys.
+/// The facts in order. docs/reference/command-line.md lists the keys.
 class Summary {
  public:
   explicit Summary(const std::string& kind);

@@ -106,7 +106,7 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
       .type_name("full|half|quarter");
   arguments
       .add_option("--raycast", options.raycast,
-                  "Draw volumes one by one without cached light, in one of two forms; see docs/raycasting.md")
+                  "Draw volumes one by one without cached light, in one of two forms; see docs/how/smoke.md")
       .one_of({"two-pass", "single-pass"})
       .type_name("FORM");
   arguments.add_flag(

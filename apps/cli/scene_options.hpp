@@ -45,7 +45,7 @@ scenario::Scenario load_with_options(const std::string& input, const std::string
                                      const scenario::FirstViewOptions& options);
 
 /// Warns of each smoke that cannot be seen, and of camera keys and events after the timeline's end. Returns
-/// the reports as JSON: the list "smokes" of docs/json.md.
+/// the reports as JSON: the list "smokes" of docs/reference/command-line.md.
 Json report_timeline(const scenario::Scenario& scenario, const std::vector<scenario::SmokeReport>& smokes);
 
 }  // namespace brume::cli

@@ -211,7 +211,7 @@ Command add_view(CommandLine& program) {
                   "Frame rate that --quality auto holds [1/s]; default 60")
       .range(1.0, 1000.0)
       .type_name("F");
-  arguments.add_option("--view", options->view, "Initial debug view; see docs/debug-views.md")
+  arguments.add_option("--view", options->view, "Initial debug view; see docs/reference/command-line.md")
       .one_of(view_names())
       .type_name("NAME");
   arguments.add_option("--word", options->word, "Word whose letters are shot; default BRUME")

@@ -1,5 +1,5 @@
 // brume-vdb: reads and writes the volume files of OpenVDB and NanoVDB for brume, which starts it as a child
-// process (src/grids/worker.hpp). It speaks .brv on its standard streams (docs/brv-format.md):
+// process (src/grids/worker.hpp). It speaks .brv on its standard streams (docs/reference/formats.md):
 //
 //   brume-vdb read FILE.vdb|FILE.nvdb [--bytes N] [--active-voxels N] [--seconds S]  > FILE.brv
 //   brume-vdb write vdb|nvdb  < FILE.brv > FILE

@@ -1,4 +1,4 @@
-"""The experiments of docs/fidelity.md: what becomes of the figures when a cause is removed, from both renderers."""
+"""Experiments for docs/how/path-tracer.md: the figures once a cause is removed, from both renderers."""
 
 DARK = 0.05
 BOTH = "surfaces and smoke reflect a twentieth"

@@ -1,4 +1,4 @@
-"""Tables of docs/fidelity.md."""
+"""Tables of docs/how/path-tracer.md."""
 import scenes
 
 TITLES = {name: title for name, title, _ in scenes.SCENES}

@@ -1,4 +1,4 @@
-// Light of what glows in a volume, in the volume itself (docs/volume-light.md#glow-in-dense-smoke): what arrives
+// Light of what glows in a volume, in the volume itself (docs/guides/volumes.md): what arrives
 // straight, along kSkyDirections rays through a cube of cells over the volume's bounds, and what has been scattered
 // before, by the diffusion equation with a limit of flux.
 //

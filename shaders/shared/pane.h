@@ -1,4 +1,4 @@
-// What a pane does with light: a thin sheet, of which light passes a part straight on, tinted (docs/surfaces.md).
+// What a pane does with light: a thin sheet, of which light passes a part straight on, tinted (docs/how/light.md).
 #ifndef BRUME_PANE_H
 #define BRUME_PANE_H
 #include "shared/shim.h"

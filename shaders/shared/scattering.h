@@ -1,4 +1,4 @@
-// Light scattered towards the eye, once and many times (docs/light.md).
+// Light scattered towards the eye, once and many times (docs/how/light.md).
 #ifndef BRUME_SCATTERING_H
 #define BRUME_SCATTERING_H
 #include "shared/frame.h"

@@ -1,4 +1,4 @@
-// Light in volumes besides the smoke (docs/volume-light.md): a grid of light in each volume's bounds, from grids of
+// Light in volumes besides the smoke (docs/guides/volumes.md): a grid of light in each volume's bounds, from grids of
 // optical depth along the sun's rays and along the axes of the world.
 //
 //   depths   cubes of optical depths in half floats, whose z axis runs along the light, in two images: one cube per

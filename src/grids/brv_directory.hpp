@@ -1,5 +1,5 @@
 // The directory of a .brv file: everything but the values and active masks of its bricks
-// (docs/brv-format.md).
+// (docs/reference/formats.md).
 #pragma once
 
 #include <cstddef>

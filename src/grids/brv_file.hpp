@@ -1,5 +1,5 @@
 // The .brv container of volume grids: zstd chunks with checksums, and a directory that gives random access to
-// bricks. docs/brv-format.md describes every byte.
+// bricks. docs/reference/formats.md describes every byte.
 //
 // Files are untrusted: lengths and counts are checked in 64 bits against the file and the limits before
 // anything is allocated. The same grids give the same bytes on every machine.
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kMaxBricksPerChunk = 4096;
 struct BrvOptions {
   /// Of zstd; 0 stores the bytes as they are, for a pipe.
   int compression_level = 3;
-  /// 1 to kMaxBricksPerChunk. More compress better, fewer are read faster one by one: docs/brv-format.md
+  /// 1 to kMaxBricksPerChunk. More compress better, fewer are read faster one by one.
   /// has the figures.
   std::uint32_t bricks_per_chunk = 16;
 };

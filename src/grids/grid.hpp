@@ -19,7 +19,7 @@
 
 namespace brume::grids {
 
-/// The numbers are those of the file format (docs/brv-format.md).
+/// The numbers are those of the file format (docs/reference/formats.md).
 enum class ValueType : std::uint8_t {
   float32 = 1,
   float64 = 2,

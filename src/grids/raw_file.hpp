@@ -1,5 +1,5 @@
 // Dense arrays for other programs: a .raw file of 32-bit floats, and a .json file that describes it
-// (docs/volume-files.md).
+// (docs/guides/volumes.md).
 #pragma once
 
 #include <filesystem>

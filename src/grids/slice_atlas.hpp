@@ -1,5 +1,5 @@
 // A slice atlas: grids of one box as the tiles of an image that any engine can sample, and a description that
-// brings them back (docs/volume-textures.md).
+// brings them back (docs/guides/volume-textures.md).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// Reads the files of volume grids that need no decoder of images: .brv here (docs/brv-format.md), .vdb and
-// .nvdb in the program brume-vdb (worker.hpp).
+// Reads volume files that need no decoder of images: .brv here (docs/reference/formats.md), .vdb and .nvdb in the program brume-vdb (worker.hpp).
 #pragma once
 
 #include <filesystem>

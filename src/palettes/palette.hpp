@@ -25,7 +25,7 @@ enum class Kind {
 
 struct Palette {
   std::string name;        ///< Lower case without blanks; "COLLECTION/NAME" where several have that name.
-  std::string collection;  ///< A row of the table in docs/palettes.md; empty: a file of the user.
+  std::string collection;  ///< A row of the table in docs/guides/spheres.md; empty: a file of the user.
   Kind kind = Kind::unknown;
   std::vector<glm::u8vec3> colors;  ///< sRGB, kLeastColors to kMostColors.
 };

@@ -1,5 +1,5 @@
 // Debug views of what a frame is made from: voxels, distances, slices, numbers of rays, surfaces
-// (docs/debug-views.md).
+// (docs/reference/command-line.md).
 #pragma once
 
 #include <array>

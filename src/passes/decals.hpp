@@ -1,4 +1,4 @@
-// Occlusion by decals: volumes of baked occlusion that follow their carriers (docs/volume-textures.md).
+// Decals: volumes of baked occlusion that follow their carriers (docs/guides/volume-textures.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Volumes as the quads of particles: moved and sorted on the device, blended over an image of radiance
-// (shared/particles.h has the formulas, docs/particles.md the page).
+// (shared/particles.h has the formulas, docs/guides/volume-textures.md the page).
 #pragma once
 
 #include <optional>

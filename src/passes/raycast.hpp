@@ -1,4 +1,4 @@
-// Raycasting of single volumes, an alternative to the march through all media at once (docs/raycasting.md).
+// Raycasting of single volumes, an alternative to the march through all media at once (docs/how/smoke.md).
 #pragma once
 
 #include "passes/volume_upload.hpp"

@@ -1,5 +1,5 @@
 // Dense volumes as the slices of one image on the device, for what samples them without a march: particles
-// and decals (docs/volume-projection.md).
+// and decals (docs/guides/volume-textures.md).
 #pragma once
 
 #include <span>

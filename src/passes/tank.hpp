@@ -29,7 +29,7 @@ struct TankTargets {
   const gpu::Image* surfaces = nullptr;
 };
 
-/// Exact spheres by paths of light (docs/aquaria-light.md).
+/// Exact spheres by paths of light (docs/how/path-tracer.md).
 class TankSpheresPass {
  public:
   explicit TankSpheresPass(gpu::Context& context);

@@ -1,4 +1,4 @@
-// Which debug view a frame shows instead of the rendered image (docs/debug-views.md).
+// Which debug view a frame shows instead of the rendered image (docs/reference/command-line.md).
 #pragma once
 
 #include <glm/glm.hpp>

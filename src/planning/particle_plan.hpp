@@ -1,4 +1,4 @@
-// Volumes that a frame displays by particles (shared/particles.h, docs/particles.md).
+// Volumes that a frame displays by particles (shared/particles.h, docs/guides/volume-textures.md).
 #pragma once
 
 #include <array>

@@ -65,7 +65,7 @@ class Render {
   double error() const;
   /// Mean radiance of each pixel, rows from the top.
   std::vector<glm::vec4> radiance() const;
-  /// The numbers of all pixels (docs/reference.md).
+  /// The numbers of all pixels (docs/how/path-tracer.md).
   image::LayeredImage layers() const;
 
   /// Writes all samples, with a key of what they are samples of.

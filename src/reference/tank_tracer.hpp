@@ -1,4 +1,4 @@
-// Paths of light from the eye into a tank of spheres: docs/aquaria-light.md.
+// Paths of light from the eye into a tank of spheres: docs/how/path-tracer.md.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// The numbers behind a frame as layers of an image: radiance, distances, media and surfaces (docs/exr.md).
+// The numbers behind a frame as layers of an image: radiance, distances, media and surfaces
+// (docs/reference/command-line.md).
 #pragma once
 
 #include "image/image.hpp"

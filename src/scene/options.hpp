@@ -1,6 +1,6 @@
 // Every numeric setting of a timeline in one place: key, unit, range and description. The reader and writer
-// of timelines, the viewer's panels and the table of docs/timeline.md are generated from it or checked
-// against it.
+// of timelines, the viewer's panels and the tables of docs/guides/timelines.md are generated from it or
+// checked against it.
 #pragma once
 
 #include <cstdint>
@@ -198,7 +198,7 @@ template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170}, o.vertical_fov);
   visit(OptionInfo{"aperture", "m", "radius of the lens; 0: all is sharp", 0, 100}, o.lens.aperture);
-  visit(OptionInfo{"focus", "m", "distance that is sharp, along the view; 0: that of the target", 0,
+  visit(OptionInfo{"focus", "m", "sharp distance along the view; 0: as far as the target", 0,
                    kFarthestPoint},
         o.lens.focus);
   visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);

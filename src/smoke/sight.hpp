@@ -2,7 +2,7 @@
 //
 // The optical depth of a segment is the integral of extinction * density * (1 - strength of hole 1) * (1 -
 // strength of hole 2)... along it, matching the rendered image without its noise. Density is read as the
-// shaders read it (docs/smoke-volume.md) and integrated exactly; along holes by quadrature, with an error of
+// shaders read it (docs/how/smoke.md) and integrated exactly; along holes by quadrature, with an error of
 // at most 0.3 %.
 //
 // The same bits for the same volume, holes and points: on every machine, for any number of threads, and for

@@ -2,7 +2,7 @@
 //
 // Between the centres of eight voxels density is trilinear, so that along a line it is a polynomial of degree
 // three: two points of Gauss and Legendre integrate it exactly. Where planes run through a cell, the line is
-// cut at them, and each part takes the corner set of its side (docs/smoke-volume.md).
+// cut at them, and each part takes the corner set of its side (docs/how/smoke.md).
 #pragma once
 
 #include <glm/glm.hpp>

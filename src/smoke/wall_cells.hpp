@@ -1,5 +1,5 @@
 // The boundary cells of the smoke volume: where a surface runs through smoke, which densities its sides see
-// (shared/smoke_volume.h, docs/smoke-volume.md).
+// (shared/smoke_volume.h, docs/how/smoke.md).
 #pragma once
 
 #include <array>

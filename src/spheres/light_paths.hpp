@@ -1,4 +1,4 @@
-// Light that comes from lights through glass to the spheres of a tank: docs/aquaria-light.md.
+// Light that comes from lights through glass to the spheres of a tank: docs/how/path-tracer.md.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Packets (docs/wire-format.md): a complete State, or its differences from an earlier one.
+// Packets (docs/reference/formats.md): a complete State, or its differences from an earlier one.
 //
 //   keyframe   kind | tick | checksum | body              body: range coded
 //   delta      kind | tick | ticks since its base | checksum | body

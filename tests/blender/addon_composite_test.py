@@ -1,4 +1,4 @@
-"""Frames as OpenEXR in Blender's compositor: layers by their names, and *Alpha Over* (docs/exr.md)."""
+"""OpenEXR frames in Blender's compositor: layers by name, and *Alpha Over* (docs/reference/command-line.md)."""
 
 import math
 import os

@@ -29,7 +29,7 @@ class World(AddonCase):
         self.assertFalse(any("world" in text for text in self.said()))
 
     def test_ambient_light_is_that_of_the_world_on_average(self):
-        """From a direction of height y comes 0.75 + 0.375 y of `ambient` (docs/timeline.md)."""
+        """From a direction of height y comes 0.75 + 0.375 y of `ambient` (docs/guides/timelines.md)."""
         self.world((0.5, 0.5, 0.5))
         heights = np.linspace(-1, 1, 1001)
         mean = np.mean(0.75 + 0.375 * heights) * self.export()["sky"]["ambient"][0]

@@ -1,4 +1,4 @@
-// Exported levels match the scene in Blender, in both formats; docs/blender.md.
+// Exported levels match the scene in Blender, in both formats; docs/guides/blender.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Every failure prints one line to standard error that names the place and nothing to standard output, has
-// the exit code of docs/conventions.md, and leaves no file behind.
+// the exit code of docs/reference/command-line.md, and leaves no file behind.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>

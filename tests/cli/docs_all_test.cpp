@@ -11,13 +11,14 @@ namespace {
 
 TEST_F(Documents, AllCommandsRun) {
   std::size_t pages = 0;
-  for (const char* folder : {BRUME_SOURCE_DIR, BRUME_SOURCE_DIR "/docs"}) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() != ".md") continue;
-      expect_page_works(entry.path());
-      ++pages;
-    }
-  }
+  const auto check = [&](const std::filesystem::path& path) {
+    if (path.extension() != ".md") return;
+    expect_page_works(path);
+    ++pages;
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR)) check(entry.path());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(BRUME_SOURCE_DIR "/docs"))
+    check(entry.path());
   EXPECT_GT(pages, 0u);
 }
 

@@ -1,5 +1,5 @@
 // Invalid images and texts for shots: the error is one line that names the position of the event or value,
-// the expectation and the fix, with the exit code of docs/conventions.md.
+// the expectation and the fix, with the exit code of docs/reference/command-line.md.
 #include <gtest/gtest.h>
 
 #include "image/png.hpp"

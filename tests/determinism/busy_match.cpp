@@ -6,7 +6,7 @@
 //
 //   busy_match [--threads N] [--calls N] [--mode straight|rollback|late|snapshot] [--expect FILE]
 //
-// The hashes are the same in all modes (docs/determinism.md). --calls: how often the world is advanced per
+// The hashes are the same in all modes (docs/how/simulation.md). --calls: how often the world is advanced per
 // second, to whatever tick is current then. --expect: prints only the first line that differs from that of
 // the same tick and kind in the file, or is missing there, and fails with 7.
 #include <algorithm>

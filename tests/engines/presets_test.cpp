@@ -1,5 +1,5 @@
 // Where the importers of engines look for a voxel, by their documentation and sources, is where --preset puts
-// it. The mappings are those of docs/volume-textures-engines.md; tests/engines/godot_test.cpp runs an
+// it. The mappings are those of docs/guides/volume-textures.md; tests/engines/godot_test.cpp runs an
 // importer.
 #include <gtest/gtest.h>
 

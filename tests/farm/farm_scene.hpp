@@ -44,10 +44,11 @@ inline Outcome run_farm(const WorkFolder& folder, std::vector<std::string> argum
   return run_brume(folder.path(), arguments, options);
 }
 
-/// The arguments of every line of docs/farm.md that runs script/farm.
+/// The arguments of every line of docs/guides/farm.md that runs script/farm.
 inline std::vector<std::vector<std::string>> farm_calls() {
   std::vector<std::vector<std::string>> calls;
-  std::istringstream lines(shell_blocks(read_text_file(BRUME_SOURCE_DIR "/docs/farm.md").value_or_throw()));
+  const std::string page = read_text_file(BRUME_SOURCE_DIR "/docs/guides/farm.md").value_or_throw();
+  std::istringstream lines(shell_blocks(page));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string word;

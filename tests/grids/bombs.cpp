@@ -210,7 +210,7 @@ std::vector<Bomb> nvdb_bombs(const std::string& folder) {
 std::vector<Bomb> brv_bombs() {
   const Bytes base = encode_brv({{smoke_grid("density", 3)}, {}}).value_or_throw();
   const std::size_t trailer = base.size() - 40;
-  // Offsets in a directory with one grid without name and metadata: docs/brv-format.md.
+  // Offsets in a directory with one grid without name and metadata: docs/reference/formats.md.
   BrvDirectory empty;
   empty.grids.emplace_back();
   const Bytes directory = encode_brv_directory(empty);

@@ -44,7 +44,7 @@ TEST(ScatteringFit, HasTheLeastMisfit) {
 }
 
 // A beam through a round hole: the formula, which knows only whether a point is lit, against walks on the
-// axis and beside the beam, where the formula gives no light. Prints the table of docs/light.md.
+// axis and beside the beam, where the formula gives no light. Prints the table of docs/how/light.md.
 TEST(ScatteringFit, TreatsEveryBeamAsAWideOne) {
   const Body body{Body::Shape::box, 4};
   const std::vector<double> albedos{0.5, 0.9, 0.99};

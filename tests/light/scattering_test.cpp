@@ -83,7 +83,7 @@ TEST(ScatteringFit, IsCloserToRandomWalksThanOctaves) {
   const double none = misfit(samples, [](const ScatteringSample&) { return 0.0; });
   const double guessed = misfit(samples, guessed_octaves), fitted = misfit_of(shared::many_fit(), samples);
   std::printf("misfit: single scattering %.3f, octaves of 1/2 %.3f, the fit %.3f\n", none, guessed, fitted);
-  // The table of docs/light.md, with the noise of these samples.
+  // The table of docs/how/light.md, with the noise of these samples.
   EXPECT_LT(fitted, 0.28);
   EXPECT_LT(fitted, guessed / 3);
   EXPECT_LT(guessed, none);

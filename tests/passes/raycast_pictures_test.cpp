@@ -1,4 +1,4 @@
-// The images of docs/raycasting.md: checks their contents, and writes them if BRUME_PICTURES names a folder.
+// The images of docs/how/smoke.md: checks their contents, and writes them if BRUME_PICTURES names a folder.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-"""Every recipe of docs/python.md runs as it stands there."""
+"""Every recipe of docs/guides/python.md runs as it stands there."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import unittest
 
 from places import SOURCE, work_folder
 
-PAGE = (SOURCE / "docs" / "python.md").read_text()
+PAGE = (SOURCE / "docs/guides/python.md").read_text()
 
 
 class RecipeTest(unittest.TestCase):
@@ -22,21 +22,23 @@ class RecipeTest(unittest.TestCase):
                 os.symlink(SOURCE / "scenes", "scenes")
                 for recipe in recipes:
                     with self.subTest(recipe.splitlines()[0]), contextlib.redirect_stdout(io.StringIO()):
-                        exec(compile(recipe, "docs/python.md", "exec"), names)  # pylint: disable=exec-used
+                        exec(compile(recipe, "docs/guides/python.md", "exec"), names)  # pylint: disable=exec-used
                 for file in re.findall(r'"(\w+\.(?:png|vdb|nvdb|brv|vxl))"', PAGE):
                     self.assertTrue(os.path.exists(file), file)
             finally:
                 os.chdir(before)
 
     def test_pictures_of_the_page_exist(self):
-        for picture in re.findall(r"\]\((images/[^)]+)\)", PAGE):
+        pictures = re.findall(r"\]\(\.\./(images/[^)]+)\)", PAGE)
+        self.assertTrue(pictures)
+        for picture in pictures:
             self.assertTrue((SOURCE / "docs" / picture).is_file(), picture)
         self.assertLess(sum(file.stat().st_size for file in (SOURCE / "docs/images/python").iterdir()), 200_000)
 
     def test_first_recipe(self):
         names = {}
         recipe = re.search(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL).group(1)
-        exec(compile(recipe, "docs/python.md", "exec"), names)  # pylint: disable=exec-used
+        exec(compile(recipe, "docs/guides/python.md", "exec"), names)  # pylint: disable=exec-used
         self.assertFalse(names["world"].visible((1, 1.6, 5), (15, 1.6, 5)))
         self.assertTrue(names["brume"].World(names["level"]).visible((1, 1.6, 5), (15, 1.6, 5)))
 

@@ -1,4 +1,4 @@
-// The smoke that remains after a blast, in double precision by definition (docs/simulation.md): a front runs
+// The smoke that remains after a blast, in double precision (docs/how/simulation.md): a front runs
 // outward, clears everything behind it quickly, and the smoke refills from the rim first.
 #pragma once
 

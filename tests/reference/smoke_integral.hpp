@@ -9,7 +9,7 @@
 
 namespace brume::reference {
 
-/// Density [0, 1] at a point by the rule of docs/smoke-volume.md: trilinear, and by the side of the planes in
+/// Density [0, 1] at a point by the rule of docs/how/smoke.md: trilinear, and by the side of the planes in
 /// every cell that has them.
 inline double smoke_density(const smoke::SmokeVolume& volume, glm::dvec3 p_voxel) {
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));

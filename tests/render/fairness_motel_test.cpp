@@ -21,7 +21,7 @@ scenario::Scenario motel(const std::filesystem::path& path) {
   scene::Timeline timeline;
   timeline.smokes = {{0, {0, 2, -6}, {0, 1.2f, -6}}};
   timeline.smoke.extinction = 1.5f;
-  // In voxels of half a metre reduced pictures with detail show up to 4.8 steps more (docs/smoke-look.md,
+  // In voxels of half a metre reduced pictures with detail show up to 4.8 steps more (docs/how/smoke.md,
   // "Limits").
   timeline.smoke.detail = 0;
   return scenario_of(std::move(scene), std::move(timeline), {{120, 20, 120}, 0.5f, {-30, 0, -30}});

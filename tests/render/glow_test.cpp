@@ -67,7 +67,7 @@ TEST_F(GlowTest, IsAsBrightInDenseSmokeAsItsPathsOfLight) {
       const double found{drawn[kSize.x * (kSize.y / 2) + x].r};
       std::printf("glow: albedo %.1f, pixel %u: %.3f of the path tracer\n", double{albedo}, x,
                   found / expected.value());
-      // Diffusion is an approximation: docs/volume-light.md has what it was off by in more cases.
+      // Diffusion is an approximation: docs/guides/volumes.md has what it was off by in more cases.
       EXPECT_NEAR(found / expected.value(), 1, 0.2 + 4 * expected.error() / expected.value())
           << "albedo " << albedo << ", pixel " << x;
     }

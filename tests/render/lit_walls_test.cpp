@@ -206,12 +206,12 @@ class LitWallsTest : public gpu::GpuTest {
         static_cast<bool>(write_file_atomic(path, "wall,view,light,pixel,drawn,expected\n" + csv().str())));
   }
   /// Nowhere along the profile may the image differ by more than three steps of 255 when its brightest is
-  /// white (as little as docs/resolve.md allows), and where no smoke should be there is none.
+  /// white (as little as docs/how/smoke.md allows), and where no smoke should be there is none.
   static void expect_no_line(const Wall& wall, const View& view, const Profile& drawn,
                              const Profile& expected) {
     const double brightest = *std::max_element(expected.radiance.begin(), expected.radiance.end());
     if (!view.near_side) {
-      // Inside of a round wall smoke may run over by 0.6 v^2 / r (docs/smoke-volume.md), which a sample of
+      // Inside of a round wall smoke may run over by 0.6 v^2 / r (docs/how/smoke.md), which a sample of
       // the march takes for a whole step.
       const double run_over = wall.name == "round" ? 0.6 * kVoxel * kVoxel / kRadius : 0;
       const double step = run_over > 0 ? 0.4 * kVoxel : 0;

@@ -236,7 +236,7 @@ TEST_F(TankInLevelTest, ScattersOnceAsThePathTracer) {
   }
 }
 
-// The fit of multiple scattering is known to a factor of exp(0.26) (docs/light.md).
+// The fit of multiple scattering is known to a factor of exp(0.26) (docs/how/light.md).
 TEST_F(TankInLevelTest, ScattersOftenAsThePathTracer) {
   const auto all = studio({}), once = studio({.multiple_scattering = 0});
   const auto drawn = media(*all);

@@ -1,4 +1,4 @@
-// Pictures of tanks against the reference, which traces their paths in double (docs/aquaria-light.md).
+// Pictures of tanks against the reference, which traces their paths in double (docs/how/path-tracer.md).
 #include "render/tank_pictures.hpp"
 
 #include <array>

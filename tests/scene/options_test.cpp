@@ -39,7 +39,7 @@ std::string default_text(const OptionInfo&, const glm::vec3& member) {
   return shown(member.x) + ", " + shown(member.y) + ", " + shown(member.z);
 }
 
-/// The rows of docs/timeline.md, each up to its free text.
+/// The rows of docs/guides/timelines.md, each up to its free text.
 class RowMaker {
  public:
   explicit RowMaker(std::string table) : table_(std::move(table)) {}
@@ -77,7 +77,7 @@ std::string part_of(const std::string& text, const std::string& after) {
 }
 
 void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows,
-                 const std::string& page = "docs/timeline.md") {
+                 const std::string& page = "docs/guides/timelines.md") {
   for (const auto& row : rows) {
     bool found = false;
     for (auto at = text.find("\n" + row.start); at != std::string::npos && !found;
@@ -92,7 +92,7 @@ void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows
 
 TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
-      read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
+      read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/guides/timelines.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
       volume("`[[volume]]` "), mask("`[[volume.mask]]` "), disturbance("`[volume.disturb]` "),
       detail("`[volume.detail]` "), carrier("`[[carrier.key]]` "), decal("`[[decal]]` "),
@@ -127,7 +127,7 @@ TEST(Options, MatchTheTableInTheDocs) {
 }
 
 TEST(Options, OfTanksMatchTheTableInTheDocs) {
-  const std::string page = "docs/tank-scenes.md";
+  const std::string page = "docs/guides/spheres.md";
   const auto text = read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / page).value_or_throw();
   RowMaker top(""), tank("`[tank]` "), sky("`[sky]` "), fog("`[fog]` "), light("`[[light]]` "),
       glass("`[glass]` "), camera("`[[camera]]` ");

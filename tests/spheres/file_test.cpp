@@ -56,7 +56,7 @@ TEST(TankFile, HoldsTheTank) {
     const Tank tank = small_tank(count);
     ASSERT_EQ(tank.spheres.size(), count);
     const Bytes bytes = tank_bytes(tank);
-    EXPECT_EQ(bytes.size(), 40 + 20 * count) << "docs/spheres-format.md";
+    EXPECT_EQ(bytes.size(), 40 + 20 * count) << "docs/reference/formats.md";
     const Tank again = parse_tank(bytes, "a.spheres").value_or_throw();
     EXPECT_EQ(again.size, tank.size);
     EXPECT_EQ(again.voxel, tank.voxel);

@@ -47,7 +47,7 @@ TEST(KeysTest, HelpHasEachKeyOnceInGroups) {
 }
 
 TEST(KeysTest, DocumentationListsEveryKey) {
-  const std::string document = read_text_file(BRUME_SOURCE_DIR "/docs/viewer.md").value_or_throw();
+  const std::string document = read_text_file(BRUME_SOURCE_DIR "/docs/guides/viewer.md").value_or_throw();
   for (const KeyMap map : {KeyMap::level, KeyMap::tank})
     for (const HelpRow& row : help_rows(map)) {
       const std::string line = "| " + row.keys + " | " + row.does + " |\n";

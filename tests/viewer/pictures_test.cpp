@@ -1,4 +1,4 @@
-// The images of docs/viewer.md: checks their contents, and writes them if BRUME_PICTURES names a folder.
+// The images of docs/guides/viewer.md: checks their contents; writes them if BRUME_PICTURES names a folder.
 #include <X11/keysym.h>
 
 #include <cstdlib>

@@ -8,7 +8,7 @@ from mathutils import Vector
 from . import conversion, look_checks, timeline
 
 _SMALLEST_LEVEL = 1.0  # [m]
-_GRENADE_SPEED = 20.0  # [m/s], docs/timeline.md.
+_GRENADE_SPEED = 20.0  # [m/s], docs/guides/timelines.md.
 _RANGE = 4096.0  # [m]
 _LARGEST_GRID = 4096  # Voxels along an axis.
 

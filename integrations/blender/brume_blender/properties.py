@@ -1,6 +1,6 @@
 """Properties that the add-on stores in a .blend file: roles of objects, events, and settings of the scene.
 
-Names, defaults and ranges match docs/timeline.md. Lengths are stored in metres; panels show the property with the
+Names, defaults and ranges: docs/guides/timelines.md. Lengths are stored in metres; panels show the property with the
 prefix `shown_`, which is in the units of the scene. No property is animatable, because timelines have no keys for them.
 """
 

@@ -1,4 +1,4 @@
-"""Timeline export (TOML, docs/timeline.md): volumes, events of empties, keys of the moving scene camera."""
+"""Timeline export (TOML, docs/guides/timelines.md): volumes, events of empties, keys of the moving scene camera."""
 
 import math
 import os

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 # A black body of T kelvin emits per Blender unit sigma / pi * 1e-6 * T^4 of W/(sr m^2) in Blender (Cycles, node
-# Principled Volume), and 1 at 1,900 K for each unit of optical depth in Brume (docs/volume-light.md).
+# Principled Volume), and 1 at 1,900 K for each unit of optical depth in Brume (docs/guides/volumes.md).
 _GLOW = 5.670373e-8 * 1e-6 / math.pi * 1900.0**4
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _MOST_EMISSION = 1e6

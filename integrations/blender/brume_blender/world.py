@@ -5,7 +5,7 @@ import numpy as np
 from . import image_pixels, nodes
 
 _MOST = 1000.0  # Of the settings of a timeline.
-# What a surface in the open gets from all directions, relative to `ambient` (docs/timeline.md).
+# What a surface in the open gets from all directions, relative to `ambient` (docs/guides/timelines.md).
 _MEAN_OF_AMBIENT = 0.75
 
 
