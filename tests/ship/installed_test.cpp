@@ -78,10 +78,10 @@ TEST(Reference, DocumentsEverythingOfTheHeaders) {
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "all/html/index.html"));
 
   // A function without a comment fails.
-  for (const char* part : {"script", "docs", "include"})
+  for (const char* part : {"script", "docs/reference", "include"})
     fs::create_directories(folder.path() / "tree" / part);
   fs::copy_file(BRUME_SOURCE_DIR "/script/reference", folder.path() / "tree/script/reference");
-  fs::copy_file(BRUME_SOURCE_DIR "/docs/embedding.md", folder.path() / "tree/docs/embedding.md");
+  fs::copy_file(BRUME_SOURCE_DIR "/docs/reference/c-api.md", folder.path() / "tree/docs/reference/c-api.md");
   fs::copy_file(BRUME_SOURCE_DIR "/CMakeLists.txt", folder.path() / "tree/CMakeLists.txt");
   fs::copy(BRUME_SOURCE_DIR "/include", folder.path() / "tree/include", fs::copy_options::recursive);
   folder.write("tree/include/brume/more.h", "/** \\file\n A file. */\nint brume_more(void);\n");
