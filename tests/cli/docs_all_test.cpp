@@ -68,11 +68,10 @@ TEST_F(Documents, PicturesOfTanksRender) {
   std::map<std::string, std::string> names;  // by content
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "pictures")) {
     const std::string name = entry.path().filename().string();
-    if (name == "aquaria_remap.png") continue;  // aquaria_wide_open.png with fewer samples
     const auto [same, is_new] = names.emplace(read_text_file(entry.path()).value_or_throw(), name);
     EXPECT_TRUE(is_new) << name << " equals " << same->second;
   }
-  EXPECT_GT(names.size(), 20u);
+  EXPECT_EQ(names.size(), 11u);
 }
 
 }  // namespace
