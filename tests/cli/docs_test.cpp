@@ -11,7 +11,7 @@ namespace {
 
 TEST_F(Documents, CommandsOfTheFirstPagesRun) {
   expect_page_works(BRUME_SOURCE_DIR "/README.md");
-  expect_page_works(BRUME_SOURCE_DIR "/docs/first-steps.md", Pictures::up_to_device);
+  expect_page_works(BRUME_SOURCE_DIR "/docs/start/your-level.md", Pictures::up_to_device);
 }
 
 TEST(DocumentRules, GalleryShowsTheFrameOfTheDemo) {
