@@ -1,22 +1,19 @@
 // A match on a server: a minimal program on libbrume-sim, in C, without Vulkan, window or scene files.
 //
-//   brume_server [--seconds N] [--realtime]
+//   brume_server [--seconds N]
 //
-// Twelve bots run around in two rooms with a door in between, throw smokes and shoot through them. Each
-// second it prints the tick, the number of pairs that see each other, and the state hash: the same on every
-// machine.
-#define _POSIX_C_SOURCE 200809L
+// A sniper aims through a doorway, between two rooms in which twelve bots run around. Each second the program
+// prints what the sniper sees and the state hash, the same on every machine (docs/start/your-server.md).
 #include <brume/brume.h>
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { kBots = 12, kPairs = kBots * (kBots - 1) / 2, kTicksPerSecond = 64 };
-enum { kSizeX = 65, kSizeY = 10, kSizeZ = 32 };
-static const float kVoxel = 0.5f;  // m
+static const float kVoxel = 0.5f;                                 // m
+static const float kThreshold = 3.0f;                             // optical depth: 5 % of the light passes
+static const brume_segment kAim = {{2, 1.6f, 8}, {30, 1.6f, 8}};  // from the sniper to the target [m]
 
 // Ends the program when a call fails, and prints the reason.
 static void check(brume_result result) {
@@ -25,79 +22,67 @@ static void check(brume_result result) {
   exit(1);
 }
 
-// Two rooms of 16 x 5 x 16 m with half-metre voxels, and a door between them.
+// Two rooms of 16 x 5 x 16 m, and a wall with a doorway between them: three rectangles of the collision mesh.
 static brume_level* make_level(brume_context* context) {
-  static uint8_t bits[(kSizeX * kSizeY * kSizeZ + 7) / 8];
-  for (int z = 0; z < kSizeZ; ++z)
-    for (int y = 0; y < kSizeY; ++y) {
-      const int i = 32 + kSizeX * (y + kSizeY * z);
-      if (z < 14 || z > 17 || y > 4) bits[i / 8] |= (uint8_t)(1u << i % 8);
-    }
-  brume_voxels_params params = brume_voxels_defaults();
-  params.layout.size = (brume_voxel){kSizeX, kSizeY, kSizeZ};
-  params.layout.voxel_size = kVoxel;
-  params.bits = bits;
-  params.byte_count = sizeof bits;
+  static const float x = 16.25f;
+  const brume_point points[] = {
+      {x, 0, 0},         {x, 5, 0},     {x, 5, 6.75f}, {x, 0, 6.75f},       // left of the doorway
+      {x, 0, 9.25f},     {x, 5, 9.25f}, {x, 5, 16},    {x, 0, 16},          // right of it
+      {x, 2.75f, 6.75f}, {x, 5, 6.75f}, {x, 5, 9.25f}, {x, 2.75f, 9.25f}};  // above it
+  const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11};
+  brume_triangles_params mesh = brume_triangles_defaults();
+  mesh.layout.size = (brume_voxel){65, 10, 32};  // a box that smoke does not leave
+  mesh.layout.voxel_size = kVoxel;
+  mesh.points = points;
+  mesh.point_count = sizeof points / sizeof points[0];
+  mesh.indices = indices;
+  mesh.index_count = sizeof indices / sizeof indices[0];
   brume_level* level = NULL;
-  check(brume_level_create_from_voxels(context, &params, &level));
+  check(brume_level_create_from_triangles(context, &mesh, &level));
   return level;
 }
 
-// A bot's feet [1/1024 m]: it walks along its own lane to the other room and back.
-static brume_position bot_at(uint32_t bot, uint32_t tick) {
-  const uint32_t walked = (tick * 48 + bot * 6000) % 60000;
-  const int32_t along = (int32_t)(walked < 30000 ? walked : 60000 - walked);
-  return (brume_position){1024 + along, 0, 1024 + (int32_t)bot * 1200};
-}
-
-// A bot's eyes, 1.6 m above its feet.
-static brume_position eyes_of(uint32_t bot, uint32_t tick) {
-  brume_position position = bot_at(bot, tick);
-  position.y += (int32_t)brume_length(1.6);
+static brume_position position(brume_point metres) {
+  brume_position position;
+  check(brume_position_from_metres(metres.x, metres.y, metres.z, &position));
   return position;
 }
 
-// The input of a tick, with positions in 1/1024 m; in a real match it comes from the network.
+// The input of a tick, every ten seconds the same; in a real match from the network and the game's physics.
 static void take_input(brume_world* world, uint32_t tick) {
-  brume_event events[5];
-  size_t count = 0;
-  const uint32_t bot = tick / 16 % kBots;
-  const brume_position eyes = eyes_of(bot, tick);
-
-  brume_event* event = &events[count++];
-  *event = brume_event_defaults(BRUME_EVENT_MOVE, tick);
-  event->u.move.body = bot;
-  event->u.move.to = bot_at(bot, tick);
-  if (tick % 192 == 0) {
-    event = &events[count++];
-    *event = brume_event_defaults(BRUME_EVENT_SMOKE, tick);
-    event->u.smoke.from = eyes;
-    event->u.smoke.at = (brume_position){16000, 512, 15872};
-    event->u.smoke.voxels = brume_smoke_voxels(225, kVoxel);  // m^3
+  const uint32_t now = tick % 640;
+  if (now == 60) {  // The game's physics has flown a grenade, which detonates now.
+    brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, tick);
+    event.u.smoke.at = position((brume_point){14, 0.25f, 8});
+    event.u.smoke.from = event.u.smoke.at;
+    event.u.smoke.voxels = brume_smoke_voxels(200, kVoxel);  // m^3
+    check(brume_world_append(world, &event, 1));
   }
-  if (tick % 40 == 0) {
-    event = &events[count++];
-    *event = brume_event_defaults(BRUME_EVENT_SHOT, tick);
-    event->u.shot.origin = eyes;
-    event->u.shot.toward = (brume_position){16000, 1600, 15872};
+  if (now == 186) {  // The sniper's shot arrives a quarter of a second late: it was fired at tick 170.
+    brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, tick - 16);
+    event.u.shot.origin = position(kAim.a);
+    event.u.shot.toward = position(kAim.b);
+    check(brume_world_append(world, &event, 1));
   }
-  if (tick % 640 == 500) {
-    event = &events[count++];
-    *event = brume_event_defaults(BRUME_EVENT_BLAST, tick);
-    event->u.blast.at = (brume_position){14000, 1024, 15872};
+  if (now == 320 || now == 384) {  // The door closes, then opens.
+    brume_event event = brume_event_defaults(BRUME_EVENT_EDIT, tick);
+    event.u.edit.low = (brume_voxel){32, 0, 14};
+    event.u.edit.high = (brume_voxel){33, 5, 18};
+    event.u.edit.solid = now == 320;
+    check(brume_world_append(world, &event, 1));
   }
-  if (tick % 320 == 0) {  // The door opens or closes.
-    event = &events[count++];
-    *event = brume_event_defaults(BRUME_EVENT_EDIT, tick);
-    event->u.edit.low = (brume_voxel){32, 0, 14};
-    event->u.edit.high = (brume_voxel){33, 5, 18};
-    event->u.edit.solid = tick % 640 == 320;
+  if (now == 500) {
+    brume_event event = brume_event_defaults(BRUME_EVENT_BLAST, tick);
+    event.u.blast.at = position((brume_point){14, 1, 8});
+    check(brume_world_append(world, &event, 1));
   }
-  check(brume_world_append(world, events, count));
 }
 
-static brume_point metres(brume_position position) {
-  return (brume_point){(float)position.x / 1024, (float)position.y / 1024, (float)position.z / 1024};
+// A bot's eyes [m]: it walks along its own lane to the other room and back.
+static brume_point eyes_of(uint32_t bot, uint32_t tick) {
+  const uint32_t walked = (tick * 48 + bot * 6000) % 60000;
+  const uint32_t along = walked < 30000 ? walked : 60000 - walked;
+  return (brume_point){1 + (float)along / 1024, 1.6f, 1 + (float)bot * 1.25f};
 }
 
 // The number of pairs of bots that see each other past the current walls and smoke.
@@ -106,45 +91,71 @@ static int count_visible_pairs(const brume_field* field, uint32_t tick) {
   int count = 0;
   for (uint32_t a = 0; a < kBots; ++a)
     for (uint32_t b = a + 1; b < kBots; ++b)
-      pairs[count++] = (brume_segment){metres(eyes_of(a, tick)), metres(eyes_of(b, tick))};
+      pairs[count++] = (brume_segment){eyes_of(a, tick), eyes_of(b, tick)};
   uint8_t visible[kPairs];
-  check(brume_field_visible(field, pairs, kPairs, 3, visible));
+  check(brume_field_visible(field, pairs, kPairs, kThreshold, visible));
   int sum = 0;
-  for (int i = 0; i < kPairs; ++i) sum += visible[i];
+  while (count > 0) sum += visible[--count];
   return sum;
 }
 
-static void print_tick(const brume_state* state, int visible) {
+// Sends a state to a client, which in a real match is another machine. Returns the size of the packet.
+static size_t send_state(brume_sender* sender, brume_receiver* client, const brume_state* state,
+                         int is_lost) {
+  static uint8_t packet[65536], request[16];
+  size_t size = 0, request_size = 0, answer_size = 0;
+  uint32_t behind = 0;
+  check(brume_sender_push(sender, state));
+  check(brume_sender_packet(sender, packet, sizeof packet, &size));
+  if (is_lost) return size;
+  check(brume_receiver_receive(client, packet, size, NULL));
+  check(brume_receiver_behind(client, &behind));
+  if (behind) {
+    check(brume_receiver_request(client, request, sizeof request, &request_size));
+    check(brume_sender_answer(sender, request, request_size, packet, sizeof packet, &answer_size));
+    check(brume_receiver_receive(client, packet, answer_size, NULL));
+  }
+  return size;
+}
+
+static void print_tick(const brume_state* state, const brume_receiver* client, const brume_field* field,
+                       size_t packet_size) {
   brume_state_info info;
-  uint64_t hash = 0;
+  uint64_t hash = 0, client_hash = 0;
   check(brume_state_describe(state, &info));
   check(brume_state_hash(state, &hash));
-  printf("tick %" PRIu32 ": %" PRIu32 " smokes, %" PRIu32
-         " holes, %d pairs of bots see each other, state %016" PRIx64 "\n",
-         info.tick, info.cloud_count, info.hole_count, visible, hash);
+  brume_state* received = NULL;
+  check(brume_receiver_state(client, &received));
+  check(brume_state_hash(received, &client_hash));
+  check(brume_state_destroy(received));
+
+  uint8_t visible = 0;
+  float depth = 0;
+  brume_wall wall;
+  check(brume_field_visible(field, &kAim, 1, kThreshold, &visible));
+  check(brume_field_optical_depths(field, &kAim, 1, &depth));
+  check(brume_field_first_walls(field, &kAim, 1, &wall));
+  printf("%4u  %6u  %5u  ", info.tick, info.cloud_count, info.hole_count);
+  printf("%-6s  %5.1f  ", visible ? "target" : wall.hit ? "wall" : "smoke", (double)depth);
+  printf("%2d/%d  %6zu  ", count_visible_pairs(field, info.tick), kPairs, packet_size);
+  printf("%016" PRIx64 "%s\n", hash, hash == client_hash ? "" : "  client differs");
 }
 
-static void sleep_until(struct timespec start, uint32_t tick) {
-  const uint64_t nanoseconds = (uint64_t)start.tv_nsec + UINT64_C(1000000000) / kTicksPerSecond * tick;
-  const struct timespec at = {start.tv_sec + (time_t)(nanoseconds / 1000000000),
-                              (long)(nanoseconds % 1000000000)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR) {
-  }
-}
-
-static void run_match(uint32_t seconds, int realtime) {
+static void run_match(uint32_t seconds) {
   brume_context* context = NULL;
   brume_world* world = NULL;
   brume_field* field = NULL;
+  brume_sender* sender = NULL;
+  brume_receiver* client = NULL;
   check(brume_context_create(NULL, &context));
   brume_level* level = make_level(context);
   check(brume_world_create(level, NULL, &world));
   check(brume_field_create(level, NULL, &field));
+  check(brume_sender_create(context, NULL, &sender));
+  check(brume_receiver_create(context, NULL, &client));
 
-  struct timespec start;
-  clock_gettime(CLOCK_MONOTONIC, &start);
+  printf("tick  smokes  holes  sniper  depth  pairs  packet  state\n");
   for (uint32_t tick = 0; tick <= seconds * kTicksPerSecond; ++tick) {
-    if (realtime) sleep_until(start, tick);
     take_input(world, tick);
     check(brume_world_advance_to(world, tick));
     if (tick > kTicksPerSecond)  // Accept input that is up to one second late.
@@ -152,11 +163,13 @@ static void run_match(uint32_t seconds, int realtime) {
     brume_state* state = NULL;
     check(brume_world_state(world, &state));
     check(brume_field_update(field, state));
-    const int visible = count_visible_pairs(field, tick);
-    if (tick % kTicksPerSecond == 0) print_tick(state, visible);
+    const size_t size = send_state(sender, client, state, tick % 64 == 10);  // one in 64 is lost
+    if (tick % kTicksPerSecond == 0) print_tick(state, client, field, size);
     check(brume_state_destroy(state));
   }
 
+  check(brume_receiver_destroy(client));
+  check(brume_sender_destroy(sender));
   check(brume_field_destroy(field));
   check(brume_world_destroy(world));
   check(brume_level_destroy(level));
@@ -165,18 +178,13 @@ static void run_match(uint32_t seconds, int realtime) {
 
 int main(int count, char** arguments) {
   long seconds = 30;
-  int realtime = 0;
-  for (int i = 1; i < count; ++i) {
-    if (strcmp(arguments[i], "--realtime") == 0) {
-      realtime = 1;
-    } else if (strcmp(arguments[i], "--seconds") == 0 && i + 1 < count) {
-      seconds = strtol(arguments[++i], NULL, 10);
-      seconds = seconds < 1 ? 1 : seconds > 86400 ? 86400 : seconds;
-    } else {
-      fprintf(stderr, "usage: brume_server [--seconds N] [--realtime]\n");
-      return 2;
-    }
+  if (count == 3 && strcmp(arguments[1], "--seconds") == 0) {
+    seconds = strtol(arguments[2], NULL, 10);
+    seconds = seconds < 1 ? 1 : seconds > 86400 ? 86400 : seconds;
+  } else if (count != 1) {
+    fprintf(stderr, "usage: brume_server [--seconds N]\n");
+    return 2;
   }
-  run_match((uint32_t)seconds, realtime);
+  run_match((uint32_t)seconds);
   return 0;
 }
