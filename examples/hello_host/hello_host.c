@@ -1,6 +1,6 @@
 // The smallest host of Brume's renderer: a smoke grenade floods a room, and the smoke comes out of its
 // doorway. It draws off screen and writes a PNG. offscreen.h is the program without Brume. Guide:
-// docs/reference/c-api.md.
+// docs/start/your-renderer.md.
 //
 //   hello_host [hello.png]
 #include <brume/brume_vulkan.h>

@@ -1,5 +1,5 @@
 // The public C interface of Brume: the simulation of smoke and the line of sight through smoke, without
-// Vulkan. Library: libbrume-sim. Guide: docs/reference/c-api.md. C++: brume.hpp, in the same folder.
+// Vulkan. Library: libbrume-sim. Guide: docs/start/your-server.md. C++: brume.hpp, in the same folder.
 //
 //   context --> level --> world --> state --> field        optical depths, visibility, walls, densities
 //                          ^         |  `---> sender --> packets --> receiver --> state

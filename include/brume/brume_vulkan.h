@@ -1,5 +1,5 @@
 // The C interface of Brume's renderer: smoke in the frames of your Vulkan renderer, the host. Library:
-// libbrume, which contains all of brume.h, too. Guide: docs/reference/c-api.md.
+// libbrume, which contains all of brume.h, too. Guide: docs/start/your-renderer.md.
 //
 //   context --> device --> renderer --,
 //   world --> state --> field --------+--> brume_renderer_record: commands in your command buffer
