@@ -1,4 +1,5 @@
-// Reads volume files that need no decoder of images: .brv here (docs/reference/formats.md), .vdb and .nvdb in the program brume-vdb (worker.hpp).
+// Reads volume files that need no decoder of images: .brv here (docs/reference/formats.md), .vdb and .nvdb
+// in the program brume-vdb (worker.hpp).
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 namespace brume::house {
 namespace {
 
-std::vector<std::string> lines_of(std::string_view text) {
+std::vector<std::string> page_lines(std::string_view text) {
   std::istringstream stream{std::string(text)};
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -38,7 +38,7 @@ std::string anchor_of(const std::string& heading) {
 std::string without_code(std::string_view markdown) {
   std::string result;
   bool in_code = false;
-  for (const std::string& line : lines_of(markdown)) {
+  for (const std::string& line : page_lines(markdown)) {
     const bool is_fence = line.starts_with("```");
     if (!is_fence && !in_code) result += line;
     if (is_fence) in_code = !in_code;
@@ -51,7 +51,7 @@ std::vector<Link> links_of(std::string_view markdown) {
   static const std::regex kTarget(R"(\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\")"), kCode("`[^`]*`");
   std::vector<Link> links;
   std::size_t number = 0;
-  for (const std::string& whole : lines_of(without_code(markdown))) {
+  for (const std::string& whole : page_lines(without_code(markdown))) {
     ++number;
     const std::string line = std::regex_replace(whole, kCode, "");
     for (std::sregex_iterator at(line.begin(), line.end(), kTarget), end; at != end; ++at)
@@ -63,7 +63,7 @@ std::vector<Link> links_of(std::string_view markdown) {
 std::set<std::string> anchors_of(std::string_view markdown) {
   std::set<std::string> anchors;
   std::map<std::string, int> seen;
-  for (const std::string& line : lines_of(without_code(markdown))) {
+  for (const std::string& line : page_lines(without_code(markdown))) {
     const std::size_t level = line.find_first_not_of('#');
     if (level == 0 || level == std::string::npos || level > 6 || line[level] != ' ') continue;
     const std::string anchor = anchor_of(line.substr(level + 1));
@@ -77,7 +77,7 @@ std::vector<std::string> vague_phrases(std::string_view text) {
   static const std::regex kPhrase(R"(\b([Tt]hat|[Tt]hose) of\b|(^|[.|:] |/// |// |< )Of )");
   std::vector<std::string> found;
   std::size_t number = 0;
-  for (const std::string& line : lines_of(without_code(text))) {
+  for (const std::string& line : page_lines(without_code(text))) {
     ++number;
     std::smatch match;
     if (std::regex_search(line, match, kPhrase)) found.push_back(std::to_string(number) + ": " + match.str());

@@ -11,17 +11,17 @@ namespace brume::house {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
+using Texts = std::vector<std::string>;
 
-const fs::path kRoot = BRUME_SOURCE_DIR;
+const fs::path kProject = BRUME_SOURCE_DIR;
 
 /// Every Markdown file of the project.
 std::vector<fs::path> pages() {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(kRoot))
+  for (const auto& entry : fs::directory_iterator(kProject))
     if (entry.path().extension() == ".md") found.push_back(entry.path());
   for (const char* folder : {"docs", "scenes", "bench", "data", "examples", "integrations"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+    for (const auto& entry : fs::recursive_directory_iterator(kProject / folder))
       if (entry.path().extension() == ".md") found.push_back(entry.path());
   return found;
 }
@@ -43,8 +43,8 @@ TEST(Pages, HeadingsHaveAnchors) {
 
 TEST(Pages, VaguePhrasesAreFound) {
   EXPECT_EQ(vague_phrases("The size is that of a voxel.\nOf these, none.\n| x | Of a page. |\n"),
-            (Strings{"1: that of", "2: Of ", "3: | Of "}));
-  EXPECT_EQ(vague_phrases("```\nthat of\n```\nThe sum of that. Office hours.\n"), Strings{});
+            (Texts{"1: that of", "2: Of ", "3: | Of "}));
+  EXPECT_EQ(vague_phrases("```\nthat of\n```\nThe sum of that. Office hours.\n"), Texts{});
 }
 
 TEST(Pages, LinksLeadSomewhere) {
@@ -67,14 +67,14 @@ TEST(Pages, LinksLeadSomewhere) {
 }
 
 TEST(Pages, SayWhatTheyMean) {
-  std::vector<fs::path> texts{kRoot / "README.md"};
+  std::vector<fs::path> texts{kProject / "README.md"};
   for (const char* folder : {"docs", "include"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+    for (const auto& entry : fs::recursive_directory_iterator(kProject / folder))
       if (const auto extension = entry.path().extension();
           extension == ".md" || extension == ".h" || extension == ".hpp")
         texts.push_back(entry.path());
   for (const fs::path& path : texts)
-    EXPECT_EQ(vague_phrases(*read_text_file(path)), Strings()) << path << ": name the noun instead";
+    EXPECT_EQ(vague_phrases(*read_text_file(path)), Texts()) << path << ": name the noun instead";
 }
 
 }  // namespace
