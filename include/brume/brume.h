@@ -270,9 +270,9 @@ BRUME_API brume_result brume_level_create_from_voxels(brume_context* context,
                                                       const brume_voxels_params* params,
                                                       brume_level** level) BRUME_NOEXCEPT;
 /// Creates a level from the triangles of its collision mesh. Every voxel that a wall or glass touches is
-/// solid, exactly, and smoke ends at the surface of the triangles, not at the grid. The same triangles, roles
-/// and layout give the same level on every machine. Errors: BRUME_ERROR_LIMIT when an axis would exceed
-/// BRUME_MAX_LEVEL_AXIS.
+/// solid, exactly (a triangle on a face between two voxels touches both), and smoke ends at the surface of
+/// the triangles, not at the grid. The same triangles, roles and layout give the same level on every
+/// machine. Errors: BRUME_ERROR_LIMIT when an axis would exceed BRUME_MAX_LEVEL_AXIS.
 BRUME_API brume_result brume_level_create_from_triangles(brume_context* context,
                                                          const brume_triangles_params* params,
                                                          brume_level** level) BRUME_NOEXCEPT;
@@ -361,8 +361,8 @@ static inline uint32_t brume_smoke_voxels(double cubic_metres, double voxel_size
 //   BRUME_EVENT_EDIT    the edited level, in no list:          the edit           another edit restores
 //                       brume_field_update takes it over                          the voxels
 //
-// An event may have no effect: a grenade whose path misses the level, a shot that meets no smoke, an
-// explosion inside a wall, an edit that changes no voxel.
+// An event may have no effect: a grenade whose path misses the level, a shot or blast that meets no smoke, an
+// edit that changes no voxel. A blast inside a wall moves to the nearest free voxel.
 
 /// The largest tick: 97 days at 64 ticks per second.
 #define BRUME_MAX_TICK 536870912u
@@ -385,6 +385,8 @@ typedef enum brume_hole_shape {
 
 /// A smoke grenade is thrown. It flies straight at 20 m/s from `from` through `at` to the first wall, glass
 /// or grille, and detonates in the last free voxel in front of it; without an obstacle it detonates at `at`.
+/// A flight that starts in a solid voxel detonates in the nearest free one, on whichever side of the wall
+/// that lies: let it start at least a voxel in front of the wall that a grenade rests at.
 /// Times are in ticks, because smoke spreads from tick to tick.
 typedef struct brume_smoke_event {
   brume_position from, at;  ///< Start of the flight, and a point on its path.
@@ -774,9 +776,12 @@ BRUME_API brume_result brume_field_optical_depths(const brume_field* field, cons
                                                   size_t count, float* depths) BRUME_NOEXCEPT;
 /// Writes 1 for each segment whose ends are visible from each other, else 0. They are when no wall lies
 /// between the voxels of a and b (sight passes glass and grilles) and the optical depth is at most
-/// `threshold`. Optical depths of 1, 3 and 5 let 37, 5 and 0.7 % of the light pass. `threshold` is at least
-/// 0; infinity tests walls only. Guarantees are as for brume_field_optical_depths; this query is faster, as
-/// it ends at the first obstacle.
+/// `threshold`. Walls are voxels here: the voxels of a and b themselves hide nothing, so that a point up to
+/// a voxel behind a wall may be visible, and a line along a wall or floor within a voxel of it is blocked.
+/// Use your own ray cast where that matters, and a threshold on brume_field_optical_depths for smoke.
+/// Optical depths of 1, 3 and 5 let 37, 5 and 0.7 % of the light pass. `threshold` is at least 0; infinity
+/// tests walls only. Guarantees are as for brume_field_optical_depths; this query is faster, as it ends at
+/// the first obstacle.
 BRUME_API brume_result brume_field_visible(const brume_field* field, const brume_segment* segments,
                                            size_t count, float threshold, uint8_t* visible) BRUME_NOEXCEPT;
 

@@ -290,7 +290,8 @@ typedef struct brume_frame_params {
   brume_camera camera;    ///< The camera with which you drew depth and picture.
   brume_depth depth;      ///< The depth of your surfaces, which hide smoke behind them.
   brume_picture picture;  ///< The colour target over which smoke is blended, and which decals darken.
-  double seconds;         ///< The clock of noise and holes [s], [0, 10^7]: the time of the field's state.
+  /// The clock of noise and holes [s], [0, 10^7]: the time of the field's state, or later, between ticks.
+  double seconds;
   uint32_t jitter_index;  ///< The jitter of the march; add 1 each frame. Equal indices give equal smoke.
 
   // Optional: brume_frame_defaults() sets these.
@@ -364,10 +365,11 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
 /// Writes the image of smoke, volumes and tanks of the last recorded frame, for your own compositing: half
-/// floats with premultiplied radiance, and transmittance in alpha, in VK_IMAGE_LAYOUT_GENERAL, written by
-/// compute shaders. It is another image after brume_renderer_resize, and when frames begin or cease to have
-/// tanks. Either pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that
-/// failed.
+/// floats with premultiplied radiance, before any exposure, and transmittance in alpha, in
+/// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, and
+/// can be sampled. All frames use one image: compute shaders of the next frame must wait for your reads. It
+/// is another image after brume_renderer_resize, and when frames begin or cease to have tanks. Either
+/// pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that failed.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
 

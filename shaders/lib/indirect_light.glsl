@@ -22,10 +22,39 @@ float outside_of_cells(vec3 p_cells) {
   return 1.0 - min(ratio * ratio * ratio, 1.0);
 }
 
+bool is_free_cell(ivec3 cell) {
+  return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, frame.indirect.size)) &&
+         texelFetch(indirect_cube, cell, 0).a > 0.5;
+}
+
+/// Whether the surface in a cell goes on over the next two.
+bool goes_on(ivec3 cell, ivec3 step) { return !is_free_cell(cell + step) && !is_free_cell(cell + 2 * step); }
+
+/// The place off a surface at which its light is read. In a solid cell, where other surfaces begin, it moves half a
+/// cell to where this one goes on: the far half of a thin wall would show the light of the next room.
+vec3 off_corners(vec3 p_cells, vec3 normal) {
+  const ivec3 cell = ivec3(floor(p_cells)), behind = ivec3(floor(p_cells - normal));
+  if (is_free_cell(cell)) return p_cells;
+  ivec3 towards = ivec3(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(normal[axis]) > 0.7) continue;
+    ivec3 step = ivec3(0);
+    step[axis] = 1;
+    const bool up = goes_on(behind, step), down = goes_on(behind, -step);
+    // On both sides, as in a house of several floors: to the nearer one that is free.
+    const int nearer = p_cells[axis] < float(cell[axis]) + 0.5 ? -1 : 1;
+    if (up != down) towards[axis] = up ? 1 : -1;
+    else if (up && is_free_cell(cell + nearer * step)) towards[axis] = nearer;
+    else if (up && is_free_cell(cell - nearer * step)) towards[axis] = -nearer;
+  }
+  if (towards == ivec3(0) || !is_free_cell(cell + towards)) return p_cells;
+  return mix(p_cells, vec3(cell) + 0.5 + 0.5 * vec3(towards), notEqual(towards, ivec3(0)));
+}
+
 /// Irradiance / pi on a surface. Interpolates free cells only, so that no light leaks through walls.
 vec3 indirect_irradiance(vec3 p_world, vec3 normal) {
   // A cell off the surface, outside of the cells that it runs through.
-  const vec3 p = indirect_from_world(p_world) + normal;
+  const vec3 p = off_corners(indirect_from_world(p_world) + normal, normal);
   const vec3 weights = normal * normal;
   vec4 sum = vec4(0.0);
   for (uint axis = 0u; axis < 3u; ++axis)

@@ -24,13 +24,13 @@ const float kLeft = 1 / std::cosh(8 * std::acosh(1.5f / 1.3f));
 constexpr float kFurnaceError = 0.004f + 10 * 2 * 0.5f / 2048;
 
 /// A room that is closed on all sides.
-scene::Scene closed_room(float emission, float albedo) {
+scene::Scene closed_room(float emission, float albedo, float wall = 0.3f) {
   scene::Scene scene;
   scene::Mesh& walls = scene.meshes.emplace_back();
-  constexpr float kHalf = 2, kWall = 0.3f, kOut = kHalf + kWall;
+  constexpr float kHalf = 2;
   for (int axis = 0; axis < 3; ++axis)
     for (const float side : {-1.0f, 1.0f}) {
-      glm::vec3 low(-kOut), high(kOut);
+      glm::vec3 low(-kHalf - wall), high(kHalf + wall);
       (side < 0 ? high : low)[axis] = side * kHalf;
       add_box(walls, low, high);
     }
@@ -46,10 +46,11 @@ scene::Scene closed_room(float emission, float albedo) {
 
 class IndirectLightTest : public gpu::GpuTest {
  protected:
-  static std::unique_ptr<Studio> studio(scene::Scene scene, bool smoke, std::uint32_t bounces = kBounces) {
+  static std::unique_ptr<Studio> studio(scene::Scene scene, bool smoke, std::uint32_t bounces = kBounces,
+                                        float sky = 0) {
     scene::Timeline timeline;
     timeline.bounces = bounces;
-    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
+    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(sky), 0};
     timeline.smoke.voxels = 900;
     timeline.smoke.extinction = 1.5f;
     timeline.smoke.albedo = glm::vec3(1);
@@ -81,6 +82,12 @@ TEST_F(IndirectLightTest, AClosedRoomIsAsBrightAsItsWallsMakeIt) {
 TEST_F(IndirectLightTest, WithoutBouncesOnlyTheWallsOwnLightShows) {
   const auto room = studio(closed_room(kEmission, kAlbedo), false, 0);
   for (const glm::vec4& pixel : radiance(*room)) EXPECT_NEAR(pixel.g, kEmission, kEmission / 1024);
+}
+
+// Walls of one voxel, whose cells have light on both sides.
+TEST_F(IndirectLightTest, TheSkyDoesNotShowInTheCornersOfAClosedRoom) {
+  const auto room = studio(closed_room(0, kAlbedo, 0.1f), false, kBounces, 1);
+  for (const glm::vec4& pixel : radiance(*room)) EXPECT_LT(pixel.g, 0.01f);
 }
 
 // Smoke that only scatters is invisible in light that is the same everywhere (the furnace test).
