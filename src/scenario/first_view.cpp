@@ -282,6 +282,8 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   // As long as it is not measured, by the lights alone.
   timeline.exposure = options.exposure.value_or(std::clamp(-std::log2(light), -20.0f, 20.0f));
   if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
+  if (options.bounces.value_or(0) > 0 && scene.objects.empty())
+    log_warning(path.string() + ": bounces change nothing without a level");
   // What volumes are lit by from below is the ground, as nothing else is there.
   if (timeline.ground && scene.objects.empty()) timeline.sky.bounce = luminance(kGroundColor);
   apply_level_options(timeline, scene);

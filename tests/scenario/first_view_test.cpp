@@ -8,6 +8,7 @@
 #include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline_writer.hpp"
+#include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -104,6 +105,25 @@ TEST_F(FirstViewTest, AFloatingModelGetsAGroundOutsideOfItsBounds) {
   ASSERT_EQ(scene.objects.size(), objects + 1);
   EXPECT_TRUE(scene.objects.back().backdrop);
   EXPECT_EQ(scene::world_bounds(scene).low.y, bounds.low.y);
+}
+
+// A volume alone has the light of the ground below it, and no level whose light could bounce.
+TEST_F(FirstViewTest, VolumesAreLitByTheGround) {
+  const auto first_view = [](scene::Scene scene, const FirstViewOptions& options) {
+    return prepare_first_view("cloud.vdb", scene, options);
+  };
+  scene::Scene cloud;
+  cloud.volumes.push_back({"cloud", {{-1, 1, -1}, {1, 3, 1}}, {{-1, 1, -1}, {1, 3, 1}}});
+  const float usual = scene::SkyOptions{}.bounce;
+  EXPECT_NEAR(first_view(cloud, {}).sky.bounce, 0.33f, 0.005f) << "the ground's reflectance";
+  FirstViewOptions options;
+  options.has_ground = false;
+  EXPECT_EQ(first_view(cloud, options).sky.bounce, usual);
+  EXPECT_EQ(first_view(scene::load_scene(box(4)).value_or_throw(), {}).sky.bounce, usual);
+  const scene::Warnings warnings;
+  options.bounces = 8;
+  first_view(cloud, options);
+  EXPECT_EQ(warnings.lines, std::vector<std::string>{"cloud.vdb: bounces change nothing without a level"});
 }
 
 TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
