@@ -57,7 +57,8 @@ ColumnBrick column_brick(std::uint32_t slot, const BrickVolume& density, float l
   return brick;
 }
 
-/// Of what is seen, or of all where nothing is, what lies along each axis between the outermost kStray of it.
+/// The bricks that are left along each axis without the outermost kStray of what is seen, or of all voxels
+/// where nothing is seen.
 Box<int> middle_of(const std::vector<ColumnBrick>& bricks) {
   double all = 0;
   for (const ColumnBrick& brick : bricks) all += brick.seen_count;

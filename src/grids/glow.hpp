@@ -33,12 +33,13 @@ std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& dens
 
 /// Heat along a line of bricks through a volume.
 struct GlowColumn {
-  double power =
-      0;  ///< Integral of the fourth power of the values [value^4 times length in the file's world].
-  double density = 0;  ///< Integral of the density where the values are above 0 [value times length].
+  /// Integral of the fourth power of the values [value^4 times length in the file's world].
+  double power = 0;
+  /// Integral of the density where the values are above 0 [value times length].
+  double density = 0;
 };
 
-/// Of all columns of bricks along the axes of the heat, as means over 8 x 8 voxels; without those of zeros.
+/// All columns of bricks along the axes of the heat, as means over 8 x 8 voxels, without columns of zeros.
 std::vector<GlowColumn> glow_columns(const BrickVolume& heat, const BrickVolume& density);
 
 /// The fraction of what a homogeneous ball emits that leaves it, by its radius times its extinction (Case, de
