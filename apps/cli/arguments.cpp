@@ -279,7 +279,11 @@ std::vector<std::string> Arguments::given_texts(const std::vector<std::string>& 
 }
 
 void Arguments::refuse(const std::string& option, const std::string& why) const {
-  if (given(option)) throw Error(ErrorCode::usage, option + ": " + why);
+  // "--march is for ...", but "--progress: there is none ...".
+  constexpr std::string_view kPredicates[] = {"is ", "cannot ", "requires ", "shows ", "turns ", "would "};
+  const bool is_predicate =
+      std::ranges::any_of(kPredicates, [&](std::string_view verb) { return why.starts_with(verb); });
+  if (given(option)) throw Error(ErrorCode::usage, option + (is_predicate ? " " : ": ") + why);
 }
 
 std::string Arguments::name() const {

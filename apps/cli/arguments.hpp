@@ -59,7 +59,8 @@ class Arguments {
   /// All options that it gives and their values, in the order of their declarations, but for these. Without
   /// the arguments that are no options.
   std::vector<std::string> given_texts(const std::vector<std::string>& except) const;
-  /// Throws Error (usage), "--fps: " + why, if it gives this option although it would do nothing.
+  /// Throws Error (usage), "--fps " + why, if it gives this option although it would do nothing; with a colon
+  /// unless `why` is a predicate.
   void refuse(const std::string& option, const std::string& why) const;
   std::string name() const;  ///< Of the command.
 

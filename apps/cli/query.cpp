@@ -240,18 +240,22 @@ void query(const Arguments& arguments, const QueryOptions& options, Outputs& out
   }
 }
 
+constexpr const char* kQueryExamples =
+    "  # Does A see B after 3.2 s?\n"
+    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3.2\n"
+    "  # When is B hidden between 1 and 3 s? As JSON\n"
+    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 1-3 --json -\n"
+    "  # How many of at most five shots from 3 s on make B visible?\n"
+    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 2-4 --shots 5 "
+    "--shots-at 3\n"
+    "  # Colours and distances along the rays of an eye in a tank\n"
+    "  brume query reef.spheres --sense \"0,0.1,1.2 0,0,0 70\" --size 16x9 --json -";
+
 }  // namespace
 
 Command add_query(CommandLine& program) {
-  Command command =
-      declare(program, "query", "Tests whether one point is visible from another through the smoke.",
-              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3.2\n"
-              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 1-3 "
-              "--json -\n"
-              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 2-4 "
-              "--shots 5 "
-              "--shots-at 3\n"
-              "  brume query reef.spheres --sense \"0,0.1,1.2 0,0,0 70\" --size 16x9 --json -");
+  Command command = declare(
+      program, "query", "Tests whether one point is visible from another through the smoke.", kQueryExamples);
   auto options = std::make_shared<QueryOptions>();
   const Arguments arguments = command.arguments;
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml), scene, or with --sense tank")

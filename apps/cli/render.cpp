@@ -187,7 +187,7 @@ void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario
                                                                  : nullptr;
   if (reason)
     log_warning(std::string(reason) +
-                ": shows neither the aperture nor the shutter of the camera; all is sharp");
+                " shows neither the aperture nor the shutter of the camera; all is sharp");
 }
 
 /// Those of a device.

@@ -88,7 +88,7 @@ void refuse_transfer(const scenario::FirstViewOptions& options, const std::strin
 void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptions& options) {
   if (options.smoke_size)
     throw Error(ErrorCode::usage,
-                "--smoke-size: is for a scene without a timeline; set [smoke] voxels in the timeline");
+                "--smoke-size is for a scene without a timeline; set [smoke] voxels in the timeline");
   refuse_transfer(options, "is for a volume without a timeline; set it in [[volume]] of the timeline");
   if (options.scale) timeline.scale = *options.scale;
   if (options.sun) timeline.sun = *options.sun;
@@ -287,7 +287,7 @@ scenario::Scenario load_with_options(const std::string& input, const std::string
     expect_suffix("", input,
                   {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
   if (grids::is_grid_file(input) && options.smoke_size)
-    throw Error(ErrorCode::usage, "--smoke-size: is for a scene; " + input + " is a volume");
+    throw Error(ErrorCode::usage, "--smoke-size is for a scene; " + input + " is a volume");
   if (!grids::is_grid_file(input) && !scenario::is_timeline(input))
     refuse_transfer(options, "is for a volume; " + input + " is a scene");
   if (!timeline.empty()) expect_suffix("--timeline", timeline, {".toml"});

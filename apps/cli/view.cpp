@@ -113,7 +113,7 @@ void view(const Arguments& arguments, const ViewOptions& options, Outputs& outpu
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
-    throw Error(ErrorCode::usage, "--screenshot: is taken at --exit-after; add that option");
+    throw Error(ErrorCode::usage, "--screenshot is taken at --exit-after; add that option");
   check_inputs(options);
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play

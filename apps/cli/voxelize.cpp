@@ -30,7 +30,7 @@ void check_options(const VoxelizeOptions& options) {
   if (options.grid.empty()) {
     if (options.origin.empty()) return;
     throw Error(ErrorCode::usage,
-                "--origin: requires --grid, such as --grid 120x20x120; give both or neither");
+                "--origin requires --grid, such as --grid 120x20x120; give both or neither");
   }
   voxel::check_frame({parse_grid("--grid", options.grid), options.voxel, glm::vec3(0)}).value_or_throw();
 }

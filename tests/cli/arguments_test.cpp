@@ -142,14 +142,13 @@ TEST_F(CommandLineTest, OptionsThatWouldDoNothingAreRefused) {
     return refusal(more);
   };
   const std::string film = " requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
-  EXPECT_EQ(still({"--fps", "24"}), "--fps:" + film + ", or --flipbook");
-  EXPECT_EQ(still({"--frames", "0-1"}), "--frames:" + film + ", or --flipbook");
-  EXPECT_EQ(still({"--temporal"}), "--temporal:" + film);
-  EXPECT_EQ(still({"--light-update-fraction", "0.5"}), "--light-update-fraction:" + film);
-  EXPECT_EQ(still({"--resolve-error-scale", "2"}), "--resolve-error-scale: requires --march half or quarter");
-  EXPECT_EQ(still({"--resume"}), "--resume: requires numbered frames, such as -o f_%04d.png");
-  EXPECT_EQ(refusal({"info", "room.obj", "--check"}),
-            "--check: is for timelines and scenes of tanks (.toml)");
+  EXPECT_EQ(still({"--fps", "24"}), "--fps" + film + ", or --flipbook");
+  EXPECT_EQ(still({"--frames", "0-1"}), "--frames" + film + ", or --flipbook");
+  EXPECT_EQ(still({"--temporal"}), "--temporal" + film);
+  EXPECT_EQ(still({"--light-update-fraction", "0.5"}), "--light-update-fraction" + film);
+  EXPECT_EQ(still({"--resolve-error-scale", "2"}), "--resolve-error-scale requires --march half or quarter");
+  EXPECT_EQ(still({"--resume"}), "--resume requires numbered frames, such as -o f_%04d.png");
+  EXPECT_EQ(refusal({"info", "room.obj", "--check"}), "--check is for timelines and scenes of tanks (.toml)");
   EXPECT_EQ(refusal({"info", "room.obj", "-q", "--progress", "json"}),
             "--progress: there is none with --quiet");
   EXPECT_EQ(refusal({"info", "room.obj", "--progress", "jsn"}),

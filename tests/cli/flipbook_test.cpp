@@ -172,10 +172,10 @@ TEST_F(Flipbook, WhatCannotBeIsSaidBeforeAnythingIsDrawn) {
   says({"-o", "s.png", "--flipbook", "2x2", "--size", "4x4"}, "--flipbook-gutter 2: leaves nothing");
   says({"-o", "s.png", "--flipbook", "2x2", "--flipbook-maps", "six-way,glow"},
        "expected six-way, normals, emission");
-  says({"-o", "s.png", "--flipbook-gutter", "1"}, "--flipbook-gutter: requires --flipbook");
-  says({"-o", "s.png", "--flipbook", "2x2", "--time", "1"}, "--time: is not for --flipbook");
+  says({"-o", "s.png", "--flipbook-gutter", "1"}, "--flipbook-gutter requires --flipbook");
+  says({"-o", "s.png", "--flipbook", "2x2", "--time", "1"}, "--time is not for --flipbook");
   says({"-o", "s.png", "--flipbook", "2x2", "--orbit", "360", "--flipbook-maps", "normals"},
-       "--orbit: turns the camera");
+       "--orbit turns the camera");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "s.json"));
 }
 

@@ -110,7 +110,7 @@ TEST_F(RenderOrbit, RefusesWhatWouldTurnNothing) {
     EXPECT_EQ(run.exit_code, 2) << run.error;
     EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
   };
-  refused({"-o", "a.png", "--orbit", "90"}, "--orbit: requires a film");
+  refused({"-o", "a.png", "--orbit", "90"}, "--orbit requires a film");
   for (const std::string angle : {"nan", "inf", "36001", "-1e9", "full", ""})
     refused({"-o", "a_%d.png", "--frames", "0-1", "--orbit=" + angle}, "--orbit");
   refused({"-o", "a_%d.png", "--frames", "0-1", "--orbit", "0"}, "0 degrees are no turn");

@@ -181,7 +181,7 @@ TEST_F(Query, RejectsInvalidArguments) {
   refuses(across({"--time", "1", "--report"}), 2, "--times");
   refuses(across({"--time", "1", "--shots", "2"}), 2, "--report");
   refuses(across({"--time", "1", "--spread", "2"}), 2, "--report");
-  refuses(across({"--report", "--shots-at", "1"}), 2, "--shots-at: requires --shots");
+  refuses(across({"--report", "--shots-at", "1"}), 2, "--shots-at requires --shots");
   refuses(across({"--report", "--times", "3-1"}), 2, "--times");
   refuses(across({"--time", "1", "--scale", "0"}), 2, "--scale");
   refuses(across({"--report", "--times", "0-nan"}), 2, "--times");

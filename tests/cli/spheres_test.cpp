@@ -118,7 +118,7 @@ TEST_F(Spheres, AreExported) {
   EXPECT_EQ(mesh["triangles"], 20 * 1280);
   ASSERT_EQ(run({"convert", "a.spheres", "a.ply"}).exit_code, 0) << "its own it is";
   expect_failure(folder_, {"convert", "a.spheres", "a.vxl"}, 2, {"a.vxl", ".obj"});
-  expect_failure(folder_, {"convert", "a.spheres", "b.ply", "--grid", "a"}, 2, {"--grid: is for volumes"});
+  expect_failure(folder_, {"convert", "a.spheres", "b.ply", "--grid", "a"}, 2, {"--grid is for volumes"});
   folder_.write("text.ply", "text");
   expect_failure(folder_, {"convert", "a.spheres", "text.ply"}, 2, {"exists and is no .ply file", "--force"});
 }
@@ -142,7 +142,7 @@ TEST_F(Spheres, OfHostileOptionsAreRefused) {
   refused({"--distribution", "9"}, {"--distribution: expected a number from 0 to 8"});
   refused({"--opacity", "1.1"}, {"--opacity"});
   refused({"--arrangement", "corral"}, {"--arrangement: unknown value 'corral'; did you mean coral?"});
-  refused({"--noise-size", "20"}, {"--noise-size: is for --arrangement noise and --coloring noise"});
+  refused({"--noise-size", "20"}, {"--noise-size is for --arrangement noise and --coloring noise"});
   refused({"--time-limit", "0"}, {"--time-limit"});
   expect_failure(folder_, {"bake", "spheres", "-o", "a.brv"}, 2, {"-o a.brv", ".spheres"});
   EXPECT_EQ(folder_.files(), Arguments{});

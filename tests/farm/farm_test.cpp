@@ -129,7 +129,7 @@ TEST_F(Farm, ChecksTheOptionsOfRenderFirst) {
       {{"--nonsense"}, "unknown option --nonsense"},
       {{"--raycast", "two-pass"}, "--raycast: "},
       {{"--march=haff"}, "did you mean half?"},
-      {{"--frames", "0-1"}, "--frames: is an option of script/farm"},
+      {{"--frames", "0-1"}, "--frames is an option of script/farm"},
       {{"-o", "b_%d.png"}, "-o: script/farm sets it"},
       {{"--time", "1"}, "--time"}};
   for (const auto& [options, part] : faults) {
