@@ -1,6 +1,7 @@
 #include "volume/page_table.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace brume::volume {
 
@@ -76,25 +77,29 @@ void PageTable::set_window(glm::ivec3 origin, glm::ivec3 size) {
 void PageTable::find_distances() {
   for (std::uint32_t& entry : root_)
     if (entry < shared::kFirstNode) entry = shared::kFirstNode - 1;
-  for (const int way : {1, -1}) {
-    const glm::ivec3 first = way > 0 ? glm::ivec3(0) : size_ - 1, behind = way > 0 ? size_ : glm::ivec3(-1);
-    for (int z = first.z; z != behind.z; z += way)
-      for (int y = first.y; y != behind.y; y += way)
-        for (int x = first.x; x != behind.x; x += way) near_swept({x, y, z}, way);
-  }
+  for (const int way : {1, -1})
+    for (int z = way > 0 ? 0 : size_.z - 1; z >= 0 && z < size_.z; z += way)
+      for (int y = way > 0 ? 0 : size_.y - 1; y >= 0 && y < size_.y; y += way) sweep_row(y, z, way);
   root_changed_ = true;
 }
 
-/// One more than the least of the neighbours that a sweep came by before.
-void PageTable::near_swept(glm::ivec3 at, int way) {
-  std::uint32_t& entry = root_[entry_of(at)];
-  if (entry >= shared::kFirstNode) return;
-  for (int n = 0; n < 13; ++n) {
-    const glm::ivec3 beside = at + way * (glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
-    if (glm::any(glm::lessThan(beside, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(beside, size_)))
-      continue;
-    const std::uint32_t other = root_[entry_of(beside)];
-    entry = std::min(entry, other < shared::kFirstNode ? other + 1 : 1);
+/// In a row along x: one more than the least of the neighbours that the sweep came by before.
+void PageTable::sweep_row(int y, int z, int way) {
+  std::array<const std::uint32_t*, 4> rows;
+  std::size_t rows_swept = 0;
+  for (const glm::ivec2 step : {glm::ivec2(-1, -1), {0, -1}, {1, -1}, {-1, 0}}) {
+    const glm::ivec2 beside = glm::ivec2(y, z) + way * step;
+    if (beside.x >= 0 && beside.y >= 0 && beside.x < size_.y && beside.y < size_.z)
+      rows[rows_swept++] = &root_[entry_of({0, beside})];
+  }
+  const auto one_more = [](std::uint32_t entry) { return entry < shared::kFirstNode ? entry + 1 : 1; };
+  std::uint32_t* row = &root_[entry_of({0, y, z})];
+  for (int x = way > 0 ? 0 : size_.x - 1; x >= 0 && x < size_.x; x += way) {
+    if (row[x] >= shared::kFirstNode) continue;
+    if (x - way >= 0 && x - way < size_.x) row[x] = std::min(row[x], one_more(row[x - way]));
+    for (std::size_t r = 0; r < rows_swept; ++r)
+      for (int beside = std::max(x - 1, 0); beside <= std::min(x + 1, size_.x - 1); ++beside)
+        row[x] = std::min(row[x], one_more(rows[r][beside]));
   }
 }
 

@@ -85,7 +85,7 @@ class PageTable {
   std::uint32_t take_node(glm::ivec3 at);
   void drop_node(std::uint32_t node);
   void set_window(glm::ivec3 origin, glm::ivec3 size);
-  void near_swept(glm::ivec3 at, int way);
+  void sweep_row(int y, int z, int way);
   Box<int> group_around(std::uint32_t first, std::vector<bool>& seen) const;
 
   glm::ivec3 origin_{0}, size_{0};
