@@ -30,7 +30,7 @@ FrameCost RepeatedFrame::draw() {
     const double begin = thread_cpu_ms();
     renderer_.record_frame(recorder, plan);
     cost.record_cpu = thread_cpu_ms() - begin;
-    recorder.read_back(renderer_.smoke().march_counters(), counter_, sizeof(std::uint32_t));
+    recorder.read_back(renderer_.march().counters(), counter_, sizeof(std::uint32_t));
   });
   if (renderer_.is_antialiased()) input_.view.continues = true;
   for (const auto& scope : runner_.timings()) cost.passes[std::string(scope.name)] = scope.milliseconds;

@@ -6,7 +6,7 @@
 #include "brume_bench_shaders.hpp"
 #include "passes/blue_noise.hpp"
 #include "planning/tank_plan.hpp"
-#include "render/tank_layer.hpp"
+#include "render/parts/tanks.hpp"
 #include "render/tank_renderer.hpp"
 #include "scenario/tank.hpp"
 #include "spheres/brick_lists.hpp"
@@ -153,14 +153,15 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
 Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture) {
   const glm::uvec2 size = is_slow(bench) ? glm::uvec2(640, 360) : kPicture;
   const spheres::Tank& tank = tank_of(picture.spheres, picture.opacity);
-  render::TankInput input;
+  planning::FrameInput frame;
+  planning::TankInput& input = frame.tanks.emplace_back();
   input.content =
-      std::make_shared<const render::TankContent>(render::TankContent{tank, spheres::list_bricks(tank)});
+      std::make_shared<const planning::TankContent>(planning::TankContent{tank, spheres::list_bricks(tank)});
   scene::TankScene scene = scene::scene_of_tank_file({});
   scene.bounces = picture.bounces;
-  input.light = std::make_shared<const render::TankLight>(render::TankLight{scene, {}});
+  input.light = std::make_shared<const planning::TankLight>(planning::TankLight{scene, {}});
   input.view = picture.view;
-  scene::Camera camera;
+  scene::Camera& camera = frame.view.camera;
   camera.position_world = {0, 0, 1.6f};
   camera.vertical_fov = 0.7f;
   gpu::CommandRunner runner(bench.context());
@@ -177,13 +178,13 @@ Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture
     blue_noise = passes::make_blue_noise(bench.context(), recorder);
     recorder.clear(media, {});
   });
-  render::TankLayer layer(bench.context(), runner, size);
-  layer.plan(std::span(&input, 1), camera);
+  render::TanksPart tanks(bench.context(), runner, size);
+  tanks.prepare(frame);
   Measurement m =
       time_pass(bench, runner, picture.name, {"tank", "tank_layers"}, [&](gpu::Recorder& recorder) {
         recorder.clear(depth, {});
-        layer.record_surfaces(recorder, depth, blue_noise);
-        layer.record_layers(recorder, media);
+        tanks.record_surfaces(recorder, depth, blue_noise);
+        tanks.record_layers(recorder, media);
       });
   m.details = {{"width", double(size.x)}, {"height", double(size.y)}};
   for (const auto& scope : runner.timings()) m.details[std::string(scope.name)] = scope.milliseconds;

@@ -44,6 +44,11 @@ class CommandList {
     std::uninitialized_copy(values.begin(), values.end(), own);
     return {own, values.size()};
   }
+  /// Where the list ends at present.
+  class End;
+  End end() const;
+  /// Removes what was added since.
+  void cut(const End& end);
   void record(const Functions& vk, VkCommandBuffer commands) const {
     for (const Node* node = first_; node; node = node->next) node->call(node->command, vk, commands);
   }
@@ -57,5 +62,20 @@ class CommandList {
   FrameMemory& memory_;
   Node *first_ = nullptr, *last_ = nullptr;
 };
+
+class CommandList::End {
+  friend class CommandList;
+  explicit End(Node* last) : last_(last) {}
+  Node* last_;
+};
+
+inline CommandList::End CommandList::end() const {
+  return End(last_);
+}
+
+inline void CommandList::cut(const End& end) {
+  last_ = end.last_;
+  (last_ ? last_->next : first_) = nullptr;
+}
 
 }  // namespace brume::gpu

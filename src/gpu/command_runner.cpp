@@ -31,13 +31,12 @@ void CommandRunner::start(const std::function<void(Recorder&)>& record, const Wi
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   check(vk.BeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-  {
-    Recorder recorder(context_, slot_);
-    record(recorder);
-    recorder.record(commands_);
-  }
+  Recorder recorder(context_, slot_);
+  record(recorder);
+  recorder.record(commands_);
   check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
   context_.submit(commands_, window);
+  recorder.keep();
 }
 
 }  // namespace brume::gpu

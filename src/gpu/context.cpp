@@ -141,10 +141,32 @@ void Context::expect_retirement() {
   ++expected_;
 }
 
+RecordingId Context::begin_recording() {
+  dropped_.reserve(dropped_.size() + 1);  // so that drop_recording cannot fail
+  return RecordingId{++recordings_};
+}
+
+void Context::drop_recording(RecordingId recording) noexcept {
+  const auto number = static_cast<std::uint64_t>(recording);
+  if (!dropped_.empty() && static_cast<std::uint64_t>(dropped_.back().last) + 1 == number)
+    dropped_.back().last = recording;
+  else
+    dropped_.push_back({recording, recording});
+}
+
+bool Context::is_in_dropped_range(RecordingId recording) const {
+  const auto range = std::ranges::lower_bound(dropped_, recording, {}, &DroppedRange::last);
+  return range != dropped_.end() && range->first <= recording;
+}
+
 void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
   BRUME_ASSERT(!owns_device() && frame > frame_ && completed < frame && completed >= completed_,
                std::to_string(frame) + ", " + std::to_string(completed));
   const std::scoped_lock lock(retired_mutex_);
+  if (is_deferred_)
+    for (RetiredFrame& retired : retired_)
+      if (retired.frame == frame_) retired.frame = frame;
+  is_deferred_ = false;
   frame_ = frame;
   completed_ = completed;
   const auto end =

@@ -48,6 +48,9 @@ struct WindowSemaphores {
 
 class Pipeline;
 
+/// A recording of a context. None is RecordingId{}.
+enum class RecordingId : std::uint64_t {};
+
 /// Handles that are no longer used by commands yet to be recorded; null: none.
 struct Retired {
   VkBuffer buffer = VK_NULL_HANDLE;
@@ -95,6 +98,17 @@ class Context {
   void expect_retirement();
   /// A host begins to record a frame; the device has completed all frames up to `completed`. Frames rise.
   void begin_frame(std::uint64_t frame, std::uint64_t completed);
+  /// Commands of the present frame will be recorded with the next one: what was retired since this frame
+  /// began is destroyed no earlier than after that.
+  void defer_frame() noexcept { is_deferred_ = true; }
+
+  /// Commands are collected, to be executed together or not at all.
+  RecordingId begin_recording();
+  /// They will not be executed: see Recorded.
+  void drop_recording(RecordingId recording) noexcept;
+  bool is_dropped(RecordingId recording) const {
+    return !dropped_.empty() && is_in_dropped_range(recording);
+  }
 
   // Only when owns_device():
   VkInstance instance() const { return instance_->handle(); }
@@ -111,6 +125,7 @@ class Context {
   void create_device(const Presentation& presentation);
   void read_properties();
   void destroy(const Retired& handles) noexcept;
+  bool is_in_dropped_range(RecordingId recording) const;
 
   std::unique_ptr<Instance> instance_;  // null: the device is the host's
   Functions vk_;
@@ -125,7 +140,15 @@ class Context {
   std::unique_ptr<Memory> memory_;
   std::vector<Pipeline*> pipelines_;
 
+  /// Recordings one after the other that were dropped.
+  struct DroppedRange {
+    RecordingId first, last;
+  };
+  std::uint64_t recordings_ = 0;
+  std::vector<DroppedRange> dropped_;  // rising
+
   // Of a host's device.
+  bool is_deferred_ = false;
   struct RetiredFrame {
     std::uint64_t frame;
     Retired handles;

@@ -6,35 +6,61 @@
 
 namespace brume::gpu {
 
-/// Reads the times of the newest completed frame before its slot is used again.
-HostRecording::Slot& HostRecording::free_slot(std::uint64_t completed) {
-  Slot *free = nullptr, *newest = nullptr;
-  for (Slot& slot : slots_) {
-    if (slot.frame > completed) continue;
-    if (!free || slot.frame < free->frame) free = &slot;
-    if (!newest || slot.frame > newest->frame) newest = &slot;
-  }
-  if (newest && newest->frame > 0) newest->resources.timings().read_available(timings_);
-  return free ? *free : slots_.emplace_back(context_);
+/// A slot that the device is done with, for commands of the frame.
+HostRecording::Slot& HostRecording::take_slot(bool is_frame) {
+  const auto is_free = [&](const Slot& slot) { return slot.frame <= completed_; };
+  const auto oldest = std::ranges::min_element(slots_, {}, &Slot::frame);
+  Slot& slot = oldest != slots_.end() && is_free(*oldest) ? *oldest : slots_.emplace_back(context_);
+  slot.frame = frame_;
+  slot.is_frame = is_frame;
+  return slot;
+}
+
+/// Of the newest completed frame, before its slot is used again.
+void HostRecording::read_timings() {
+  const Slot* newest = nullptr;
+  for (const Slot& slot : slots_)
+    if (slot.is_frame && slot.frame <= completed_ && (!newest || slot.frame > newest->frame))
+      newest = &slot;
+  if (newest) newest->resources.timings().read_available(timings_);
 }
 
 void HostRecording::begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
-  BRUME_ASSERT(!recorder_, "a frame within another one");
+  BRUME_ASSERT(!commands_, "a frame within another one");
   context_.begin_frame(frame, completed);
-  Slot& slot = free_slot(completed);
-  recorder_.emplace(context_, slot.resources);
   commands_ = commands;
-  slot.frame = frame;
+  frame_ = frame;
+  completed_ = completed;
+  if (preparations_) preparations_->slot->frame = frame;
+  read_timings();
 }
 
-void HostRecording::end() {
-  recorder_->record(commands_);
-  recorder_.reset();
+Recorder& HostRecording::recorder() {
+  BRUME_ASSERT(commands_, "commands outside of a frame");
+  if (!own_) own_.emplace(context_, take_slot(true));
+  return own_->recorder;
 }
 
 void HostRecording::run(const std::function<void(Recorder&)>& record) {
-  BRUME_ASSERT(recorder_, "commands outside of a frame");
-  record(*recorder_);
+  BRUME_ASSERT(commands_ && !own_, "preparations outside of a frame, or behind its commands");
+  if (!preparations_) preparations_.emplace(context_, take_slot(false));
+  preparations_->recorder.collect(record);
+}
+
+void HostRecording::end() {
+  for (std::optional<Part>* part : {&preparations_, &own_}) {
+    if (!*part) continue;
+    (*part)->recorder.record(commands_);
+    (*part)->recorder.keep();
+    part->reset();
+  }
+  commands_ = VK_NULL_HANDLE;
+}
+
+void HostRecording::discard() noexcept {
+  own_.reset();
+  if (preparations_) context_.defer_frame();
+  commands_ = VK_NULL_HANDLE;
 }
 
 }  // namespace brume::gpu

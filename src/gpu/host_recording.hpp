@@ -25,12 +25,14 @@ class HostRecording : public CommandStream {
   void begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed);
   /// Ends the frame: records its commands, which belong to the host again.
   void end();
-  /// Ends the frame after a failure: nothing of it is recorded.
-  void discard() { recorder_.reset(); }
+  /// Ends the frame after a failure: nothing of it is recorded. What `run` collected comes with the next
+  /// frame.
+  void discard() noexcept;
 
   /// Between begin and end.
-  Recorder& recorder() { return *recorder_; }
-  /// Collects at once, between begin and end.
+  Recorder& recorder();
+  /// Collects preparations of the frame at once, between begin and the first call of recorder(). Like on a
+  /// device of our own they will be executed once this returns, whatever becomes of the frame.
   void run(const std::function<void(Recorder&)>& record) override;
 
   /// GPU times of the newest frame that the device had completed when the present one began; empty: of none.
@@ -41,13 +43,22 @@ class HostRecording : public CommandStream {
     explicit Slot(Context& context) : resources(context) {}
     FrameSlot resources;
     std::uint64_t frame = 0;  ///< The last one that it was used for; 0: none.
+    bool is_frame = false;    ///< For its own commands, not for preparations.
   };
-  Slot& free_slot(std::uint64_t completed);
+  /// Commands that are collected.
+  struct Part {
+    Part(Context& context, Slot& of) : slot(&of), recorder(context, of.resources) {}
+    Slot* slot;
+    Recorder recorder;
+  };
+  Slot& take_slot(bool is_frame);
+  void read_timings();
 
   Context& context_;
-  std::list<Slot> slots_;                      // as many as frames were in flight, and one
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the frame
-  std::optional<Recorder> recorder_;
+  std::list<Slot> slots_;                      // as many as frames and preparations were in flight, and one
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the frame; null: outside of a frame
+  std::uint64_t frame_ = 0, completed_ = 0;
+  std::optional<Part> preparations_, own_;  // of the frame
   std::vector<Timings::Scope> timings_;
 };
 

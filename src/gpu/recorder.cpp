@@ -81,7 +81,8 @@ Recorder::Recorder(Context& context, FrameSlot& slot)
       buffer_barriers_(&slot.memory_),
       image_barriers_(&slot.memory_),
       transfers_(&slot.memory_),
-      dispatches_(&slot.memory_) {
+      dispatches_(&slot.memory_),
+      id_(context.begin_recording()) {
   slot.memory_.reset();
   for (const VkDescriptorPool pool : slot.descriptors_)
     check(context.vk().ResetDescriptorPool(context.device(), pool, 0), "vkResetDescriptorPool");
@@ -98,13 +99,41 @@ Recorder::Recorder(Context& context, FrameSlot& slot)
   slot.timings_.reset(list_);
 }
 
+Recorder::~Recorder() {
+  if (!is_kept_) context_.drop_recording(id_);
+}
+
+void Recorder::collect(const std::function<void(Recorder&)>& record) {
+  flush_transfers();
+  flush_barriers();
+  const CommandList::End end = list_.end();
+  const RecordingId before = id_;
+  id_ = context_.begin_recording();
+  try {
+    record(*this);
+    flush_transfers();
+    flush_barriers();
+  } catch (...) {
+    list_.cut(end);
+    transfers_.clear();
+    buffer_barriers_.clear();
+    image_barriers_.clear();
+    dispatches_.clear();
+    concurrently_ = false;
+    context_.drop_recording(id_);
+    id_ = before;
+    throw;
+  }
+  id_ = before;
+}
+
 void Recorder::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
   flush_transfers();
   add_barrier(buffer, stages, access);
 }
 
 void Recorder::add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-  const Dependency wait = advance(buffer.last_use, stages, access, false);
+  const Dependency wait = advance(change(buffer.last_use), stages, access, false);
   if (!wait.needed) return;
   buffer_barriers_.push_back({VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, wait.src_stages,
                               wait.src_access, stages, access, VK_QUEUE_FAMILY_IGNORED,
@@ -114,9 +143,10 @@ void Recorder::add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, V
 void Recorder::use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access,
                    VkImageLayout layout) {
   flush_transfers();
-  const VkImageLayout old_layout = image.last_use.layout;
-  const Dependency wait = advance(image.last_use, stages, access, old_layout != layout);
-  image.last_use.layout = layout;
+  LastUse& last_use = change(image.last_use);
+  const VkImageLayout old_layout = last_use.layout;
+  const Dependency wait = advance(last_use, stages, access, old_layout != layout);
+  last_use.layout = layout;
   if (!wait.needed) return;
   image_barriers_.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                              nullptr,

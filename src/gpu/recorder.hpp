@@ -95,7 +95,8 @@ class Recorder {
  public:
   /// `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot);
-  ~Recorder() = default;
+  /// Unless `keep` was called, the commands are dropped, and with them all that they changed (Recorded).
+  ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -172,12 +173,22 @@ class Recorder {
   void begin_scope(const char* name);
   void end_scope();
 
-  /// Records all that was collected into `commands`, which are in the recording state and remain so. The last
-  /// call; without it nothing is recorded at all.
+  /// Calls `record`, all of whose commands are collected or, where it throws, none.
+  void collect(const std::function<void(Recorder&)>& record);
+  /// Records all that was collected into `commands`, which are in the recording state and remain so. Without
+  /// it nothing is recorded at all.
   void record(VkCommandBuffer commands);
+  /// The recorded commands will be executed. The last call.
+  void keep() { is_kept_ = true; }
 
   /// For what is in use no longer than this recorder.
   FrameMemory& memory() { return slot_.memory_; }
+  /// What the commands change: see Recorded.
+  template <typename T>
+  T& change(Recorded<T>& value) {
+    return value.change(context_, id_);
+  }
+  Context& context() { return context_; }
 
  private:
   void begin_concurrent();
@@ -226,6 +237,8 @@ class Recorder {
   FrameVector<Transfer> transfers_;
   FrameVector<Dispatch> dispatches_;
   bool concurrently_ = false;
+  RecordingId id_;
+  bool is_kept_ = false;
 };
 
 /// Measures the GPU time of the commands recorded during its lifetime.

@@ -119,7 +119,9 @@ Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), in
 Image::Image(const LentImage& lent) : handle_(lent.handle), view_(lent.view), lent_layout_(lent.layout) {
   info_.format = lent.format;
   info_.size = {lent.size_px, 1};
-  last_use.layout = lent.layout;
+  LastUse lent_use;
+  lent_use.layout = lent.layout;
+  last_use = Recorded(lent_use);
 }
 
 Image::Image(Image&& other) noexcept {

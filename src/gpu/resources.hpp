@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gpu/context.hpp"
+#include "gpu/recorded.hpp"
 
 namespace brume::gpu {
 
@@ -34,7 +35,7 @@ class Buffer {
   /// For upload and readback memory; otherwise null.
   std::byte* mapped() const { return range_.mapped; }
 
-  mutable LastUse last_use;
+  mutable Recorded<LastUse> last_use;
 
  private:
   Context* context_ = nullptr;
@@ -93,7 +94,7 @@ class Image {
                                                     : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   }
 
-  mutable LastUse last_use;
+  mutable Recorded<LastUse> last_use;
 
  private:
   Context* context_ = nullptr;

@@ -11,7 +11,6 @@
 #include "api/objects.hpp"
 #include "gpu/host_recording.hpp"
 #include "render/renderer.hpp"
-#include "render/tank_layer.hpp"
 #include "scenario/volumes.hpp"
 #include "scene/scene.hpp"
 
@@ -73,12 +72,12 @@ struct brume_decal : brume::api::Handle {
 struct brume_tank : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::tank;
   brume_tank(std::shared_ptr<brume::api::Settings> of,
-             std::shared_ptr<const brume::render::TankContent> of_content,
-             std::shared_ptr<const brume::render::TankLight> with)
+             std::shared_ptr<const brume::planning::TankContent> of_content,
+             std::shared_ptr<const brume::planning::TankLight> with)
       : Handle(kKind, std::move(of)), content(std::move(of_content)), light(std::move(with)) {}
 
-  const std::shared_ptr<const brume::render::TankContent> content;
-  std::shared_ptr<const brume::render::TankLight> light;
+  const std::shared_ptr<const brume::planning::TankContent> content;
+  std::shared_ptr<const brume::planning::TankLight> light;
 };
 
 struct brume_renderer : brume::api::Handle {
@@ -96,13 +95,6 @@ struct brume_renderer : brume::api::Handle {
   brume::planning::FrameInput input;  ///< Of the last frame.
   /// Of the volumes of `input.slices`, while they exist.
   std::vector<std::weak_ptr<const brume::host::DecalData>> sliced;
-  brume::passes::MediaLayerPass layer;
-  /// From the first frame on that asks for shadows.
-  std::optional<brume::passes::SurfaceShadowPass> shadow_pass;
-  brume::gpu::Image shadows;                      ///< Of the renderer's size, or null.
-  bool has_shadows = false;                       ///< Of the last frame.
-  std::optional<brume::render::TankLayer> tanks;  ///< From the first frame with tanks on.
-  bool has_tanks = false;                         ///< Of the last frame.
   /// From the first frame on, which uploads.
   std::optional<brume::render::Renderer> renderer;
   std::uint64_t shown_volume = 0;  ///< SparseVolume::id of the last frame's smoke; 0: none.

@@ -1,5 +1,4 @@
 #include "api/smoke_field.hpp"
-#include "core/same_bytes.hpp"
 #include "host/decals.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
@@ -18,8 +17,7 @@ brume_renderer::brume_renderer(std::shared_ptr<Settings> of, std::shared_ptr<bru
       scene(std::move(of_scene)),
       masks(std::move(of_masks)),
       options(with),
-      recording(device->context),
-      layer(device->context) {
+      recording(device->context) {
   options.smoke.masks = masks.get();
   ++device->renderers;
 }
@@ -91,93 +89,42 @@ void check_frame(const brume_renderer& of, const brume_field* field, const brume
           "`picture.exposure` must be above 0");
 }
 
-/// Lights by their numbers in the plan, which has those that reach what is in view.
-glm::uvec4 planned_lights(const render::Renderer& renderer, const brume_frame_params& params,
-                          const planning::FramePlan& plan) {
-  const std::vector<shared::Light>& own = renderer.scene().resources().light_list;
-  const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
-  glm::uvec4 numbers(shared::kNoLight);
-  for (std::uint32_t i = 0; i < params.shadow_light_count; ++i) {
-    const std::size_t index = params.shadow_lights[i];
-    const shared::Light& light = index < own.size() ? own[index] : flashes[index - own.size()];
-    const auto same = [&](const shared::Light& other) { return same_bytes(light, other); };
-    const auto found = std::ranges::find_if(plan.lights, same);
-    if (found != plan.lights.end())
-      numbers[static_cast<int>(i)] = static_cast<std::uint32_t>(found - plan.lights.begin());
-  }
-  return numbers;
-}
-
-void reserve_shadows(brume_renderer& of) {
-  gpu::Context& context = of.device->context;
-  if (!of.shadow_pass) of.shadow_pass.emplace(context);
-  if (of.shadows.handle() != VK_NULL_HANDLE) return;
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {of.options.size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  of.shadows = gpu::Image(context, info);
-}
-
-void draw_shadows(brume_renderer& of, const brume_frame_params& params, const planning::FramePlan& plan) {
-  const render::Renderer& renderer = *of.renderer;
-  const gpu::Scope timed(of.recording.recorder(), "shadows");
-  of.shadow_pass->record(
-      of.recording.recorder(),
-      {renderer.frame(), renderer.scene().resources().lights, renderer.scene().shadows().sun,
-       renderer.smoke().shadows(), renderer.targets().gbuffer.depth},
-      planned_lights(renderer, params, plan), of.shadows);
-}
-
 /// What a frame needs whatever it shows, which no limit of memory refuses.
 void reserve(brume_renderer& of, const brume_frame_params& params) {
   const gpu::Memory::Unlimited always(of.device->context.memory());
   if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
-  if (params.picture.view) of.layer.reserve(params.picture.format);
-  if (params.shadow_light_count > 0) reserve_shadows(of);
-  if (params.decal_count > 0) of.renderer->reserve_decals();
-  if (params.tank_count > 0 && !of.tanks)
-    of.tanks.emplace(of.device->context, of.recording, of.options.size_px);
+  of.renderer->reserve_over({.decals = params.decal_count > 0,
+                             .shadows = params.shadow_light_count > 0,
+                             .tanks = params.tank_count > 0,
+                             .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});
 }
 
-/// Of the last frame: smoke, volumes and tanks.
-const gpu::Image& layers_of(const brume_renderer& of) {
-  return of.has_tanks ? of.tanks->layers() : of.renderer->media();
-}
-
-void draw(brume_renderer& of, const brume_frame_params& params, const planning::FrameInput& input,
-          std::span<const render::TankInput> tanks, const passes::HostDepthRange& range,
+void draw(brume_renderer& of, const brume_frame_params& params, const passes::HostDepthRange& range,
           passes::HostNormals normals) {
   reserve(of, params);
   render::Renderer& renderer = *of.renderer;
+  const planning::FrameInput& input = of.input;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
   if (volume != of.shown_volume) {
     renderer.invalidate_level();
     of.shown_volume = volume;
   }
-  of.has_shadows = false;
-  of.has_tanks = !tanks.empty();
-  if (of.tanks) of.tanks->plan(tanks, input.view.camera);
   const planning::FramePlan plan = renderer.plan(input);
+
+  // The host's images, as long as the frame is recorded.
   const glm::uvec2 size_px = of.options.size_px;
   const gpu::Image depth(
       {VK_NULL_HANDLE, params.depth.view, VK_FORMAT_D32_SFLOAT, size_px, params.depth.layout});
   const gpu::Image of_normals(
       {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
-  if (params.normals.view) normals.image = &of_normals;
-  renderer.record_media_over(of.recording.recorder(), plan,
-                             {depth, range, normals, of.has_tanks ? &*of.tanks : nullptr});
-  if (of.has_tanks) of.tanks->record_layers(of.recording.recorder(), renderer.media());
-  if (params.shadow_light_count > 0) {
-    draw_shadows(of, params, plan);
-    of.has_shadows = true;
-  }
-  if (!params.picture.view) return;
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
-  const gpu::Scope timed(of.recording.recorder(), "layer");
-  of.layer.record(of.recording.recorder(), {layers_of(of), renderer.occlusion(), params.picture.exposure},
-                  picture);
+  if (params.normals.view) normals.image = &of_normals;
+  renderer.record_over(of.recording.recorder(), plan,
+                       {.surfaces = {depth, range, normals},
+                        .shadow_lights = {params.shadow_lights, params.shadow_light_count},
+                        .picture = params.picture.view ? &picture : nullptr,
+                        .exposure = params.picture.exposure});
 }
 
 void check_shadow_lights(const brume_renderer& of, const brume_frame_params& params) {
@@ -198,24 +145,18 @@ void record(Call& call, brume_renderer& of, const brume_field* field, const brum
   check_shadow_lights(of, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
   add_decals(call, params, of);
-  const std::vector<render::TankInput> tanks = tanks_of(call, params);
+  add_tanks(call, params, input);
   // Taken even where the frame fails: the next one has a higher number.
   of.device->frame = params.frame_number;
   of.device->completed = params.completed_frame;
   of.recording.begin(params.commands, params.frame_number, params.completed_frame);
   try {
-    draw(of, params, input, tanks, range, normals);
+    draw(of, params, range, normals);
     of.recording.end();
   } catch (...) {
-    // What it holds may be half of what it planned: the next frame makes another.
-    of.renderer.reset();
-    of.tanks.reset();
-    of.has_tanks = false;
+    of.recording.discard();
     of.input.slices.reset();  // with spare decals, which may not fit
     of.sliced.clear();
-    of.shadows = {};
-    of.has_shadows = false;
-    of.recording.discard();
     throw;
   }
 }
@@ -253,16 +194,11 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     const glm::uvec2 size_px = brume::host::checked_size(width, height);
     const std::scoped_lock lock(of.mutex, of.device->mutex);
     of.options.size_px = size_px;
-    of.shadows = {};
-    of.has_shadows = false;
     const brume::gpu::Memory::Unlimited always(of.device->context.memory());
     try {
       if (of.renderer) of.renderer->resize(size_px);
-      if (of.tanks) of.tanks->resize(size_px);
     } catch (...) {
-      of.renderer.reset();
-      of.tanks.reset();
-      of.has_tanks = false;
+      of.renderer.reset();  // some of it has the size before
       throw;
     }
   });
@@ -301,9 +237,10 @@ brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image
   return Call(__func__).run([&](Call& call) {
     const brume_renderer& of = call.handle(renderer);
     call.read(of, [&] {
-      if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      if (image) *image = brume::host::layers_of(of).handle();
-      if (view) *view = brume::host::layers_of(of).view();
+      if (!of.renderer || !of.renderer->has_frame())
+        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
+      if (image) *image = of.renderer->layers().handle();
+      if (view) *view = of.renderer->layers().view();
     });
   });
 }
@@ -314,7 +251,8 @@ brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t*
     const brume_renderer& of = call.handle(renderer);
     std::uint32_t& to = required(level, "level");
     call.read(of, [&] {
-      if (!of.renderer) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
+      if (!of.renderer || !of.renderer->has_frame())
+        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
       to = static_cast<std::uint32_t>(of.renderer->smoke_level());
       if (is_smoke_missing) *is_smoke_missing = of.renderer->is_smoke_missing();
     });
@@ -326,9 +264,10 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
   return Call(__func__).run([&](Call& call) {
     const brume_renderer& of = call.handle(renderer);
     call.read(of, [&] {
-      if (!of.has_shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
-      if (image) *image = of.shadows.handle();
-      if (view) *view = of.shadows.view();
+      const brume::gpu::Image* shadows = of.renderer ? of.renderer->shadows() : nullptr;
+      if (!shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
+      if (image) *image = shadows->handle();
+      if (view) *view = shadows->view();
     });
   });
 }

@@ -33,8 +33,8 @@ spheres::Tank copied_tank(const brume_tank_params& params) {
   return tank;
 }
 
-std::shared_ptr<const render::TankContent> content_of(const brume_tank_params& params) {
-  auto content = std::make_shared<render::TankContent>();
+std::shared_ptr<const planning::TankContent> content_of(const brume_tank_params& params) {
+  auto content = std::make_shared<planning::TankContent>();
   if (params.file) {
     require(params.sphere_count == 0, "`sphere_count` must be 0 beside a `file`");
     content->tank = unwrap(spheres::load_tank(params.file), BRUME_ERROR_DATA);
@@ -89,9 +89,9 @@ scene::TankScene scene_of(const brume_tank_lighting& lighting) {
   return scene;
 }
 
-std::shared_ptr<const render::TankLight> lit(const render::TankContent& content,
+std::shared_ptr<const planning::TankLight> lit(const planning::TankContent& content,
                                              const brume_tank_lighting& lighting) {
-  auto light = std::make_shared<render::TankLight>();
+  auto light = std::make_shared<planning::TankLight>();
   light->scene = scene_of(lighting);
   if (!light->scene.glass || lighting.photons == 0) return light;
   const planning::TankPlan plan = planning::plan_tank(light->scene, content.tank, 0, glm::uvec2(1));
@@ -124,10 +124,9 @@ planning::TankPlacement placement_of(const brume_shown_tank& shown, const std::s
 
 }  // namespace
 
-std::vector<render::TankInput> tanks_of(Call& call, const brume_frame_params& params) {
+void add_tanks(Call& call, const brume_frame_params& params, planning::FrameInput& frame) {
   require(params.tank_count <= kMostTanks, "at most 4 tanks");
   if (params.tank_count > 0) required(params.tanks, "tanks");
-  std::vector<render::TankInput> tanks;
   for (std::size_t i = 0; i < params.tank_count; ++i) {
     const brume_shown_tank& shown = params.tanks[i];
     const std::string name = "tank " + std::to_string(i);
@@ -135,14 +134,13 @@ std::vector<render::TankInput> tanks_of(Call& call, const brume_frame_params& pa
     if (shown.view > BRUME_TANK_VOXELS) refuse(name + ": `view` must be a brume_tank_view");
     if (shown.samples < 1 || shown.samples > kMostSamples)
       refuse(name + ": `samples` must be from 1 to " + std::to_string(kMostSamples));
-    render::TankInput input{tank.content, nullptr, placement_of(shown, name),
+    planning::TankInput input{tank.content, nullptr, placement_of(shown, name),
                             static_cast<scene::TankView>(shown.view), shown.samples,
                             // What a picture may have is far below the numbers that remain.
                             params.jitter_index % 4096 * kMostSamples, shown.continues_previous != 0};
     call.read(tank, [&] { input.light = tank.light; });
-    tanks.push_back(std::move(input));
+    frame.tanks.push_back(std::move(input));
   }
-  return tanks;
 }
 
 }  // namespace brume::host

@@ -7,7 +7,8 @@
 namespace brume::passes {
 
 AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
-    : pipeline_(context, shaders::accumulate_comp),
+    : context_(context),
+      pipeline_(context, shaders::accumulate_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}) {
   gpu::ImageInfo info;
@@ -23,8 +24,9 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
 
 void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
                             const gpu::Image& depth, const gpu::Image& smoke, bool continues) {
-  const std::size_t before = current_, now = 1 - current_;
-  const shared::AccumulateParams params{past_clip_from_world_, continues && has_past_ ? 1u : 0u};
+  Past& past = recorder.change(past_);
+  const std::size_t before = past.current, now = 1 - before;
+  const shared::AccumulateParams params{past.clip_from_world, continues && past.is_valid ? 1u : 0u};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -37,9 +39,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                 },
                 params);
   recorder.dispatch_threads(pipeline_, smoke.info().size.x, smoke.info().size.y);
-  current_ = now;
-  has_past_ = true;
-  past_clip_from_world_ = camera.clip_from_world;
+  past = {now, true, camera.clip_from_world};
 }
 
 }  // namespace brume::passes

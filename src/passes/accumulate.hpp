@@ -22,16 +22,21 @@ class AccumulatePass {
   /// mean of the 3 x 3 pixels around it in this frame, a range that includes its own value.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
               const gpu::Image& depth, const gpu::Image& smoke, bool continues);
-  const gpu::Image& gathered() const { return smoke_[current_]; }
+  const gpu::Image& gathered() const { return smoke_[past_.get(context_).current]; }
 
  private:
+  /// What the last frame left for the next one.
+  struct Past {
+    std::size_t current = 0;
+    bool is_valid = false;
+    glm::mat4 clip_from_world{1};
+  };
+  gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_, linear_;
   std::array<gpu::Image, 2> smoke_;    // alternating
   std::array<gpu::Buffer, 2> pixels_;  // shared::AccumulatedPixel
-  std::size_t current_ = 0;
-  bool has_past_ = false;
-  glm::mat4 past_clip_from_world_{1};
+  gpu::Recorded<Past> past_;
 };
 
 }  // namespace brume::passes

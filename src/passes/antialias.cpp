@@ -8,7 +8,8 @@
 namespace brume::passes {
 
 AntialiasPass::AntialiasPass(gpu::Context& context, glm::uvec2 size_px)
-    : pipeline_(context, shaders::antialias_comp),
+    : context_(context),
+      pipeline_(context, shaders::antialias_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}) {
   gpu::ImageInfo info;
@@ -20,7 +21,8 @@ AntialiasPass::AntialiasPass(gpu::Context& context, glm::uvec2 size_px)
 
 void AntialiasPass::record(gpu::Recorder& recorder, const Inputs& in, const glm::mat4& clip_from_world,
                            glm::vec2 jitter, bool continues) {
-  const std::size_t before = current_, now = 1 - current_;
+  Past& past = recorder.change(past_);
+  const std::size_t before = past.current, now = 1 - before;
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -30,11 +32,9 @@ void AntialiasPass::record(gpu::Recorder& recorder, const Inputs& in, const glm:
                     {shared::kBindPastRadiance, gpu::sampled(radiance_[before], linear_)},
                     {shared::kBindMeanRadiance, gpu::stored(radiance_[now])},
                 },
-                shared::AntialiasParams{past_clip_from_world_, jitter, continues && has_past_ ? 1u : 0u});
+                shared::AntialiasParams{past.clip_from_world, jitter, continues && past.is_valid ? 1u : 0u});
   recorder.dispatch_threads(pipeline_, in.radiance.info().size.x, in.radiance.info().size.y);
-  current_ = now;
-  has_past_ = true;
-  past_clip_from_world_ = clip_from_world;
+  past = {now, true, clip_from_world};
 }
 
 }  // namespace brume::passes

@@ -30,17 +30,22 @@ class AntialiasPass {
   void record(gpu::Recorder& recorder, const Inputs& in, const glm::mat4& clip_from_world, glm::vec2 jitter,
               bool continues);
   /// Drops the history: the next frame does not continue it.
-  void invalidate_past() { has_past_ = false; }
+  void invalidate_past(gpu::Recorder& recorder) { recorder.change(past_).is_valid = false; }
   /// Half floats: radiance, and of how many frames it is the mean.
-  const gpu::Image& result() const { return radiance_[current_]; }
+  const gpu::Image& result() const { return radiance_[past_.get(context_).current]; }
 
  private:
+  /// What the last frame left for the next one.
+  struct Past {
+    std::size_t current = 0;
+    bool is_valid = false;
+    glm::mat4 clip_from_world{1};
+  };
+  gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_, linear_;
   std::array<gpu::Image, 2> radiance_;  // alternating
-  std::size_t current_ = 0;
-  bool has_past_ = false;
-  glm::mat4 past_clip_from_world_{1};
+  gpu::Recorded<Past> past_;
 };
 
 }  // namespace brume::passes

@@ -95,20 +95,21 @@ void BrickAtlas::make_images(glm::ivec3 bricks) {
 }
 
 bool BrickAtlas::is_reserved(VolumeList volumes) const {
-  return std::ranges::equal(volumes, entries_, [](const volume::SparseVolume* volume, const Entry& entry) {
+  return std::ranges::equal(volumes, entries_.get(context_), [](const volume::SparseVolume* volume, const Entry& entry) {
     return volume->id() == entry.id && volume->structure_generation() == entry.reserved_generation;
   });
 }
 
 /// Lays the volumes out one behind the other. A volume has room to grow, so that those behind it rarely move.
 std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
+  const std::vector<Entry>& before = entries_.get(context_);
   std::vector<Entry> placed;
   std::uint32_t first_page = 0, first_slot = 0;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const volume::SparseVolume& volume = *volumes[i];
     BRUME_ASSERT(volume.channel_count() == channels_.size(), std::to_string(volume.channel_count()));
     Entry entry;
-    if (i < entries_.size() && entries_[i].id == volume.id()) entry = entries_[i];
+    if (i < before.size() && before[i].id == volume.id()) entry = before[i];
     entry.id = volume.id();
     entry.reserved_generation = volume.structure_generation();
     const std::size_t pages = volume.pages().root().size() + volume.pages().nodes().size();
@@ -131,7 +132,8 @@ std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
 void BrickAtlas::reserve(VolumeList volumes) {
   if (is_reserved(volumes)) return;
   std::vector<Entry> placed = place(volumes);
-  entries_.clear();
+  std::vector<Entry>& entries = entries_.change(context_);
+  entries.clear();
   std::uint64_t pages = 0, slots = 0;
   for (const Entry& entry : placed) {
     pages += entry.pages;
@@ -150,11 +152,11 @@ void BrickAtlas::reserve(VolumeList volumes) {
       entry.everything |= replaced;
     }
   }
-  entries_ = std::move(placed);
+  entries = std::move(placed);
 }
 
 void BrickAtlas::clear(glm::ivec3 bricks) {
-  entries_.clear();
+  entries_.change(context_).clear();
   if (bricks != atlas_bricks_) make_images(bricks);
 }
 
@@ -166,12 +168,13 @@ glm::ivec3 BrickAtlas::atlas_for(std::uint64_t slots) const {
 BrickAtlas::Upload BrickAtlas::record(gpu::Recorder& recorder, VolumeList volumes,
                                       std::span<const StreamedBricks> streams) {
   Upload most = Upload::nothing;
+  std::vector<Entry>& entries = recorder.change(entries_);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!streams.empty() && streams[i].streamed) {
-      record_stream(recorder, *volumes[i], streams[i], entries_[i]);
+      record_stream(recorder, *volumes[i], streams[i], entries[i]);
       if (!streams[i].slots.empty()) most = std::max(most, Upload::changes);
     } else {
-      most = std::max(most, record_volume(recorder, *volumes[i], entries_[i]));
+      most = std::max(most, record_volume(recorder, *volumes[i], entries[i]));
     }
   }
   return most;

@@ -58,10 +58,12 @@ class BrickAtlas {
   /// `streams`: of each volume of the list; empty: none is streamed.
   Upload record(gpu::Recorder& recorder, VolumeList volumes, std::span<const StreamedBricks> streams = {});
   /// Whether nothing of a volume is on the device since the last `reserve`.
-  bool is_missing(std::size_t volume) const { return entries_[volume].everything; }
+  bool is_missing(std::size_t volume) const { return entries_.get(context_)[volume].everything; }
 
   /// Where a volume of the list is, by its position. Alone in an atlas it is where its own layout says.
-  const shared::BrickLayout& layout(std::size_t volume) const { return entries_[volume].layout; }
+  const shared::BrickLayout& layout(std::size_t volume) const {
+    return entries_.get(context_)[volume].layout;
+  }
 
   /// Images of another size, as of volume::grown_atlas, without any volume.
   void clear(glm::ivec3 bricks);
@@ -109,7 +111,7 @@ class BrickAtlas {
   gpu::Buffer pages_, slot_bricks_;
   std::vector<gpu::Image> channels_, derived_;  // as many as formats, always
   glm::ivec3 atlas_bricks_{0};
-  std::vector<Entry> entries_;  // by position in the list that `reserve` saw last
+  gpu::Recorded<std::vector<Entry>> entries_;  // by position in the list that `reserve` saw last
 };
 
 /// Slots one after the other.

@@ -6,7 +6,8 @@
 namespace brume::passes {
 
 DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
-    : pipeline_(context, shaders::decals_comp),
+    : context_(context),
+      pipeline_(context, shaders::decals_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}),
       decals_(context, shared::kMaxDecals * sizeof(shared::Decal),
@@ -27,8 +28,9 @@ void DecalPass::upload(gpu::Recorder& recorder, std::span<const shared::Decal> d
 void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
                        const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
                        bool continues) {
-  const std::size_t before = current_, now = 1 - current_;
-  const shared::DecalParams params{past_clip_from_world_, continues ? frames_ : 0, decal_count_};
+  Past& past = recorder.change(past_);
+  const std::size_t before = past.current, now = 1 - before;
+  const shared::DecalParams params{past.clip_from_world, continues ? past.frames : 0, decal_count_};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -43,9 +45,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                 params);
   const glm::uvec3 size = occlusion_[now].info().size;
   recorder.dispatch_threads(pipeline_, size.x, size.y);
-  current_ = now;
-  frames_ = params.past_frames + 1;
-  past_clip_from_world_ = camera.clip_from_world;
+  past = {now, params.past_frames + 1, camera.clip_from_world};
 }
 
 }  // namespace brume::passes

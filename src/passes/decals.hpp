@@ -22,20 +22,25 @@ class DecalPass {
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
               const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices, bool continues);
   /// The next frame has no past: one was drawn without decals.
-  void invalidate_past() { frames_ = 0; }
+  void invalidate_past(gpu::Recorder& recorder) { recorder.change(past_).frames = 0; }
   /// Half floats, of the image's size: that of the last record.
-  const gpu::Image& occlusion() const { return occlusion_[current_]; }
+  const gpu::Image& occlusion() const { return occlusion_[past_.get(context_).current]; }
 
  private:
+  /// What the last frame left for the next one.
+  struct Past {
+    std::size_t current = 0;
+    std::uint32_t frames = 0;  ///< In a row, up to the last record.
+    glm::mat4 clip_from_world{1};
+  };
+  gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_, linear_;
   gpu::Buffer decals_;
   std::uint32_t decal_count_ = 0;
   /// Occlusion, of how many samples, distance along the view axis [m] (0: no surface), spread of the samples.
   std::array<gpu::Image, 2> occlusion_;
-  std::size_t current_ = 0;
-  std::uint32_t frames_ = 0;  ///< In a row, up to the last record.
-  glm::mat4 past_clip_from_world_{1};
+  gpu::Recorded<Past> past_;
 };
 
 }  // namespace brume::passes

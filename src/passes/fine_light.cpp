@@ -37,9 +37,9 @@ void FineLightPass::trim() {
   gpu::shrink(context_, {&pages_, &slots_});
 }
 
-void FineLightPass::reserve(planning::FineLightPlan& plan) {
-  const auto count = static_cast<std::uint32_t>(plan.slots.size());
-  const std::uint32_t rows = (count + shared::kFinePagesAcross - 1) / shared::kFinePagesAcross;
+void FineLightPass::reserve(const planning::FineLightPlan& plan) {
+  page_count_ = static_cast<std::uint32_t>(plan.slots.size());
+  const std::uint32_t rows = (page_count_ + shared::kFinePagesAcross - 1) / shared::kFinePagesAcross;
   const std::uint32_t held = light_.info().size.y / std::uint32_t{shared::kFinePageTexels};
   if (rows > held) {
     // As it grows with the smoke, in powers of two.
@@ -49,7 +49,7 @@ void FineLightPass::reserve(planning::FineLightPlan& plan) {
     } catch (const Error& error) {
       // Better smoke as it is without fine light than coarser smoke.
       if (error.code() != ErrorCode::resource_limit) throw;
-      planning::keep_pages(plan, held * shared::kFinePagesAcross);
+      page_count_ = held * shared::kFinePagesAcross;
     }
   }
   gpu::grow(context_, pages_, plan.pages.size() * sizeof(std::uint32_t));
@@ -57,13 +57,20 @@ void FineLightPass::reserve(planning::FineLightPlan& plan) {
 }
 
 void FineLightPass::upload(gpu::Recorder& recorder, const planning::FineLightPlan& plan) const {
-  if (!plan.pages.empty()) recorder.upload(pages_, 0, std::as_bytes(std::span(plan.pages)));
-  if (!plan.slots.empty()) recorder.upload(slots_, 0, std::as_bytes(std::span(plan.slots)));
+  if (plan.pages.empty()) return;
+  if (page_count_ < plan.slots.size()) {
+    planning::FineLightPlan first = plan;
+    planning::keep_pages(first, page_count_);
+    recorder.upload(pages_, 0, std::as_bytes(std::span(first.pages)));
+  } else {
+    recorder.upload(pages_, 0, std::as_bytes(std::span(plan.pages)));
+  }
+  recorder.upload(slots_, 0, std::as_bytes(std::span(plan.slots).first(page_count_)));
 }
 
 void FineLightPass::record(gpu::Recorder& recorder, const planning::FineLightPlan& plan,
                            const Inputs& in) const {
-  if (plan.slots.empty()) return;
+  if (plan.slots.empty() || page_count_ == 0) return;
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -81,7 +88,7 @@ void FineLightPass::record(gpu::Recorder& recorder, const planning::FineLightPla
   constexpr std::uint32_t kEdge{shared::kFinePageTexels};
   constexpr std::uint32_t kGroups = (kEdge + 3) / 4;
   recorder.dispatch_threads(pipeline_, 4 * kGroups * kGroups, 4 * kGroups,
-                            4 * static_cast<std::uint32_t>(plan.slots.size()));
+                            4 * page_count_);
 }
 
 }  // namespace brume::passes

@@ -15,9 +15,9 @@ class FineLightPass {
     const SmokeResources& smoke;
     const gpu::Image& noise;
   };
-  /// Makes room for the pages of a plan; where there is no memory for all of them, the plan keeps those that
-  /// there is room for. When SmokeUpload::reserve may be called. Throws resource_limit.
-  void reserve(planning::FineLightPlan& plan);
+  /// Makes room for the pages of a plan; where there is no memory for all of them, for the first ones, which
+  /// alone are filled. When SmokeUpload::reserve may be called. Throws resource_limit.
+  void reserve(const planning::FineLightPlan& plan);
   /// Gives back the memory of what `reserve` makes room for, before it is called the next time.
   void trim();
   /// Uploads the reserved plan.
@@ -35,6 +35,7 @@ class FineLightPass {
   gpu::Sampler linear_, repeat_;
   gpu::Image light_;
   gpu::Buffer pages_, slots_;
+  std::uint32_t page_count_ = 0;  ///< Of the reserved plan.
 };
 
 }  // namespace brume::passes

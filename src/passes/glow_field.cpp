@@ -37,9 +37,14 @@ GlowFieldPass::GlowFieldPass(gpu::Context& context)
       store_pipeline_(context, shaders::glow_store_comp),
       field_(cubes(context, 1, 1)) {}
 
-bool GlowFieldPass::reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters) {
+std::uint32_t GlowFieldPass::room() const {
+  const glm::uvec3 size = field_.info().size;
+  return size.x == 2 * kEdge ? size.z / kEdge : 0;
+}
+
+void GlowFieldPass::reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters) {
   if (std::ranges::none_of(in_view, [](const auto& volume) { return shared::glows(volume.instance); }))
-    return false;
+    return;
   const std::uint32_t media = casters & kCellsMedia;
   if (!cells_pipelines_.contains(media))
     cells_pipelines_.try_emplace(media, context_, shaders::glow_cells_comp, std::vector{media});
@@ -57,9 +62,7 @@ bool GlowFieldPass::reserve(std::span<const planning::PlacedVolume> in_view, std
     state_ = std::move(state);
   }
   const auto count = static_cast<std::uint32_t>(in_view.size());
-  if (field_.info().size.x == 2 * kEdge && field_.info().size.z >= kEdge * count) return false;
-  field_ = cubes(context_, 2, count);
-  return true;
+  if (room() < count) field_ = cubes(context_, 2, count);
 }
 
 void GlowFieldPass::record(gpu::Recorder& recorder, const Inputs& in) const {

@@ -17,9 +17,11 @@ class GlowFieldPass {
   };
 
   explicit GlowFieldPass(gpu::Context& context);
-  /// Makes room for these volumes. True when the light of earlier frames is lost. Outside of a recording,
-  /// once the device has finished previous ones. Throws resource_limit.
-  bool reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters);
+  /// How many volumes there is room for; where `reserve` sees more, the light of earlier frames is lost.
+  std::uint32_t room() const;
+  /// Makes room for these volumes. Outside of a recording, once the device has finished previous ones. Throws
+  /// resource_limit.
+  void reserve(std::span<const planning::PlacedVolume> in_view, std::uint32_t casters);
   /// Finds the light of all that glow.
   void record(gpu::Recorder& recorder, const Inputs& in) const;
   /// Two cubes along x, per volume in view along z; of volumes that do not glow undefined.

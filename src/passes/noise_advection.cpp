@@ -27,23 +27,27 @@ NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
 void NoiseAdvectionPass::trim() {
   growth_ = {};
   gpu::shrink(context_, {&parts_, &displacements_, &motions_, &slots_due_});
-  parts_stale_ = displacements_stale_ = true;
+  stale_.change(context_) = {};
 }
 
 void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeBricks& volume,
                                  const planning::NoisePlan& plan) {
-  parts_stale_ |= growth_.update(state, volume);
-  parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
-  displacements_stale_ |= gpu::grow(context_, displacements_, growth_.displacements().size_bytes());
+  const bool is_lost = stale_.is_dropped(context_);  // with the list of what is new
+  Stale& stale = stale_.change(context_);
+  if (is_lost) stale = {};
+  stale.parts |= growth_.update(state, volume);
+  stale.parts |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
+  stale.displacements |= gpu::grow(context_, displacements_, growth_.displacements().size_bytes());
   gpu::grow(context_, motions_, plan.motion.clouds.size() * sizeof(shared::CloudMotion));
   if (plan.slots_due) gpu::grow(context_, slots_due_, plan.slots_due->size() * sizeof(std::uint32_t));
 }
 
 void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePlan& plan) {
-  if (parts_stale_) recorder.upload(parts_, 0, std::as_bytes(growth_.parts()));
-  if (displacements_stale_) {
+  Stale& stale = recorder.change(stale_);
+  if (stale.parts) recorder.upload(parts_, 0, std::as_bytes(growth_.parts()));
+  if (stale.displacements) {
     recorder.upload(displacements_, 0, std::as_bytes(growth_.displacements()));
-  } else if (parts_stale_) {
+  } else if (stale.parts) {
     for (const std::uint32_t part : growth_.new_parts()) {
       const auto entries = growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick,
                                                            shared::kDisplacementsPerBrick);
@@ -51,7 +55,7 @@ void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePl
     }
   }
   growth_.clear_new_parts();
-  parts_stale_ = displacements_stale_ = false;
+  stale = {false, false};
   recorder.upload(motions_, 0, std::as_bytes(std::span(plan.motion.clouds)));
   recorder.upload(impulses_, 0, std::as_bytes(std::span(plan.motion.impulses)));
   if (plan.slots_due && !plan.slots_due->empty())

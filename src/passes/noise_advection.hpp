@@ -35,7 +35,11 @@ class NoiseAdvectionPass {
   smoke::CloudGrowth growth_;
   gpu::Buffer slots_due_;
   gpu::Buffer parts_, displacements_, motions_, impulses_;
-  bool parts_stale_ = true, displacements_stale_ = true;
+  /// What of the growth is not on the device.
+  struct Stale {
+    bool parts = true, displacements = true;
+  };
+  gpu::Recorded<Stale> stale_;
 };
 
 }  // namespace brume::passes

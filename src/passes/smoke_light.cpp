@@ -47,18 +47,24 @@ void SmokeLightPass::trim() {
                          &gathered_lights_});
 }
 
-bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
+planning::SmokeLightRoom SmokeLightPass::room() const {
+  const auto items = [](const gpu::Buffer& buffer, std::size_t words) {
+    return static_cast<std::uint32_t>(buffer.size() / (words * sizeof(std::uint32_t)));
+  };
+  return {items(texel_lists_, shared::kTexelListWords), items(ray_pages_, shared::kTexelsPerBrick)};
+}
+
+void SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
   if (!plan.shadow_rays.empty() && !rays_passes_.contains(casters & kRayMedia))
     rays_passes_.try_emplace(casters & kRayMedia, context_, shaders::light_rays_comp,
                              std::vector{casters & kRayMedia});
   // What is cached: twice what the plan needs, since a larger buffer loses it.
   const auto grow = [&](gpu::Buffer& buffer, std::size_t words) {
     const std::size_t bytes = words * sizeof(std::uint32_t), most = context_.limits().maxStorageBufferRange;
-    return buffer.size() < bytes && gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
+    if (buffer.size() < bytes) gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
   };
-  const bool lost_lists = grow(texel_lists_, std::size_t{plan.texel_list_count} * shared::kTexelListWords);
-  const bool lost_pages = grow(ray_pages_, std::size_t{plan.page_count} * shared::kTexelsPerBrick);
-  if (lost_lists || lost_pages) return false;
+  grow(texel_lists_, std::size_t{plan.texel_list_count} * shared::kTexelListWords);
+  grow(ray_pages_, std::size_t{plan.page_count} * shared::kTexelsPerBrick);
 
   // The plan's own lists.
   gpu::grow(context_, listed_bricks_, plan.texel_lists.size() * sizeof(shared::TexelList));
@@ -66,7 +72,6 @@ bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t
   gpu::grow(context_, shadow_rays_, plan.shadow_rays.size() * sizeof(shared::ShadowRays));
   gpu::grow(context_, gathers_, plan.gathers.size() * sizeof(shared::LightGather));
   gpu::grow(context_, gathered_lights_, plan.gathered_lights.size() * sizeof(glm::uvec2));
-  return true;
 }
 
 void SmokeLightPass::upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan) {

@@ -27,10 +27,12 @@ class SmokeLightPass {
     VolumeResources volumes;
     std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
   };
-  /// Makes room for a plan; false where what was cached is lost for it, and the frame must be planned again.
-  /// Not between the begin and the end of a recording, and only when the device is done with what it recorded
-  /// before. Throws resource_limit.
-  [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters);
+  /// What is cached, which a plan with this room may rely on.
+  planning::SmokeLightRoom room() const;
+  /// Makes room for a plan: where it exceeds room(), what was cached is lost. Not between the begin and the
+  /// end of a recording, and only when the device is done with what it recorded before. Throws
+  /// resource_limit.
+  void reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters);
   /// Gives back what was cached; the next plan must not rely on it. When `reserve` may be called.
   void trim();
   /// Uploads the reserved plan.

@@ -70,7 +70,7 @@ void SmokeUpload::trim(glm::ivec3 atlas_bricks) {
 void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {
   // Not by address: another volume may lie where one was.
   const std::uint64_t id = volume.volume().id();
-  everything_ |= id != reserved_volume_;
+  if (id != reserved_volume_) uploaded_.change(context_).everything = true;
   if ((id == reserved_volume_ && volume.structure_generation() == reserved_generation_) ||
       volume.slot_count() == 0)
     return;
@@ -78,11 +78,11 @@ void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {
   const volume::SparseVolume* const bricks = &volume.volume();
   atlas_.reserve({&bricks, 1});
   const std::size_t slots = volume.slot_count();
-  everything_ |=
-      gpu::grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
-  everything_ |= gpu::grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
-  everything_ |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
-  everything_ |= gpu::grow(context_, resources_.filled, slots * sizeof(std::uint32_t));
+  bool& everything = uploaded_.change(context_).everything;
+  everything |= gpu::grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
+  everything |= gpu::grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
+  everything |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
+  everything |= gpu::grow(context_, resources_.filled, slots * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.slots, slots * sizeof(std::uint32_t));
   reserved_volume_ = id;
   reserved_generation_ = volume.structure_generation();
@@ -123,16 +123,15 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volu
   resources_.slot_count = volume.slot_count();
   if (volume.slot_count() == 0) return had_smoke;
   const std::uint64_t id = volume.volume().id();
-  everything_ = everything_ || id != uploaded_volume_;
-  uploaded_volume_ = id;
-  if (!everything_ && volume.revision() == uploaded_revision_) return false;
+  Uploaded& uploaded = recorder.change(uploaded_);
+  const bool everything = uploaded.everything || id != uploaded.volume;
+  if (!everything && volume.revision() == uploaded.revision) return false;
   // What is dirty is only that since the revision before: a reader that missed one takes everything.
-  const bool all = everything_ || volume.revision() != uploaded_revision_ + 1;
-  uploaded_revision_ = volume.revision();
-  everything_ = false;
+  const bool all = everything || volume.revision() != uploaded.revision + 1;
+  uploaded = {id, volume.revision(), false};
 
   const volume::SparseVolume* const bricks = &volume.volume();
-  const BrickAtlas::Upload uploaded = atlas_.record(recorder, {&bricks, 1});
+  const BrickAtlas::Upload bricks_uploaded = atlas_.record(recorder, {&bricks, 1});
   // Everything.
   if (all) {
     const FrameVector<std::uint32_t> slots = all_slots(volume.slot_count(), &recorder.memory());
@@ -151,7 +150,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volu
   record_filled(recorder, volume, changed);
   upload_ranges(recorder, resources_.boundary, volume.boundary_cells(), volume.dirty_boundary_cells());
   upload_ranges(recorder, resources_.corners, volume.corner_sets(), volume.dirty_corner_sets());
-  return volume.corner_sets_dirty() || uploaded != BrickAtlas::Upload::nothing;
+  return volume.corner_sets_dirty() || bricks_uploaded != BrickAtlas::Upload::nothing;
 }
 
 }  // namespace brume::passes

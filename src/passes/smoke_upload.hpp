@@ -58,8 +58,12 @@ class SmokeUpload {
   BrickAtlas atlas_;
   SmokeResources resources_;
   std::uint64_t reserved_volume_ = 0, reserved_generation_ = 0;  // that `reserve` saw last
-  std::uint64_t uploaded_volume_ = 0, uploaded_revision_ = 0;
-  bool everything_ = true;  // a buffer is new and empty
+  /// What of a volume is on the device.
+  struct Uploaded {
+    std::uint64_t volume = 0, revision = 0;
+    bool everything = true;  // all is to be uploaded: a buffer is new and empty
+  };
+  gpu::Recorded<Uploaded> uploaded_;
 };
 
 }  // namespace brume::passes

@@ -57,8 +57,7 @@ void SolidVolume::make(const voxel::GridLayout& grid) {
   frame_.origin_world = grid.origin_world;
   frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel);
   frame_.size = size;
-  edits_ = nullptr;
-  everything_ = true;
+  invalidate();
 }
 
 void SolidVolume::reserve(const LevelView& level) {
@@ -66,18 +65,21 @@ void SolidVolume::reserve(const LevelView& level) {
 }
 
 void SolidVolume::invalidate() {
-  edits_ = nullptr;
-  everything_ = true;
+  Held& held = held_.change(context_);
+  held.edits = nullptr;
+  held.everything = true;
 }
 
 bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
   Box<int> changed{glm::ivec3(0), frame_.size};
-  everything_ |= (level.grid != nullptr) != has_grid_;
-  has_grid_ = level.grid != nullptr;
-  if (!everything_) {
-    if (!level.grid || level.edits == edits_) return false;
+  const bool is_lost = held_.is_dropped(context_);  // the bits are of a record that was dropped
+  Held& held = recorder.change(held_);
+  held.everything |= is_lost || (level.grid != nullptr) != held.has_grid;
+  held.has_grid = level.grid != nullptr;
+  if (!held.everything) {
+    if (!level.grid || level.edits == held.edits) return false;
     static const sim::EditBlocks none;
-    const Box<int> voxels = difference_of(edits_ ? *edits_ : none, level.edits ? *level.edits : none);
+    const Box<int> voxels = difference_of(held.edits ? *held.edits : none, level.edits ? *level.edits : none);
     if (voxels.empty()) return false;
     changed = intersection(
         changed, {voxels.low / voxels_per_texel_, voxel::coarse_size(voxels.high, voxels_per_texel_)});
@@ -87,8 +89,8 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
   else
     std::ranges::fill(bits_, 0u);
   upload(recorder, changed);
-  everything_ = false;
-  edits_ = level.edits;
+  held.everything = false;
+  held.edits = level.edits;
   return true;
 }
 

@@ -49,9 +49,13 @@ class SolidVolume {
   int voxels_per_texel_ = 1;
   shared::SolidLayout frame_{};
   std::vector<std::uint32_t> bits_;  // as in words_
-  std::shared_ptr<const sim::EditBlocks> edits_;
-  bool everything_ = true;  // the resources are new and empty
-  bool has_grid_ = false;   // of the last record
+  /// The level that is on the device.
+  struct Held {
+    std::shared_ptr<const sim::EditBlocks> edits;
+    bool everything = true;  // all is to be uploaded: the resources are new and empty
+    bool has_grid = false;
+  };
+  gpu::Recorded<Held> held_;
   gpu::Image texels_;
   gpu::Buffer words_;
 };

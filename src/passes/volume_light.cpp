@@ -33,8 +33,13 @@ VolumeLightPass::VolumeLightPass(gpu::Context& context)
       sun_depths_(cubes(context, VK_FORMAT_R16_SFLOAT, 1, 1, 1)),
       light_(cubes(context, VK_FORMAT_R16G16B16A16_SFLOAT, 1, 1, 1)) {}
 
-bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters) {
-  if (plan.sweeps.empty()) return false;
+planning::VolumeLightRoom VolumeLightPass::room() const {
+  const std::uint32_t edge = light_.info().size.y;
+  return {edge, sun_depths_.info().size.y, light_.info().size.z / edge, 0};
+}
+
+void VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters) {
+  if (plan.sweeps.empty()) return;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   const std::uint32_t sweep = casters & kSweepMedia, light = casters & kLightMedia;
   if (!sweep_pipelines_.contains(sweep))
@@ -45,14 +50,13 @@ bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32
   const auto fits = [count](const gpu::Image& image, std::uint32_t edge) {
     return image.info().size.y == edge && image.info().size.z >= edge * count;
   };
-  if (fits(light_, plan.edge) && fits(sun_depths_, plan.sun_edge)) return false;
+  if (fits(light_, plan.edge) && fits(sun_depths_, plan.sun_edge)) return;
   // All of them or none: where memory was refused, another try makes all.
   gpu::Image lit = cubes(context_, VK_FORMAT_R16G16B16A16_SFLOAT, plan.edge, count, 1);
   gpu::Image sun_depths = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.sun_edge, count, 1);
   sky_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, shared::kSkyEdge, count, shared::kSkySweeps);
   light_ = std::move(lit);
   sun_depths_ = std::move(sun_depths);
-  return true;
 }
 
 void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,

@@ -27,9 +27,11 @@ class VolumeLightPass {
   };
 
   explicit VolumeLightPass(gpu::Context& context);
-  /// Makes room for the light of a plan. True when the light of earlier frames is lost. Outside of a
-  /// recording, once the device has finished previous ones. Throws resource_limit.
-  bool reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters);
+  /// The cubes of light, which a plan with this room may rely on; without those of glow.
+  planning::VolumeLightRoom room() const;
+  /// Makes room for the light of a plan: where it does not fit into room(), the light of earlier frames is
+  /// lost. Outside of a recording, once the device has finished previous ones. Throws resource_limit.
+  void reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters);
   // Where the plan updates:
   /// The optical depths along the sun and the axes.
   void record_sweeps(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/same_bytes.hpp"
+#include "shared/surface_import.h"
+
 namespace brume::planning {
 
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers) {
@@ -32,6 +35,20 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
     out.push_back(l);
   }
   return out;
+}
+
+glm::uvec4 planned_lights(std::span<const shared::Light> planned, std::span<const shared::Light> scene,
+                          std::span<const shared::Light> flashes, std::span<const std::uint32_t> lights) {
+  glm::uvec4 places(shared::kNoLight);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const std::size_t place = lights[i];
+    const shared::Light& light = place < scene.size() ? scene[place] : flashes[place - scene.size()];
+    const auto found = std::ranges::find_if(
+        planned, [&](const shared::Light& other) { return same_bytes(light, other); });
+    if (found != planned.end())
+      places[static_cast<int>(i)] = static_cast<std::uint32_t>(found - planned.begin());
+  }
+  return places;
 }
 
 bool has_voxel_shadows(std::span<const shared::Light> lights) {

@@ -8,6 +8,7 @@
 #include "grids/dense_grid.hpp"
 #include "planning/debug_request.hpp"
 #include "planning/particle_plan.hpp"
+#include "planning/tank_input.hpp"
 #include "scenario/moved_objects.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
@@ -188,6 +189,7 @@ struct FrameInput {
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
   std::vector<ParticleInput> particles;
+  std::vector<TankInput> tanks;  ///< Over a host's surfaces (RendererOptions::media_alone).
   Quality quality;
   DebugRequest debug;
 
@@ -209,6 +211,7 @@ inline void FrameInput::clear() {
   keep(fresh.volumes, volumes);
   keep(fresh.decals, decals);
   keep(fresh.particles, particles);
+  keep(fresh.tanks, tanks);
   *this = std::move(fresh);
 }
 

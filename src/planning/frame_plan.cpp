@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "planning/device_camera.hpp"
 #include "shared/opaque.h"
@@ -33,8 +32,8 @@ FrameVector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& ta
   plan.visibility = history.resident->update({.volume = *volume,
                                               .all = plan.input.environment.bounces > 0,
                                               .eye_world = plan.input.view.camera.position_world,
-                                              .atlas_bricks = target.atlas_bricks,
-                                              .most_bricks = target.most_bricks},
+                                              .atlas_bricks = target.room.atlas_bricks,
+                                              .most_bricks = target.room.most_bricks},
                                              visible, memory);
   plan.smoke = history.resident.get();
   return lights;
@@ -80,12 +79,10 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
   const LevelState& level = plan.input.level;
-  std::set_symmetric_difference(history.hidden_objects.begin(), history.hidden_objects.end(),
-                                level.hidden_objects.begin(), level.hidden_objects.end(),
-                                std::back_inserter(plan.changed_objects));
-  plan.level_changed = !plan.changed_objects.empty() || !(level.voxels == history.level);
-  history.hidden_objects = level.hidden_objects;
-  history.level = level.voxels;
+  PlanHistory::Level& next = history.level.propose();
+  plan.level_changed = level.hidden_objects != next.hidden_objects || !(level.voxels == next.voxels);
+  next.hidden_objects = level.hidden_objects;
+  next.voxels = level.voxels;
 }
 
 void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
@@ -95,7 +92,7 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
                                           history.memory.get());
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
     plan.noise.catches_up = history.noise.is_late();
-    history.noise.invalidate();
+    history.noise.skip_frame();
     return;
   }
   const auto slots_due = history.noise.slots_due({plan.smoke, plan.visibility.slots, plan.noise.motion.clouds,
@@ -122,22 +119,24 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
       memory);
 }
 
-void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
+void plan_smoke_light(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const FrameInput& input = plan.input;
   plan.smoke_light = &history.smoke_light.plan(
       {plan.smoke, input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
        plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light ||
            (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
-       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version},
+       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version,
+       target.room.smoke_light},
       history.memory.get());
 }
 
-void plan_volume_light(FramePlan& plan, PlanHistory& history) {
+void plan_volume_light(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const FrameInput& input = plan.input;
   plan.volume_light = history.volume_light.plan(
       {&plan.lit_media, input.volumes, plan.lights, plan.smoke, input.smoke.look, input.smoke.time,
-       input.environment.sky, plan.level_changed || input.quality.rebuild_light, plan.indirect_light.version},
+       input.environment.sky, plan.level_changed || input.quality.rebuild_light, plan.indirect_light.version,
+       target.room.volume_light},
       history.memory.get());
   for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
@@ -161,7 +160,6 @@ FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Al
       media{.volumes = FrameVector<PlacedVolume>(memory)},
       decals(memory),
       lit_media{.volumes = FrameVector<PlacedVolume>(memory)},
-      changed_objects(memory),
       holes{.holes = FrameVector<shared::Hole>(memory), .reaches = FrameVector<shared::HoleReach>(memory)},
       noise{.motion = {.clouds = FrameVector<shared::CloudMotion>(memory),
                        .impulses = FrameVector<shared::Impulse>(memory)}},
@@ -177,6 +175,7 @@ const sim::State& FramePlan::state() const {
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
   history.memory->reset();
   FramePlan plan(input, target.size_px, history.memory.get());
+  plan.number = ++history.plans;
   const SmokeInput& smoke = plan.input.smoke;
   const FrameVector<shared::Light> lights = plan_visibility(plan, target, history);
   plan_hole_clusters(plan, history.memory.get());
@@ -184,9 +183,9 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
   plan_level(plan, history);
   plan_noise_updates(plan, history);
-  plan_volume_light(plan, history);
+  plan_volume_light(plan, target, history);
   plan_smoke_shadow_update(plan, target, history);
-  plan_smoke_light(plan, history);
+  plan_smoke_light(plan, target, history);
   if ((plan.media.media & shared::kMediumFineShadows) != 0)
     plan.fine_light = plan_fine_light(*plan.smoke, plan.visibility, plan.camera.eye_world,
                                       pixel_width(plan.camera, plan.size_px), history.memory.get());
@@ -195,9 +194,25 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   return plan;
 }
 
-void replan_smoke_light(FramePlan& plan, PlanHistory& history) {
-  history.smoke_light.invalidate();
-  plan_smoke_light(plan, history);
+void PlanHistory::commit() {
+  noise.commit();
+  smoke_shadows.commit();
+  smoke_light.commit();
+  volume_light.commit();
+  indirect_light.commit();
+  volume_streaming.commit();
+  level.commit();
+}
+
+void PlanHistory::invalidate() {
+  noise.invalidate();
+  smoke_shadows.invalidate();
+  smoke_light.invalidate();
+  volume_light.invalidate();
+  indirect_light.invalidate();
+  volume_streaming = {};
+  resident = std::make_unique<ResidentSmoke>();
+  ++plans;  // no plan is valid
 }
 
 }  // namespace brume::planning

@@ -13,6 +13,7 @@
 #include "planning/media_plan.hpp"
 #include "planning/noise_updates.hpp"
 #include "planning/opaque_limit.hpp"
+#include "planning/proposed.hpp"
 #include "planning/resident_smoke.hpp"
 #include "planning/smoke_light_cache.hpp"
 #include "planning/smoke_shadow_cache.hpp"
@@ -21,6 +22,15 @@
 #include "planning/volume_streaming.hpp"
 
 namespace brume::planning {
+
+/// What the device has room for at present. Where a plan needs more, what was cached there is lost.
+struct PlanRoom {
+  /// The atlas of the smoke, and how much of it the device may hold (ResidentSmoke::Request).
+  glm::ivec3 atlas_bricks{0};
+  std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
+  SmokeLightRoom smoke_light{};
+  VolumeLightRoom volume_light{};
+};
 
 /// What plans follow from besides the frame's input: the scene, and what the renderer draws into.
 struct PlanTarget {
@@ -31,9 +41,7 @@ struct PlanTarget {
   glm::uvec2 size_px{1};
   glm::uvec2 smoke_shadow_atlas{0};              ///< Size of the atlas in texels.
   std::span<const shared::SliceTexture> slices;  ///< What particles may display.
-  /// The atlas of the smoke, and how much of it the device may hold (ResidentSmoke::Request).
-  glm::ivec3 atlas_bricks{0};
-  std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
+  PlanRoom room{};
   /// The device holds all smoke, in the slots of the volume: the picture is the same to the bit whatever
   /// frames there were before.
   bool holds_all_smoke = false;
@@ -44,7 +52,7 @@ struct FramePlan {
   FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory = {});
 
   const FrameInput& input;   ///< Outlives the plan.
-  std::uint64_t number = 0;  ///< Of a renderer's plans, by which it knows the one that is valid.
+  std::uint64_t number = 0;  ///< PlanHistory::plans, by which a renderer knows the plan that is valid.
   glm::uvec2 size_px{1};
 
   // What is visible.
@@ -61,8 +69,7 @@ struct FramePlan {
   std::vector<shared::ParticleSystem> particles;  ///< In view.
 
   // What changed.
-  bool level_changed = false;                  ///< Walls or hidden objects.
-  FrameVector<std::uint32_t> changed_objects;  ///< Hidden or shown since the frame before, rising.
+  bool level_changed = false;  ///< Walls or hidden objects.
 
   // What is updated.
   std::vector<VolumeResidency> residency;  ///< Of the input's volumes.
@@ -81,7 +88,7 @@ struct FramePlan {
   const sim::State& state() const;
 };
 
-/// What the caches of a renderer hold, and the level of the frame before.
+/// What frames remember: what the device holds of those that were recorded, and their level.
 struct PlanHistory {
   std::unique_ptr<FrameMemory> memory = std::make_unique<FrameMemory>();  ///< Of the plan.
   NoiseUpdates noise;
@@ -89,17 +96,25 @@ struct PlanHistory {
   SmokeLightCache smoke_light;
   VolumeLightCache volume_light;
   IndirectLightCache indirect_light;
+  /// Not history but a mirror of smoke::SmokeVolume, whose revisions say what a reader missed.
   std::unique_ptr<ResidentSmoke> resident = std::make_unique<ResidentSmoke>();
   VolumeStreaming volume_streaming;
-  LevelView level;
-  std::vector<std::uint32_t> hidden_objects;
+  struct Level {
+    LevelView voxels;
+    std::vector<std::uint32_t> hidden_objects;
+  };
+  Proposed<Level> level;
+  std::uint64_t plans = 0;
+
+  /// The frame of the last plan was recorded: later ones rely on what it did.
+  void commit();
+  /// The device lost all that is cached, or the smoke is another volume's.
+  void invalidate();
 };
 
-/// Plans a frame, which must then be recorded: its updates count as done. The plan is valid until the next
-/// one of this history, and no longer than `input`.
+/// Plans a frame. History moves when the frame is committed; a frame that is not leaves it as it was, and may
+/// be planned again, for instance with less room. The plan is valid until the next one of this history, and
+/// no longer than `input`.
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history);
-
-/// Plans the light in the smoke again after the device lost what was cached of it.
-void replan_smoke_light(FramePlan& plan, PlanHistory& history);
 
 }  // namespace brume::planning

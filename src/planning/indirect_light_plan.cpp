@@ -4,16 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "planning/key_bytes.hpp"
 #include "planning/volume_light_plan.hpp"
 
 namespace brume::planning {
 namespace {
 
-FrameVector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
-                              const HolePlan& holes, std::span<const shared::Light> lights,
-                              Allocator memory) {
-  KeyBytes key(memory);
+InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
+                const HolePlan& holes, std::span<const shared::Light> lights, Allocator memory) {
+  InputKey key(memory);
   key.add(bounces);
   key.add(input.environment.sky.ambient);
   for (const shared::Light& light : lights) key.add(light);
@@ -30,7 +28,7 @@ FrameVector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
     if (!holes.holes.empty()) key.add(holes.time);  // they open and close
   }
   add_volumes(key, media, input.volumes);
-  return key.take();
+  return key;
 }
 
 }  // namespace
@@ -49,40 +47,42 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
                   layout.origin_world + layout.bounds_max * layout.voxel_size};
   }
   for (const PlacedVolume& volume : media.volumes) plan.media = united(plan.media, volume.bounds_world);
-  plan.level_changed =
-      !has_level_ || !(input.level.voxels == level_) || input.level.hidden_objects != hidden_objects_;
-  level_ = input.level.voxels;
-  hidden_objects_ = input.level.hidden_objects;
-  has_level_ = true;
-  if (plan.level_changed) shown_key_.clear();
+  State& next = state_.propose();
+  plan.level_changed = !next.has_level || !(input.level.voxels == next.level) ||
+                       input.level.hidden_objects != next.hidden_objects;
+  next.level = input.level.voxels;
+  next.hidden_objects = input.level.hidden_objects;
+  next.has_level = true;
+  if (plan.level_changed) next.shown.clear();
 
   // What is being found goes on, unless it must be there at once or the number of its bounces changed.
-  const FrameVector<std::byte> key = key_of(input, bounces, media, holes, lights, memory);
+  const InputKey key = key_of(input, bounces, media, holes, lights, memory);
   const float fraction =
       std::min(input.quality.light_update_fraction, input.quality.indirect_update_fraction);
-  const bool at_once = shown_key_.empty() || fraction >= 1;
-  const bool changed = key != shown_key_ || input.quality.rebuild_light;
-  if (changed && (solving_key_.empty() || at_once || plan.bounces != bounces_)) {
-    solving_key_ = key;
-    next_slice_ = 0;
+  const bool at_once = next.shown.empty() || fraction >= 1;
+  const bool changed = key != next.shown || input.quality.rebuild_light;
+  if (changed && (next.solving.empty() || at_once || plan.bounces != next.bounces)) {
+    next.solving = key;
+    next.next_slice = 0;
   } else if (!changed && at_once) {
-    solving_key_.clear();
+    next.solving.clear();
   }
-  bounces_ = plan.bounces;
-  if (!solving_key_.empty()) plan.slices = next_slices(at_once ? 1 : fraction);
-  plan.version = version_;
+  next.bounces = plan.bounces;
+  if (!next.solving.empty()) plan.slices = next_slices(next, at_once ? 1 : fraction);
+  plan.version = next.version;
   return plan;
 }
 
-volume::IndexRange IndirectLightCache::next_slices(float fraction) {
-  const std::uint32_t all = bounces_ * kSlicesPerBounce;
+/// The next slices of what is being found; it shows after the last one.
+volume::IndexRange IndirectLightCache::next_slices(State& state, float fraction) {
+  const std::uint32_t all = state.bounces * kSlicesPerBounce;
   const auto due = static_cast<std::uint32_t>(std::ceil(fraction * static_cast<float>(all)));
-  const volume::IndexRange slices{next_slice_, std::min(due, all - next_slice_)};
-  next_slice_ += slices.count;
-  if (next_slice_ == all) {
-    std::swap(shown_key_, solving_key_);
-    solving_key_.clear();
-    ++version_;
+  const volume::IndexRange slices{state.next_slice, std::min(due, all - state.next_slice)};
+  state.next_slice += slices.count;
+  if (state.next_slice == all) {
+    std::swap(state.shown, state.solving);
+    state.solving.clear();
+    ++state.version;
   }
   return slices;
 }

@@ -7,7 +7,9 @@
 
 #include "core/box.hpp"
 #include "planning/hole_plan.hpp"
+#include "planning/input_key.hpp"
 #include "planning/media_plan.hpp"
+#include "planning/proposed.hpp"
 #include "volume/range_arena.hpp"
 
 namespace brume::planning {
@@ -31,22 +33,28 @@ constexpr std::uint32_t kSlicesPerBounce = 8;
 /// once where there is none to show meanwhile, and where the level changed.
 class IndirectLightCache {
  public:
-  /// The plan of a frame. It counts as done from then on.
+  /// The plan of a frame. From `commit` on it counts as done.
   IndirectLightPlan plan(const FrameInput& input, const MediaPlan& media, const HolePlan& holes,
                          std::span<const shared::Light> lights, Allocator memory = {});
+  /// The frame of the last plan was recorded.
+  void commit() { state_.commit(); }
+  /// The device lost its light.
+  void invalidate() { state_.reset() = {}; }
 
  private:
-  /// The next slices of what is being found; it shows after the last one.
-  volume::IndexRange next_slices(float fraction);
+  struct State {
+    LevelView level;
+    std::vector<std::uint32_t> hidden_objects;
+    bool has_level = false;
+    InputKey shown;    ///< All other inputs of the light that shows; empty: there is none.
+    InputKey solving;  ///< The inputs of the light that is being found; empty: none is.
+    std::uint32_t next_slice = 0;  ///< Of what is being found.
+    std::uint32_t bounces = 0;
+    std::uint64_t version = 0;
+  };
+  static volume::IndexRange next_slices(State& state, float fraction);
 
-  LevelView level_;
-  std::vector<std::uint32_t> hidden_objects_;
-  bool has_level_ = false;
-  FrameVector<std::byte> shown_key_;  ///< Of all other inputs of the light that shows; empty: there is none.
-  FrameVector<std::byte> solving_key_;  ///< Of that which is being found; empty: none is.
-  std::uint32_t next_slice_ = 0;        ///< Of what is being found.
-  std::uint32_t bounces_ = 0;
-  std::uint64_t version_ = 0;
+  Proposed<State> state_;
 };
 
 }  // namespace brume::planning

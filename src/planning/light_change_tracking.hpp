@@ -13,6 +13,11 @@
 
 namespace brume::planning {
 
+/// What the device holds of the light in the smoke: a plan that needs more makes it lose all of that.
+struct SmokeLightRoom {
+  std::uint32_t texel_lists = ~0u, pages = ~0u;
+};
+
 /// What the light in the smoke of a frame follows from.
 struct SmokeLightInputs {
   const smoke::SmokeBricks* volume = nullptr;  ///< null: no smoke.
@@ -30,6 +35,7 @@ struct SmokeLightInputs {
   float update_fraction = 1;
   bool noise_changed = false;          ///< The noise changed, though the time may not have.
   std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
+  SmokeLightRoom room{};
 };
 
 /// Whether a hole removes the same everywhere at two times [s].

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
+#include "core/same_bytes.hpp"
 #include "planning/light_reach.hpp"
 
 namespace brume::planning {
@@ -18,18 +18,19 @@ std::uint32_t slice_of(std::uint32_t slot) {
 }  // namespace
 
 bool NoiseUpdates::all_are_due(const NoiseInputs& inputs) const {
-  if (!last_ || last_->volume != inputs.volume->volume().id()) return true;
+  const State& before = state_.now();
+  if (!before.last || before.last->volume != inputs.volume->volume().id()) return true;
+  const Last& last = *before.last;
   const shared::VolumeLayout& layout = inputs.volume->layout();
-  if (layout.origin_world != last_->layout.origin_world || layout.voxel_size != last_->layout.voxel_size ||
-      layout.bricks.atlas_bricks != last_->layout.bricks.atlas_bricks ||
-      std::memcmp(&inputs.look, &last_->look, sizeof inputs.look) != 0)
+  if (layout.origin_world != last.layout.origin_world || layout.voxel_size != last.layout.voxel_size ||
+      layout.bricks.atlas_bricks != last.layout.bricks.atlas_bricks || !same_bytes(inputs.look, last.look))
     return true;
   // The dirty slots are those since the revision before, no older ones.
-  if (inputs.volume->revision() != last_->revision && inputs.volume->revision() != last_->revision + 1)
+  if (inputs.volume->revision() != last.revision && inputs.volume->revision() != last.revision + 1)
     return true;
   // A front that moves carries the noise with it.
-  return !std::equal(motions_.begin(), motions_.end(), inputs.motions.begin(), inputs.motions.end(),
-                     [](const auto& a, const auto& b) { return a.front == b.front; });
+  return !std::ranges::equal(before.motions, inputs.motions, {}, &shared::CloudMotion::front,
+                             &shared::CloudMotion::front);
 }
 
 /// Marks the bricks that impulses come near.
@@ -48,50 +49,49 @@ void NoiseUpdates::mark_moved(const NoiseInputs& inputs, std::span<const shared:
 
 /// Marks the bricks whose densities changed, and those that impulses move now or moved before.
 void NoiseUpdates::mark_changed(const NoiseInputs& inputs) {
-  const bool same_impulses =
-      std::equal(impulses_.begin(), impulses_.end(), inputs.impulses.begin(), inputs.impulses.end(),
-                 [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
-  if (!same_impulses) mark_moved(inputs, impulses_);
-  if (!same_impulses) mark_moved(inputs, inputs.impulses);
-  if (inputs.volume->revision() == last_->revision) return;
+  const State& before = state_.now();
+  if (!std::ranges::equal(before.impulses, inputs.impulses, same_bytes<shared::Impulse>)) {
+    mark_moved(inputs, before.impulses);
+    mark_moved(inputs, inputs.impulses);
+  }
+  if (inputs.volume->revision() == before.last->revision) return;
   for (const std::uint32_t slot : inputs.volume->dirty_slots()) changed_[slot] = 1;
   for (const std::uint32_t slot : inputs.volume->dirty_cell_slots()) changed_[slot] = 1;
 }
 
-void NoiseUpdates::store_inputs(const NoiseInputs& inputs) {
-  last_ = {inputs.volume->volume().id(), inputs.volume->revision(), inputs.volume->layout(), inputs.look,
-           inputs.time};
-  motions_.assign(inputs.motions.begin(), inputs.motions.end());
-  impulses_.assign(inputs.impulses.begin(), inputs.impulses.end());
-}
-
 std::span<const std::uint32_t> NoiseUpdates::slots_due(const NoiseInputs& inputs) {
-  ++frames_;
-  scheduler_.next_slice(1.0f / static_cast<float>(scheduler_.slice_count()));
+  State& state = state_.propose();
+  ++state.frames;
+  state.scheduler.next_slice(1.0f / static_cast<float>(state.scheduler.slice_count()));
 
   // What changed of each slot.
   const bool all = all_are_due(inputs);
-  const bool same_time = !all && inputs.time == last_->time;
+  const bool same_time = !all && inputs.time == state.last->time;
   changed_.assign(inputs.volume->slot_count(), all ? 1 : 0);
-  if (all) last_frame_.clear();
-  last_frame_.resize(inputs.volume->slot_count());
+  if (all) state.last_frame.clear();
+  state.last_frame.resize(inputs.volume->slot_count());
   if (!all) mark_changed(inputs);
 
   // The slots of the frame's slice; of all slices where time stands still.
-  if (all) scheduler_.complete();
-  if (!all && !same_time) scheduler_.restart();
-  const bool is_pending = scheduler_.pending() > 0;
-  const std::uint32_t slice = scheduler_.slices().first;
+  if (all) state.scheduler.complete();
+  if (!all && !same_time) state.scheduler.restart();
+  const bool is_pending = state.scheduler.pending() > 0;
+  const std::uint32_t slice = state.scheduler.slices().first;
   slots_due_.clear();
   for (const std::uint32_t slot : inputs.slots) {
-    const bool is_new = last_frame_[slot] + 1 != frames_;
+    const bool is_new = state.last_frame[slot] + 1 != state.frames;
     const bool is_scheduled = is_pending && (same_time || slice_of(slot) == slice);
     if (changed_[slot] != 0 || is_new || is_scheduled) slots_due_.push_back(slot);
-    last_frame_[slot] = frames_;
+    state.last_frame[slot] = state.frames;
   }
-  if (same_time) scheduler_.complete();
-  scheduler_.complete_slice();
-  store_inputs(inputs);
+  if (same_time) state.scheduler.complete();
+  state.scheduler.complete_slice();
+
+  // What the next frame compares with.
+  state.last = {inputs.volume->volume().id(), inputs.volume->revision(), inputs.volume->layout(), inputs.look,
+                inputs.time};
+  state.motions.assign(inputs.motions.begin(), inputs.motions.end());
+  state.impulses.assign(inputs.impulses.begin(), inputs.impulses.end());
   return slots_due_;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planning/proposed.hpp"
 #include "planning/update_scheduler.hpp"
 #include "shared/frame.h"
 #include "shared/noise_advection.h"
@@ -30,15 +31,20 @@ class NoiseUpdates {
  public:
   /// Whether frames of this light_update_fraction take one slice, and require `slots_due`.
   bool applies_to(float light_update_fraction) const {
-    return scheduler_.takes_one_slice(light_update_fraction);
+    return state_.now().scheduler.takes_one_slice(light_update_fraction);
   }
-  /// The slots whose noise the frame must advect, in their order; they count as up to date from then on.
-  /// Valid until the next call.
+  /// The slots whose noise the frame must advect, in their order. From `commit` on they are up to date. Valid
+  /// until the next call.
   std::span<const std::uint32_t> slots_due(const NoiseInputs& inputs);
-  /// Whether some noise of the last frame, unless invalidated, is of an earlier time: not all slots were due.
-  bool is_late() const { return last_ && scheduler_.pending() > 0; }
-  /// The noise was advected without this class, or not at all.
-  void invalidate() { last_.reset(); }
+  /// The frame advects the noise of all slots without this class, or none.
+  void skip_frame() { state_.propose().last.reset(); }
+  /// Whether some noise of the last frame, unless it was skipped, is of an earlier time: not all slots were
+  /// due.
+  bool is_late() const { return state_.now().last && state_.now().scheduler.pending() > 0; }
+  /// The frame of the last slots_due or skip_frame was recorded.
+  void commit() { state_.commit(); }
+  /// The device lost its noise.
+  void invalidate() { state_.reset().last.reset(); }
 
  private:
   struct Last {
@@ -48,19 +54,23 @@ class NoiseUpdates {
     shared::SmokeLook look{};
     float time = 0;
   };
+  /// What the noise on the device was advected with.
+  struct State {
+    UpdateScheduler scheduler{4};
+    std::optional<Last> last;
+    std::vector<shared::CloudMotion> motions;
+    std::vector<shared::Impulse> impulses;
+    std::vector<std::uint64_t> last_frame;  // of each slot, the last frame that had it
+    std::uint64_t frames = 0;
+  };
   bool all_are_due(const NoiseInputs& inputs) const;
   void mark_changed(const NoiseInputs& inputs);
   void mark_moved(const NoiseInputs& inputs, std::span<const shared::Impulse> impulses);
-  void store_inputs(const NoiseInputs& inputs);
 
-  UpdateScheduler scheduler_{4};
-  std::optional<Last> last_;
-  std::vector<shared::CloudMotion> motions_;
-  std::vector<shared::Impulse> impulses_;
-  std::vector<std::uint64_t> last_frame_;  // of each slot, the last frame that had it
-  std::vector<std::uint8_t> changed_;      // of each slot, in this frame
+  Proposed<State> state_;
+  // Of the frame that is being planned.
+  std::vector<std::uint8_t> changed_;  // of each slot
   std::vector<std::uint32_t> slots_due_;
-  std::uint64_t frames_ = 0;
 };
 
 }  // namespace brume::planning

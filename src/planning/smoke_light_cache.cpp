@@ -179,18 +179,26 @@ const SmokeLightCache::BrickEntry* SmokeLightCache::find_entry(std::uint32_t slo
                                                                        : nullptr;
 }
 
-/// No fewer than the plan allocates: pages for all that is in view, less those that it has.
-std::size_t SmokeLightCache::pages_missing(const SmokeLightInputs& inputs) const {
-  std::size_t missing = 0;
+/// No fewer than the plan allocates: what all that is in view takes, less what it has.
+SmokeLightCache::Missing SmokeLightCache::missing(const SmokeLightInputs& inputs) const {
+  Missing missing;
   for (std::uint32_t i = 0; i < inputs.visibility->visible_count; ++i) {
     const BrickEntry* entry = find_entry(inputs.visibility->slots[i]);
-    missing += lights_reaching(i).size() + (entry ? 0 : shared::kSkyPages);
-    if (!entry) continue;
     const auto lights = lights_reaching(i);
+    missing.pages += lights.size() + (entry ? 0 : shared::kSkyPages);
+    missing.entries += entry ? 0 : 1;
+    if (!entry) continue;
     for (const CachedRays& rays : entry->lights)
-      missing -= std::find(lights.begin(), lights.end(), rays.light) != lights.end();
+      missing.pages -= std::find(lights.begin(), lights.end(), rays.light) != lights.end();
   }
   return missing;
+}
+
+/// Whether the device can add what is missing to what it holds.
+bool SmokeLightCache::has_room(const SmokeLightInputs& inputs) const {
+  const Missing more = missing(inputs);
+  return pages_.fits(more.pages) && pages_.used() + more.pages <= inputs.room.pages &&
+         entry_count_ + more.entries <= inputs.room.texel_lists;
 }
 
 SmokeLightCache::BrickEntry& SmokeLightCache::entry_of(const SmokeLightInputs& inputs, std::uint32_t slot) {
@@ -421,6 +429,8 @@ void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs, Allocator mem
 }
 
 const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allocator memory) {
+  if (is_open_) invalidate();
+  is_open_ = true;
   plan_.clear();
   if (!inputs.volume || inputs.volume->slot_count() == 0) {
     invalidate();
@@ -435,8 +445,8 @@ const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allo
   find_lights_in_reach(inputs, memory);
 
   // What the frame updates.
-  if (!pages_.fits(pages_missing(inputs))) drop_all_rays();
-  if (pages_.used() == 0 && !pages_.fits(pages_missing(inputs))) {
+  if (!has_room(inputs)) drop_all_rays();
+  if (pages_.used() == 0 && !pages_.fits(missing(inputs).pages)) {
     scheduler_.next_slice(1);
     plan_in_parts(inputs);
     tracker_.reset();

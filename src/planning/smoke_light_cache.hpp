@@ -43,8 +43,11 @@ class SmokeLightCache {
  public:
   explicit SmokeLightCache(std::uint32_t max_pages = kMaxRayPages) : pages_(max_pages) {}
 
-  /// The work of a frame; it counts as done from then on. Valid until the next call.
+  /// The work of a frame, valid until the next call. From `commit` on it counts as done; where that does not
+  /// come before the next plan, the device may hold anything, and that plan relies on none of it.
   const SmokeLightPlan& plan(const SmokeLightInputs& inputs, Allocator memory = {});
+  /// The frame of the last plan was recorded.
+  void commit() { is_open_ = false; }
   /// The work of the last planned frame.
   const SmokeLightPlan& last_plan() const { return plan_; }
   /// The device lost what it held.
@@ -108,7 +111,11 @@ class SmokeLightCache {
   std::uint64_t light_versions_hash(std::span<const std::uint32_t> lights) const;
 
   // Bricks and their pages.
-  std::size_t pages_missing(const SmokeLightInputs& inputs) const;
+  struct Missing {
+    std::size_t entries = 0, pages = 0;
+  };
+  Missing missing(const SmokeLightInputs& inputs) const;
+  bool has_room(const SmokeLightInputs& inputs) const;
   const BrickEntry* find_entry(std::uint32_t slot) const;
   BrickEntry& entry_of(const SmokeLightInputs& inputs, std::uint32_t slot);
   CachedRays& cached_rays_of(BrickEntry& entry, std::uint32_t light, std::size_t hint);
@@ -132,6 +139,7 @@ class SmokeLightCache {
   void plan_in_parts(const SmokeLightInputs& inputs);
 
   SmokeLightPlan plan_;
+  bool is_open_ = false;  // planned, and not committed
   LightChangeTracker tracker_;
   UpdateScheduler scheduler_{shared::kLightPhases};
   RayPagePool pages_;

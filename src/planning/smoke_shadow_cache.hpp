@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "planning/hole_plan.hpp"
+#include "planning/input_key.hpp"
 #include "planning/noise_plan.hpp"
+#include "planning/proposed.hpp"
 #include "planning/smoke_shadow_plan.hpp"
 #include "planning/update_scheduler.hpp"
 
@@ -38,38 +40,25 @@ struct SmokeShadowUpdate {
 /// texels one a frame.
 class SmokeShadowCache {
  public:
-  /// The update of a frame that has `plan`; nothing where all texels hold. It counts as done from then on.
+  /// The update of a frame that has `plan`; nothing where all texels hold. From `commit` on it counts as done.
   std::optional<SmokeShadowUpdate> update(const SmokeShadowPlan& plan, const SmokeShadowInputs& inputs,
                                           Allocator memory = {});
+  /// The frame of the last update was recorded.
+  void commit() { state_.commit(); }
   /// The device lost its atlas.
-  void invalidate() { has_texels_ = false; }
+  void invalidate() { state_.reset().has_texels = false; }
 
  private:
-  /// What the texels were marched from.
-  struct Key {
-    std::uint64_t volume = 0;  // its id; 0: none
-    std::uint64_t revision = 0;
-    std::vector<std::uint32_t> slots;  // rising
-    Box<float> caster_bounds;
-    std::vector<shared::Light> lights;  // without what their rays do not depend on
-    float extinction = 0, erosion = 0;
-    // Of what noise removes, where it removes anything.
-    shared::SmokeLook noise_look{};
-    std::vector<shared::CloudMotion> motions;
-    std::vector<shared::Impulse> impulses;
-    float noise_time = 0;
-    // Of holes, where there are any.
-    std::vector<shared::Hole> holes;
-    std::vector<shared::HoleReach> reaches;
-    float hole_time = 0;
-    bool operator==(const Key& other) const;
-  };
-  static void set_key(const SmokeShadowInputs& inputs, Key& key);
+  /// What the texels are marched from, byte by byte: equal keys, equal shadows.
+  static void add_inputs(const SmokeShadowInputs& inputs, InputKey& key);
 
-  UpdateScheduler scheduler_{4};
-  SmokeShadowPlan plan_;
-  bool has_texels_ = false;
-  Key key_, next_key_;
+  struct State {
+    UpdateScheduler scheduler{4};
+    SmokeShadowPlan plan;
+    bool has_texels = false;
+    InputKey key;
+  };
+  Proposed<State> state_;
 };
 
 }  // namespace brume::planning

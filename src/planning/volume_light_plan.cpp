@@ -27,7 +27,7 @@ constexpr std::array<glm::vec3, shared::kSkySweeps> kSkyDirections{glm::vec3(1, 
                                                                    glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
                                                                    glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)};
 
-void add_transfer(KeyBytes& key, const TransferInput& transfer) {
+void add_transfer(InputKey& key, const TransferInput& transfer) {
   for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
   for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
   for (const char letter : transfer.color_map.name) key.add(letter);
@@ -35,14 +35,8 @@ void add_transfer(KeyBytes& key, const TransferInput& transfer) {
   key.add(transfer.color_map.points.size());
 }
 
-FrameVector<std::byte> key_of_volumes(const VolumeLightInputs& in, Allocator memory) {
-  KeyBytes key(memory);
-  add_volumes(key, *in.media, in.volumes);
-  return key.take();
-}
-
-FrameVector<std::byte> key_of_others(const VolumeLightInputs& in, Allocator memory) {
-  KeyBytes key(memory);
+InputKey key_of_others(const VolumeLightInputs& in, Allocator memory) {
+  InputKey key(memory);
   key.add(in.media->frame.volume_count);
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);
@@ -53,7 +47,16 @@ FrameVector<std::byte> key_of_others(const VolumeLightInputs& in, Allocator memo
     key.add(in.smoke_look);
     key.add(in.time);
   }
-  return key.take();
+  return key;
+}
+
+/// Whether the device keeps the light that it holds.
+bool fits(const VolumeLightPlan& plan, const MediaPlan& media, const VolumeLightRoom& room) {
+  const auto volumes = volumes_in_view(media);
+  const bool glows =
+      std::ranges::any_of(volumes, [](const PlacedVolume& volume) { return shared::glows(volume.instance); });
+  return room.edge == plan.edge && room.sun_edge == plan.sun_edge && room.volumes >= volumes.size() &&
+         (!glows || room.glowing_volumes >= volumes.size());
 }
 
 std::uint32_t edge_of(const MediaPlan& media, Resolution resolution, Resolution dense) {
@@ -75,7 +78,7 @@ std::uint32_t edge_of(const MediaPlan& media, Resolution resolution, Resolution 
 
 }  // namespace
 
-void add_volumes(KeyBytes& key, const MediaPlan& media, std::span<const VolumeInput> volumes) {
+void add_volumes(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes) {
   for (const PlacedVolume& visible : media.volumes) {
     const VolumeInput& input = volumes[visible.index];
     const volume::SparseVolume& volume = *shown_volume(input, visible.is_preview).volume;
@@ -119,13 +122,16 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
 
 VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in, Allocator memory) {
   VolumeLightPlan plan{.sweeps = FrameVector<shared::VolumeSweep>(memory)};
-  const FrameVector<std::byte> volumes_key = key_of_volumes(in, memory);
-  plan.volumes_changed = volumes_key != volumes_key_;
-  volumes_key_ = volumes_key;
-  if (in.media->frame.volume_count == 0) {
-    key_.clear();
-    return plan;
-  }
+  InputKey volumes_key(memory);
+  add_volumes(volumes_key, *in.media, in.volumes);
+  const State& before = state_.now();
+  State& next = state_.propose();
+  plan.volumes_changed = volumes_key != before.volumes;
+  next.volumes = volumes_key;
+  next.others.clear();
+  if (in.media->frame.volume_count == 0) return plan;
+
+  // Its cubes, and the rays through them.
   plan.edge = edge_of(*in.media, kLightCells, kDenseCells);
   plan.sun_edge = edge_of(*in.media, kSunCells, kSunCells);
   plan.sun = in.media->sun;
@@ -136,14 +142,13 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in, Allocator me
       plan.sweeps.push_back(sweep_through(visible.instance, -direction));
   }
   plan.is_lit = (in.media->media & shared::kMediumLit) != 0;
-  if (!plan.is_lit) {
-    key_.clear();
-    return plan;
-  }
+  if (!plan.is_lit) return plan;
+
+  // Whether the light of the frame before holds.
   plan.is_alone = in.media->volumes.size() == 1 && (in.media->casters & shared::kMediumSmoke) == 0;
-  const FrameVector<std::byte> key = key_of_others(in, memory);
-  plan.update = in.rebuild || plan.volumes_changed || key != key_;
-  key_ = key;
+  const InputKey key = key_of_others(in, memory);
+  plan.update = in.rebuild || plan.volumes_changed || key != before.others || !fits(plan, *in.media, in.room);
+  next.others = key;
   return plan;
 }
 

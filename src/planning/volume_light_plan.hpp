@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "planning/key_bytes.hpp"
+#include "planning/input_key.hpp"
 #include "planning/media_plan.hpp"
+#include "planning/proposed.hpp"
 #include "shared/light.h"
 #include "shared/volume_light.h"
 
@@ -24,6 +25,13 @@ struct VolumeLightPlan {
   bool volumes_changed = false;             ///< Those that cast shadows are not those of the frame before.
 };
 
+/// The cubes of light that the device holds: where a plan needs others, their light is lost.
+struct VolumeLightRoom {
+  std::uint32_t edge = 1, sun_edge = 1;  ///< Cells of a cube along an axis, as VolumeLightPlan.
+  std::uint32_t volumes = 1;             ///< Cubes of each kind.
+  std::uint32_t glowing_volumes = 0;     ///< The same of the fields of glow.
+};
+
 /// What the light in the volumes follows from.
 struct VolumeLightInputs {
   const MediaPlan* media = nullptr;       ///< Not null.
@@ -35,23 +43,29 @@ struct VolumeLightInputs {
   shared::Sky sky{};
   bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
   std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
+  VolumeLightRoom room{};
 };
 
 /// Tracks what the device's light was computed from.
 class VolumeLightCache {
  public:
-  /// The plan of a frame. It counts as done from then on.
+  /// The plan of a frame. From `commit` on it counts as done.
   VolumeLightPlan plan(const VolumeLightInputs& inputs, Allocator memory = {});
+  /// The frame of the last plan was recorded.
+  void commit() { state_.commit(); }
   /// The device lost its light.
-  void invalidate() { key_.clear(); }
+  void invalidate() { state_.reset().others.clear(); }
 
  private:
-  FrameVector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
-  FrameVector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
+  struct State {
+    InputKey volumes;  ///< Of the last plan.
+    InputKey others;   ///< All other inputs of the last update; empty: there was none.
+  };
+  Proposed<State> state_;
 };
 
 /// Adds what the light in the volumes of a frame follows from, of the volumes themselves.
-void add_volumes(KeyBytes& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
+void add_volumes(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
 
 /// The rays along `direction` (unit) through a volume's bounds.
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction);

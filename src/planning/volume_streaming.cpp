@@ -183,9 +183,14 @@ VolumeStreaming::State VolumeStreaming::make_state(const SparseVolume& volume) {
   return state;
 }
 
-VolumeStreaming::State& VolumeStreaming::state_of(const SparseVolume& volume) {
-  const auto found = std::ranges::find(states_, volume.id(), &State::id);
-  return found != states_.end() ? *found : states_.emplace_back(make_state(volume));
+/// The state of a volume in a proposal, to be changed by it.
+VolumeStreaming::State& VolumeStreaming::state_of(States& states, const SparseVolume& volume) {
+  const auto found =
+      std::ranges::find_if(states, [&](const auto& state) { return state->id == volume.id(); });
+  if (found == states.end()) return *states.emplace_back(std::make_shared<State>(make_state(volume)));
+  // A volume that is shown several times has one state; that of the frame before stays as it is.
+  if (!(*found)->is_complete() && found->use_count() > 1) *found = std::make_shared<State>(**found);
+  return **found;
 }
 
 bool VolumeStreaming::is_streamed(const SparseVolume* volume, const SparseVolume* preview) {
@@ -204,12 +209,12 @@ std::vector<VolumeStreaming::Item> VolumeStreaming::items_of(std::span<const Vol
       items.push_back(
           {i, in.heat.volume, in.heat.world_from_voxel, in.heat.preview != nullptr, &result[i].heat});
   }
-  std::erase_if(states_, [&](const State& state) {
-    return std::ranges::none_of(items, [&](const Item& item) { return item.volume->id() == state.id; });
+  States& states = states_.propose();
+  std::erase_if(states, [&](const auto& state) {
+    return std::ranges::none_of(items, [&](const Item& item) { return item.volume->id() == state->id; });
   });
-  for (const Item& item : items) state_of(*item.volume);
   for (Item& item : items) {
-    item.state = &state_of(*item.volume);
+    item.state = &state_of(states, *item.volume);
     // One that is shown several times is uploaded once, with the first.
     item.upload = std::ranges::find(items, item.state, &Item::state)->upload;
     item.upload->streamed = true;
@@ -248,8 +253,9 @@ std::vector<VolumeResidency> VolumeStreaming::plan_part(std::span<const VolumeIn
 bool VolumeStreaming::is_ready(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes) const {
   const auto is_there = [&](const SparseVolume* volume, const SparseVolume* preview) {
     if (!is_streamed(volume, preview) || (preview && budget_bytes > 0)) return true;
-    const auto state = std::ranges::find(states_, volume->id(), &State::id);
-    return state != states_.end() && state->is_complete();
+    const auto is_it = [&](const auto& state) { return state->id == volume->id(); };
+    const auto found = std::ranges::find_if(states_.now(), is_it);
+    return found != states_.now().end() && (*found)->is_complete();
   };
   return std::ranges::all_of(volumes, [&](const VolumeInput& volume) {
     return is_there(volume.volume, volume.preview) && is_there(volume.heat.volume, volume.heat.preview);
@@ -257,11 +263,11 @@ bool VolumeStreaming::is_ready(std::span<const VolumeInput> volumes, std::uint64
 }
 
 void VolumeStreaming::lose(std::uint64_t volume_id) {
-  std::erase_if(states_, [&](const State& state) { return state.id == volume_id; });
+  std::erase_if(states_.reset(), [&](const auto& state) { return state->id == volume_id; });
 }
 
 bool VolumeStreaming::complete() const {
-  return std::ranges::all_of(states_, [](const State& state) { return state.is_complete(); });
+  return std::ranges::all_of(states_.latest(), [](const auto& state) { return state->is_complete(); });
 }
 
 }  // namespace brume::planning

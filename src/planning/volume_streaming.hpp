@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "planning/frame_input.hpp"
+#include "planning/proposed.hpp"
 #include "planning/view_frustum.hpp"
 
 namespace brume::planning {
@@ -34,19 +36,21 @@ class VolumeStreaming {
   /// Per volume of the frame. Uploads at most `budget_bytes` of bricks and page tables (0: no limit), but for
   /// a page table that is larger than that, which comes alone; volumes without a preview, and previews, come
   /// on top, at once. Bricks in the frustum come first, those in nodes of 8^3 bricks that are nearest to the
-  /// eye before others, then the rest in the same order. It counts as done from then on.
+  /// eye before others, then the rest in the same order. From `commit` on it counts as done.
   std::vector<VolumeResidency> plan(std::span<const VolumeInput> volumes, const ViewFrustum& frustum,
                                     glm::vec3 eye_world, std::uint64_t budget_bytes);
   /// The next part of what the frame of these inputs must find on the device: volumes without a preview, and
   /// with budget_bytes = 0 all. To be uploaded before that frame, at most `part_bytes` as above, until
-  /// complete(): parts take less staging memory than all at once.
+  /// is_ready(): parts take less staging memory than all at once. From `commit` on it counts as done.
   std::vector<VolumeResidency> plan_part(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes,
                                          std::uint64_t part_bytes);
   /// Whether the frame of these inputs finds all that it must.
   bool is_ready(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes) const;
+  /// The frame or the part of the last plan was recorded.
+  void commit() { states_.commit(); }
   /// Nothing of a volume is on the device any more.
   void lose(std::uint64_t volume_id);
-  /// Whether all of the last plan's volumes are on the device.
+  /// Whether all of the last plan's volumes are on the device when its frame is drawn.
   bool complete() const;
 
  private:
@@ -65,16 +69,18 @@ class VolumeStreaming {
     std::uint32_t missing = 0;   ///< Of all nodes.
     bool is_complete() const { return pages && missing == 0; }
   };
+  /// One that is complete does not change, and proposals share it.
+  using States = std::vector<std::shared_ptr<State>>;
   struct Item;
   struct Candidate;
   class Frame;
 
   static State make_state(const volume::SparseVolume& volume);
-  State& state_of(const volume::SparseVolume& volume);
+  static State& state_of(States& states, const volume::SparseVolume& volume);
   std::vector<Item> items_of(std::span<const VolumeInput> volumes, std::vector<VolumeResidency>& result);
   static bool is_streamed(const volume::SparseVolume* volume, const volume::SparseVolume* preview);
 
-  std::vector<State> states_;
+  Proposed<States> states_;
 };
 
 }  // namespace brume::planning

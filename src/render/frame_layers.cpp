@@ -68,7 +68,7 @@ void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   recorder.read_back(renderer.media(), media_);
   recorder.read_back(targets.gbuffer.albedo_roughness, albedo_);
   recorder.read_back(targets.gbuffer.depth, depth_);
-  recorder.read_back(renderer.smoke().march_counters(), entries_, entries_.size());
+  recorder.read_back(renderer.march().counters(), entries_, entries_.size());
   has_decals_ = renderer.has_decals();
   has_occlusion_ = renderer.occlusion() != nullptr;
   if (!has_occlusion_) return;

@@ -44,10 +44,10 @@ void Playback::measure_exposure() {
 }
 
 double Playback::fraction_marched() const {
-  if (!renderer_.smoke().march_tiles()) return 1;
+  if (!renderer_.march().tiles()) return 1;
   shared::MarchList list{};
   std::memcpy(&list, list_.mapped(), sizeof list);
-  const glm::uvec2 blocks(renderer_.smoke().march_tiles()->far.info().size);
+  const glm::uvec2 blocks(renderer_.march().tiles()->far.info().size);
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
 
@@ -68,19 +68,19 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   input.debug = debug_;
   display_ = {input.view.exposure, static_cast<std::uint32_t>(input.view.tone)};
   const planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
-                                       renderer_.smoke().is_accumulated() ? 1u : samples_);
+                                       renderer_.march().is_accumulated() ? 1u : samples_);
   samples_drawn_ = samples.count();
   for (std::uint32_t i = 0; i < samples.count(); ++i) {
     FrameInput sample = samples[i];
     // Samples smooth what is finer than a step. Of one alone it would be grain.
-    if (samples.count() == 1 && !renderer_.smoke().is_accumulated() && sample.smoke.look.detail > 0)
+    if (samples.count() == 1 && !renderer_.march().is_accumulated() && sample.smoke.look.detail > 0)
       sample.quality.step_scale *= kStepScaleOfOneSample;
     if (renderer_.is_antialiased() && sample.view.continues)
       sample.view.sample = planning::film_sample(frame_index);
     renderer_.draw(sample, [&](gpu::Recorder& recorder) {
       each.read_back(recorder, i + 1 == samples.count());
-      if (renderer_.smoke().march_tiles())
-        recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));
+      if (renderer_.march().tiles())
+        recorder.read_back(renderer_.march().tiles()->list, list_, sizeof(shared::MarchList));
     });
     each.drawn();
   }

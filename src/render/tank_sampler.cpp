@@ -34,17 +34,17 @@ TankSampler::TankSampler(gpu::Context& context, gpu::CommandStream& stream, cons
 }
 
 void TankSampler::resize(glm::uvec2 size_px) {
-  samples_ = rows_ = 0;
+  restart();
   sum_ = picture_image(context_, size_px, VK_FORMAT_R32G32B32A32_SFLOAT);
   radiance_ = picture_image(context_, size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
 }
 
 void TankSampler::set_kind(scene::TankView kind) {
-  samples_ = rows_ = 0;
+  restart();
   if (kind == scene::TankView::voxels && !voxels_) {
     volume_.add_colors(context_);
-    voxels_.emplace(context_, volume_.size);
     find_voxels();
+    voxels_.emplace(context_, volume_.size);
   }
   kind_ = kind;
 }
@@ -58,25 +58,25 @@ void TankSampler::find_voxels() {
 }
 
 void TankSampler::set_lighting(scene::TankLighting lighting) {
-  samples_ = rows_ = 0;
+  restart();
   lighting_ = lighting;
-  if (voxels_) voxels_->is_lit = false;
+  if (voxels_) voxels_->is_lit.change(context_) = false;
 }
 
 void TankSampler::set_view(const planning::TankPlan& plan, std::uint32_t index) {
   BRUME_ASSERT(plan.lights.size() <= scene::kMostTankLights, "too many lights");
   const bool same_light = plan.constants.air.ambient == plan_.constants.air.ambient &&
                           std::ranges::equal(plan.lights, plan_.lights, same_bytes<shared::TankLight>);
-  if (voxels_ && !same_light) voxels_->is_lit = false;
+  if (voxels_ && !same_light) voxels_->is_lit.change(context_) = false;
   plan_ = plan;
-  samples_ = rows_ = 0;
+  restart();
   index_ = index;
-  if (kind_ == scene::TankView::voxels && !voxels_->is_lit)
+  if (kind_ == scene::TankView::voxels && !voxels_->is_lit.get(context_))
     voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
 }
 
 void TankSampler::set_photons(const spheres::LightPaths& paths) {
-  samples_ = rows_ = 0;
+  restart();
   replace_photons(paths);
 }
 
@@ -95,9 +95,10 @@ void TankSampler::record_upload(gpu::Recorder& recorder) {
 }
 
 void TankSampler::record_light(gpu::Recorder& recorder) {
-  if (voxels_->is_lit) return;
+  bool& is_lit = recorder.change(voxels_->is_lit);
+  if (is_lit) return;
   voxels_->light_pass.record(recorder, volume_, voxels_->light, plan_.constants.air.ambient);
-  voxels_->is_lit = true;
+  is_lit = true;
 }
 
 void TankSampler::record_dispatch(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
@@ -106,7 +107,8 @@ void TankSampler::record_dispatch(gpu::Recorder& recorder, const gpu::Image& blu
   if (kind_ == scene::TankView::voxels) record_light(recorder);
   const passes::TankInputs inputs{volume_, constants_, lights_, photons_, photon_cells_, blue_noise};
   const passes::TankTargets targets{sum_, radiance_, surfaces};
-  const shared::TankSamples samples{samples_, count, rows_, index_};
+  const Done& done = done_.get(context_);
+  const shared::TankSamples samples{done.samples, count, done.rows, index_};
   const gpu::Scope scope(recorder, "tank");
   if (kind_ == scene::TankView::voxels)
     voxels_->pass.record(recorder, inputs, voxels_->light, targets, samples, rows);
@@ -116,20 +118,20 @@ void TankSampler::record_dispatch(gpu::Recorder& recorder, const gpu::Image& blu
 
 void TankSampler::record_samples(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
                                  const gpu::Image* surfaces) {
-  BRUME_ASSERT(rows_ == 0, "a sample is incomplete");
+  BRUME_ASSERT(rows() == 0, "a sample is incomplete");
   record_dispatch(recorder, blue_noise, count, sum_.info().size.y, surfaces);
-  samples_ += count;
+  recorder.change(done_).samples += count;
 }
 
 void TankSampler::record_rows(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t rows) {
   const std::uint32_t height = sum_.info().size.y;
-  BRUME_ASSERT(rows > 0 && rows_ + rows <= height && (rows % kRows == 0 || rows_ + rows == height),
+  const std::uint32_t end = this->rows() + rows;
+  BRUME_ASSERT(rows > 0 && end <= height && (rows % kRows == 0 || end == height),
                "rows that are no multiple of a workgroup's");
   record_dispatch(recorder, blue_noise, 1, rows, nullptr);
-  rows_ += rows;
-  if (rows_ < height) return;
-  rows_ = 0;
-  ++samples_;
+  Done& done = recorder.change(done_);
+  done.rows = end < height ? end : 0;
+  if (end == height) ++done.samples;
 }
 
 }  // namespace brume::render

@@ -47,15 +47,16 @@ class TankSampler {
   /// ones the sample is complete.
   void record_rows(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t rows);
   /// So far, of every pixel.
-  std::uint32_t samples() const { return samples_; }
+  std::uint32_t samples() const { return done_.get(context_).samples; }
   /// Of one more sample.
-  std::uint32_t rows() const { return rows_; }
+  std::uint32_t rows() const { return done_.get(context_).rows; }
 
   const gpu::Image& radiance() const { return radiance_; }  ///< Half floats; the mean of all samples.
   const gpu::Image& sum() const { return sum_; }            ///< Floats: of the radiance of all samples.
   const passes::TankVolume& volume() const { return volume_; }
 
  private:
+  void restart() { done_.change(context_) = {}; }
   void find_voxels();
   void record_upload(gpu::Recorder& recorder);
   void record_light(gpu::Recorder& recorder);
@@ -69,7 +70,7 @@ class TankSampler {
     passes::TankLightPass light_pass;
     passes::TankVoxelsPass pass;
     gpu::Image light;
-    bool is_lit = false;
+    gpu::Recorded<bool> is_lit;
   };
 
   gpu::Context& context_;
@@ -84,7 +85,12 @@ class TankSampler {
   shared::PhotonGrid photon_grid_{0, 0};
   scene::TankView kind_ = scene::TankView::spheres;
   scene::TankLighting lighting_ = scene::TankLighting::maps;
-  std::uint32_t samples_ = 0, rows_ = 0, index_ = 0;
+  /// Of the picture so far.
+  struct Done {
+    std::uint32_t samples = 0, rows = 0;
+  };
+  gpu::Recorded<Done> done_;
+  std::uint32_t index_ = 0;
 };
 
 }  // namespace brume::render

@@ -85,7 +85,7 @@ std::vector<float> VolumePartRenderer::find_depths(const FrameInput& input) {
   runner_.run([&](gpu::Recorder& recorder) { renderer_.record_sweeps(recorder, *plan_); });
   std::vector<float> depths;
   if (!plan_->volume_light.update) return depths;
-  const passes::VolumeLightPass& light = renderer_.smoke().volume_light();
+  const passes::VolumeLightPass& light = renderer_.volumes().light();
   for (const gpu::Image* image : {&light.sun_depths(), &light.sky_depths()})
     for (const std::uint16_t half : halves_of(*image)) depths.push_back(glm::unpackHalf1x16(half));
   return depths;
@@ -96,7 +96,7 @@ Pixels VolumePartRenderer::march(std::span<const float> depths) {
   if (plan_->volume_light.update) {
     std::vector<std::uint16_t> halves(depths.size());
     std::ranges::transform(depths, halves.begin(), [](float depth) { return glm::packHalf1x16(depth); });
-    const passes::VolumeLightPass& light = renderer_.smoke().volume_light();
+    const passes::VolumeLightPass& light = renderer_.volumes().light();
     const std::size_t of_sun = texels_of(light.sun_depths());
     BRUME_ASSERT(depths.size() == of_sun + texels_of(light.sky_depths()), std::to_string(depths.size()));
     set_halves(light.sun_depths(), std::span(halves).first(of_sun));

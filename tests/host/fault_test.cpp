@@ -265,6 +265,7 @@ void FaultTest::fail_each_call() {
         EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
         EXPECT_STRNE(brume_last_error(), "");
       }
+    printf("MORE %d of %u at %u\n", int(Faults::calls) - int(calls), calls, fails_at);
     // A plan that was given up leaves nothing up to date. Bricks that are placed again lie elsewhere in
     // their image, where coordinates round otherwise.
     EXPECT_TRUE(picture() == second || picture() == second_alone);

@@ -81,7 +81,8 @@ class HostedPair : public testing::Test {
       planning::FrameInput input = planning::frame_input(scenario_, *simulation_, seconds, holes_);
       input.view.frame_index = static_cast<std::uint32_t>(frame);
       if (change_input_) change_input_(input);
-      whole_->record_frame(recording_->recorder(), whole_->plan(input));
+      const planning::FramePlan plan = whole_->plan(input);
+      whole_->record_frame(recording_->recorder(), plan);
       copies_.push_back(readback_buffer(*gpu_));
       recording_->recorder().read_back(whole_->media(), copies_.back());
       if (reads_radiance_) {
@@ -105,7 +106,7 @@ class HostedPair : public testing::Test {
     params.jitter_index = static_cast<std::uint32_t>(frame);
     const gpu::Image& depth = whole_->targets().gbuffer.depth;
     params.depth.view = depth.view();
-    params.depth.layout = depth.last_use.layout;
+    params.depth.layout = depth.last_use.get(*gpu_).layout;
     if (change_params_) change_params_(params);
     const brume_field* field = shows_field_ ? smoke_->field.get() : nullptr;
     ASSERT_OK(brume_renderer_record(smoke_->renderer, field, &params));

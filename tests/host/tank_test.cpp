@@ -89,7 +89,7 @@ class TankTest : public HostedPair {
       params.camera.up = point_of(camera_.up_world);
       params.camera.vertical_fov = camera_.vertical_fov;
       params.depth.view = depth_.view();
-      params.depth.layout = depth_.last_use.layout;
+      params.depth.layout = depth_.last_use.get(*gpu_).layout;
       params.jitter_index = jitter_index_;
       params.tanks = tanks.data();
       params.tank_count = tanks.size();

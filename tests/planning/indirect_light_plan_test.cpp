@@ -12,7 +12,12 @@ class IndirectLightCacheTest : public testing::Test {
     input_.environment.bounces = 3;
     lights_.resize(1);
   }
-  IndirectLightPlan plan() { return cache_.plan(input_, media_, holes_, lights_); }
+  IndirectLightPlan plan() {
+    IndirectLightPlan plan = cache_.plan(input_, media_, holes_, lights_);
+    if (commits_) cache_.commit();
+    return plan;
+  }
+  bool commits_ = true;
   static constexpr std::uint32_t kAll = 3 * kSlicesPerBounce;
 
   voxel::BitGrid grid_{{glm::ivec3(8), 0.5f, glm::vec3(0)}}, other_grid_{{glm::ivec3(8), 0.5f, glm::vec3(0)}};
@@ -22,6 +27,24 @@ class IndirectLightCacheTest : public testing::Test {
   std::vector<shared::Light> lights_;
   IndirectLightCache cache_;
 };
+
+TEST_F(IndirectLightCacheTest, AFrameThatIsNotCommittedIsPlannedAgain) {
+  for (const bool commits : {false, true}) {
+    commits_ = commits;
+    const IndirectLightPlan first = plan();
+    EXPECT_EQ(first.slices.count, kAll);
+    EXPECT_TRUE(first.level_changed);
+    EXPECT_EQ(first.version, 1u);
+  }
+  // Over several frames: the slices follow those that were drawn.
+  input_.quality.light_update_fraction = 0.25f;
+  lights_[0].intensity = glm::vec3(7);
+  EXPECT_EQ(plan().slices.first, 0u);
+  commits_ = false;
+  const volume::IndexRange second = plan().slices;
+  EXPECT_GT(second.first, 0u);
+  EXPECT_EQ(plan().slices.first, second.first);
+}
 
 TEST_F(IndirectLightCacheTest, FindsLightOnceAndAgainWhereItChanged) {
   const IndirectLightPlan first = plan();

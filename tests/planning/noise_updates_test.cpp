@@ -35,6 +35,11 @@ class NoiseUpdatesTest : public ::testing::Test {
     inputs_.time = 10;
   }
   std::set<std::uint32_t> due() {
+    const std::set<std::uint32_t> due = planned();
+    updates_.commit();
+    return due;
+  }
+  std::set<std::uint32_t> planned() {
     const auto due = updates_.slots_due(inputs_);
     EXPECT_TRUE(std::is_sorted(due.begin(), due.end()));
     return {due.begin(), due.end()};
@@ -114,8 +119,24 @@ TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
   // Another look, and frames in between that did not slice.
   inputs_.look.swirl = 1;
   EXPECT_EQ(due(), all());
+  updates_.skip_frame();
+  updates_.commit();
+  EXPECT_EQ(due(), all());
   updates_.invalidate();
   EXPECT_EQ(due(), all());
+}
+
+TEST_F(NoiseUpdatesTest, AFrameThatIsNotCommittedIsPlannedAgain) {
+  EXPECT_EQ(planned(), all());
+  EXPECT_EQ(due(), all());
+  inputs_.time += 0.1f;
+  const std::set<std::uint32_t> quarter = planned();
+  EXPECT_LT(quarter.size(), all().size());
+  EXPECT_EQ(planned(), quarter);
+  updates_.skip_frame();
+  EXPECT_EQ(due(), quarter);
+  inputs_.time += 0.1f;
+  EXPECT_NE(due(), quarter);
 }
 
 }  // namespace

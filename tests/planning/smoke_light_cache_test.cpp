@@ -17,6 +17,16 @@ namespace brume::planning {
 namespace {
 
 /// Three smokes in an open world, lights between.
+/// The plan of a frame that is drawn.
+SmokeLightPlan planned(SmokeLightCache&& cache, const SmokeLightInputs& inputs) {
+  return cache.plan(inputs);
+}
+const SmokeLightPlan& planned(SmokeLightCache& cache, const SmokeLightInputs& inputs) {
+  const SmokeLightPlan& plan = cache.plan(inputs);
+  cache.commit();
+  return plan;
+}
+
 class SmokeLightCacheTest : public ::testing::Test {
  protected:
   static constexpr float kVoxel = 0.5f;
@@ -58,9 +68,46 @@ class SmokeLightCacheTest : public ::testing::Test {
   std::vector<shared::Hole> holes_;
 };
 
+TEST_F(SmokeLightCacheTest, APlanReliesOnNothingOfOneThatWasNotDrawn) {
+  SmokeLightCache cache;
+  const std::size_t all = cache.plan(inputs()).shadow_rays.size();
+  EXPECT_EQ(planned(cache, inputs()).shadow_rays.size(), all);
+  EXPECT_TRUE(planned(cache, inputs()).parts.empty());
+  lights_.push_back(lights_.front());
+  lights_.back().position_world.x += 1;
+  const SmokeLightPlan dropped = cache.plan(inputs());
+  EXPECT_FALSE(dropped.parts.empty());
+  EXPECT_GE(planned(cache, inputs()).shadow_rays.size(), dropped.shadow_rays.size());
+  EXPECT_TRUE(planned(cache, inputs()).parts.empty());
+}
+
+TEST_F(SmokeLightCacheTest, WhatTheDeviceHasNoRoomForIsPlannedFromTheStart) {
+  SmokeLightCache cache;
+  const SmokeLightPlan first = planned(cache, inputs());
+  const SmokeLightRoom held{first.texel_list_count, first.page_count};
+  SmokeLightInputs more = inputs();
+  more.room = held;
+  EXPECT_TRUE(planned(cache, more).parts.empty());
+  // A light more takes pages that the device has to make, and loses the others for.
+  lights_.push_back(lights_.front());
+  lights_.back().position_world.x += 1;
+  more = inputs();
+  more.room = held;
+  const SmokeLightPlan grown = planned(cache, more);
+  EXPECT_GT(grown.page_count, held.pages);
+  EXPECT_EQ(grown.shadow_rays.size(), planned(SmokeLightCache(), inputs()).shadow_rays.size());
+  // With room for it the others stay.
+  SmokeLightCache roomy;
+  lights_.pop_back();
+  planned(roomy, inputs());
+  lights_.push_back(lights_.front());
+  lights_.back().position_world.x += 1;
+  EXPECT_LT(planned(roomy, inputs()).shadow_rays.size(), grown.shadow_rays.size());
+}
+
 TEST_F(SmokeLightCacheTest, FollowsEveryLightOfEveryBrickOnceAndThenNothing) {
   SmokeLightCache cache;
-  const SmokeLightPlan first = cache.plan(inputs());
+  const SmokeLightPlan first = planned(cache, inputs());
   ASSERT_EQ(first.parts.size(), 1u);
   EXPECT_EQ(first.gathers.size(), visibility_.visible_count);
   EXPECT_EQ(first.texel_lists.size(), visibility_.visible_count);
@@ -80,16 +127,16 @@ TEST_F(SmokeLightCacheTest, FollowsEveryLightOfEveryBrickOnceAndThenNothing) {
         listed |= first.gathered_lights[brick.first_light + i].x == light;
       EXPECT_TRUE(listed);
     }
-  const SmokeLightPlan again = cache.plan(inputs());
+  const SmokeLightPlan again = planned(cache, inputs());
   EXPECT_TRUE(again.parts.empty() && again.shadow_rays.empty() && again.gathers.empty());
 }
 
 TEST_F(SmokeLightCacheTest, WhatDoesNotFitIsDoneInParts) {
-  const std::size_t all = SmokeLightCache().plan(inputs()).shadow_rays.size();
+  const std::size_t all = planned(SmokeLightCache(), inputs()).shadow_rays.size();
   const auto most = static_cast<std::uint32_t>(all / 3);
   SmokeLightCache cache(most);
   for (int repeat = 0; repeat < 2; ++repeat) {
-    const SmokeLightPlan plan = cache.plan(inputs());
+    const SmokeLightPlan plan = planned(cache, inputs());
     EXPECT_GT(plan.parts.size(), 2u);
     EXPECT_LE(plan.page_count, most);
     EXPECT_EQ(plan.shadow_rays.size(), all);
@@ -111,7 +158,7 @@ TEST_F(SmokeLightCacheTest, WhatDoesNotFitIsDoneInParts) {
 
 TEST_F(SmokeLightCacheTest, AHoleInvalidatesOnlyTheRaysThatMayCrossIt) {
   SmokeLightCache cache;
-  const std::size_t all = cache.plan(inputs()).shadow_rays.size();
+  const std::size_t all = planned(cache, inputs()).shadow_rays.size();
   // Along z through the first smoke; the last is 28 m away, and no light reaches from there to here.
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
@@ -121,14 +168,14 @@ TEST_F(SmokeLightCacheTest, AHoleInvalidatesOnlyTheRaysThatMayCrossIt) {
   hole.time_start = 1;
   hole.time_to_stay_open = 10;
   holes_ = {hole};
-  const SmokeLightPlan plan = cache.plan(inputs());
+  const SmokeLightPlan plan = planned(cache, inputs());
   EXPECT_GT(plan.shadow_rays.size(), 0u);
   EXPECT_LT(plan.shadow_rays.size(), all);
   // The rays to all lights from the smoke that it goes through.
   const auto in_first = [&](std::uint32_t slot) {
     return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12;
   };
-  const SmokeLightPlan whole = SmokeLightCache().plan(inputs());
+  const SmokeLightPlan whole = planned(SmokeLightCache(), inputs());
   std::multiset<std::uint32_t> lights, whole_lights;
   for (const auto& rays : plan.shadow_rays)
     if (volume_.brick_of(rays.slot) == glm::ivec3(1, 0, 2)) lights.insert(rays.light);
@@ -186,7 +233,7 @@ TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
     SmokeLightInputs now = inputs();
     now.look.erosion = 0.5f;
     now.update_fraction = fraction;
-    const double all = ages.take(cache.plan(now), 0);
+    const double all = ages.take(planned(cache, now), 0);
     EXPECT_EQ(ages.size(), visibility_.visible_count * shared::kLightPhases) << "at first all is updated";
     // What there is of it: 1/2, 1/4, ... 1/16.
     const double part = std::max(std::exp2(std::floor(std::log2(double{fraction}))), 1.0 / 16);
@@ -195,7 +242,7 @@ TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
     for (std::uint32_t frame = 1; frame < 100; ++frame) {
       now.time += 0.01f;
       now.eye_world.x += 0.1f;
-      const double followed = ages.take(cache.plan(now), frame);
+      const double followed = ages.take(planned(cache, now), frame);
       oldest = std::max(oldest, ages.oldest(frame));
       // Every brick was new in the first frame, and is updated four times as fast until all of it was.
       if (frame < 4) continue;
@@ -206,8 +253,8 @@ TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
     EXPECT_GT(oldest, 0u);
     // And then nothing happens.
     const auto left = static_cast<int>(std::ceil(1 / std::max(fraction, 1.0f / 16)));
-    for (int i = 0; i < left; ++i) cache.plan(now);
-    EXPECT_TRUE(cache.plan(now).parts.empty());
+    for (int i = 0; i < left; ++i) planned(cache, now);
+    EXPECT_TRUE(planned(cache, now).parts.empty());
   }
 }
 
@@ -220,7 +267,7 @@ TEST_F(SmokeLightCacheTest, BricksWhoseSmokeChangesAreUpdatedTwiceAsFast) {
   std::uint32_t frame = 0;
   const auto draw = [&] {
     now.time += 0.01f;
-    const SmokeLightPlan& plan = cache.plan(now);
+    const SmokeLightPlan& plan = planned(cache, now);
     ages.take(plan, frame++);
     return plan.texel_lists;
   };
@@ -280,7 +327,7 @@ TEST_F(SmokeLightCacheTest, ALightThatComesOrGoesIsNeverLate) {
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
   now.update_fraction = 0.125f;
-  for (int i = 0; i < 12; ++i, now.time += 0.1f) cache.plan(now);
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) planned(cache, now);
   std::vector<shared::Light> with = lights_;
   with.push_back(lights_[4]);
   with.back().position_world.y = 3;
@@ -291,7 +338,7 @@ TEST_F(SmokeLightCacheTest, ALightThatComesOrGoesIsNeverLate) {
       if (brick.texels == shared::kAllTexels) slots.insert(brick.slot);
     return slots;
   };
-  const SmokeLightPlan come = cache.plan(now);
+  const SmokeLightPlan come = planned(cache, now);
   std::set<std::uint32_t> reached;
   for (const shared::ShadowRays& rays : come.shadow_rays)
     if (rays.light == 9) {
@@ -303,7 +350,7 @@ TEST_F(SmokeLightCacheTest, ALightThatComesOrGoesIsNeverLate) {
   EXPECT_EQ(bricks_of(come), reached);
   now.time += 0.1f;
   now.lights = lights_;
-  EXPECT_EQ(bricks_of(cache.plan(now)), reached);
+  EXPECT_EQ(bricks_of(planned(cache, now)), reached);
 }
 
 TEST_F(SmokeLightCacheTest, TexelsInAHoleThatChangesAreNeverLate) {
@@ -311,7 +358,7 @@ TEST_F(SmokeLightCacheTest, TexelsInAHoleThatChangesAreNeverLate) {
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
   now.update_fraction = 0.125f;
-  for (int i = 0; i < 12; ++i, now.time += 0.1f) cache.plan(now);
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) planned(cache, now);
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
   hole.forward = {0, 0, 1};
@@ -321,7 +368,7 @@ TEST_F(SmokeLightCacheTest, TexelsInAHoleThatChangesAreNeverLate) {
   hole.time_to_stay_open = 10;
   holes_ = {hole};
   now.holes = holes_;
-  const SmokeLightPlan plan = cache.plan(now);
+  const SmokeLightPlan plan = planned(cache, now);
   std::set<std::uint32_t> listed;
   for (const shared::TexelList& row : plan.texel_lists) {
     listed.insert(row.slot);

@@ -49,9 +49,11 @@ class SmokeShadowCacheTest : public ::testing::Test {
     inputs_.lights = lights_;
     inputs_.holes = &holes_;
     inputs_.noise = &noise_;
-    return cache_.update(
+    auto update = cache_.update(
         plan_smoke_shadows({lights_, glm::mat4(1), camera_}, smoke_boxes(volume_, visibility_), {1024, 256}),
         inputs_);
+    if (commits_) cache_.commit();
+    return update;
   }
   /// Expects that something changed, and that it is up to date then.
   void expect_one_update(const char* what) {
@@ -82,6 +84,7 @@ class SmokeShadowCacheTest : public ::testing::Test {
   NoisePlan noise_;
   SmokeShadowInputs inputs_;
   SmokeShadowCache cache_;
+  bool commits_ = true;
 };
 
 TEST_F(SmokeShadowCacheTest, ACameraThatFliesMarchesNothing) {
@@ -101,6 +104,23 @@ TEST_F(SmokeShadowCacheTest, ACameraThatFliesMarchesNothing) {
   EXPECT_FALSE(update());
   cache_.invalidate();
   EXPECT_TRUE(update());
+}
+
+TEST_F(SmokeShadowCacheTest, AFrameThatIsNotCommittedIsPlannedAgain) {
+  for (const bool commits : {false, false, true}) {
+    commits_ = commits;
+    EXPECT_TRUE(update());
+  }
+  EXPECT_FALSE(update());
+  // A quarter of the texels: the same one until it is drawn.
+  inputs_.update_fraction = 0.25f;
+  inputs_.rebuild = true;
+  const glm::uvec2 first = update()->first;
+  inputs_.rebuild = false;
+  commits_ = false;
+  const glm::uvec2 second = update()->first;
+  EXPECT_NE(second, first);
+  EXPECT_EQ(update()->first, second);
 }
 
 TEST_F(SmokeShadowCacheTest, WhatIsReadIsMarchedAgain) {
@@ -129,8 +149,10 @@ TEST_F(SmokeShadowCacheTest, VolumesAloneAreMarchedAgainWhenTheyChange) {
     inputs_.holes = &holes_;
     inputs_.noise = &noise_;
     const Box<float> volume{glm::vec3(6, 0, 6), glm::vec3(10, 4, 10)};
-    return cache_.update(
+    auto update = cache_.update(
         plan_smoke_shadows({lights_, glm::mat4(1), camera_}, std::vector{volume}, {1024, 256}), inputs_);
+    cache_.commit();
+    return update;
   };
   EXPECT_TRUE(update_alone());
   EXPECT_FALSE(update_alone());

@@ -76,8 +76,16 @@ class VolumeLightCacheTest : public testing::Test {
     media.volumes = {visible};
     media.sun = 0;
     media.frame.to_sun = -lights_[0].direction;
-    return cache_.plan({&media, inputs_, lights_, nullptr, {}, time_, {}, rebuild_});
+    VolumeLightPlan plan =
+        cache_.plan({&media, inputs_, lights_, nullptr, {}, time_, {}, rebuild_, 0, room_});
+    if (commits_) {
+      cache_.commit();
+      room_ = {plan.edge, plan.sun_edge, 1, 1};
+    }
+    return plan;
   }
+  VolumeLightRoom room_;
+  bool commits_ = true;
 
   std::unique_ptr<volume::SparseVolume> volume_;
   std::vector<VolumeInput> inputs_;
@@ -135,6 +143,25 @@ TEST_F(VolumeLightCacheTest, UpdatesOnlyWhereAnInputOfTheLightChanged) {
   EXPECT_FALSE(plan().update);
   cache_.invalidate();
   EXPECT_TRUE(plan().update);
+}
+
+TEST_F(VolumeLightCacheTest, AFrameThatIsNotCommittedIsPlannedAgain) {
+  commits_ = false;
+  EXPECT_TRUE(plan().update);
+  EXPECT_TRUE(plan().update);
+  commits_ = true;
+  EXPECT_TRUE(plan().update);
+  EXPECT_FALSE(plan().update);
+}
+
+TEST_F(VolumeLightCacheTest, LightIsFoundAgainWhereTheDeviceHasNoRoomForIt) {
+  plan();
+  for (const VolumeLightRoom& less : {VolumeLightRoom{1, room_.sun_edge, 1, 1}, {room_.edge, 1, 1, 1},
+                                      {room_.edge, room_.sun_edge, 0, 1}}) {
+    EXPECT_FALSE(plan().update);
+    room_ = less;
+    EXPECT_TRUE(plan().update);
+  }
 }
 
 TEST_F(VolumeLightCacheTest, ADenseVolumeHasACellPerVoxel) {

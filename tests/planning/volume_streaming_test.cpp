@@ -42,8 +42,11 @@ class VolumeStreamingTest : public testing::Test {
     return ViewFrustum(device_camera(camera, {160, 90}));
   }
   std::vector<VolumeResidency> plan(std::uint64_t budget) {
-    return streaming_.plan(inputs_, frustum_of(camera_), camera_.position_world, budget);
+    auto residency = streaming_.plan(inputs_, frustum_of(camera_), camera_.position_world, budget);
+    if (commits_) streaming_.commit();
+    return residency;
   }
+  bool commits_ = true;
   /// Around a cube of voxels, without the code that is tested.
   static WorldSphere sphere(const VolumeInput& volume, glm::ivec3 first, int edge) {
     const glm::vec3 middle = glm::vec3(first) + 0.5f * static_cast<float>(edge);
@@ -185,6 +188,19 @@ TEST_F(VolumeStreamingTest, ATinyBudgetEnds) {
   EXPECT_EQ(frames, 1 + static_cast<int>(other_->slot_count()));
 }
 
+TEST_F(VolumeStreamingTest, AFrameThatIsNotCommittedIsPlannedAgain) {
+  upload(plan(300000));
+  commits_ = false;
+  const auto dropped = plan(300000);
+  EXPECT_FALSE(dropped[0].volume.slots.empty());
+  commits_ = true;
+  const auto again = plan(300000);
+  const auto next = plan(300000);
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    EXPECT_EQ(again[i].volume.slots, dropped[i].volume.slots);
+  EXPECT_NE(next[0].volume.slots, again[0].volume.slots);
+}
+
 TEST_F(VolumeStreamingTest, WhatIsLostComesAgain) {
   upload(plan(0));
   for (auto& slots : resident_) slots.clear();
@@ -217,6 +233,7 @@ TEST_F(VolumeStreamingTest, TheOrderIsAFunctionOfItsInputs) {
   for (int frame = 0; frame < 10; ++frame) {
     const auto a = plan(300000);
     const auto b = again.plan(inputs_, frustum_of(camera_), camera_.position_world, 300000);
+    again.commit();
     for (std::size_t i = 0; i < inputs_.size(); ++i) EXPECT_EQ(a[i].volume.slots, b[i].volume.slots);
   }
 }

@@ -118,10 +118,10 @@ TEST_F(HostTest, DrawsMediaOverSurfacesOfTheHost) {
       whole.draw(input);
       const gpu::Image& depth = whole.targets().gbuffer.depth;
       const gpu::Image lent(
-          {depth.handle(), depth.view(), depth.info().format, kSize, depth.last_use.layout});
+          {depth.handle(), depth.view(), depth.info().format, kSize, depth.last_use.get(context()).layout});
       const FramePlan plan = alone.plan(input);
       runner().run([&](gpu::Recorder& recorder) {
-        alone.record_media_over(recorder, plan, {lent, {planning::kNearPlane, INFINITY, true}});
+        alone.record_over(recorder, plan, {.surfaces = {lent, {planning::kNearPlane, INFINITY, true}}});
       });
       const Texels media = read_back<std::uint64_t>(alone.media());
       EXPECT_GT(std::set(media.begin(), media.end()).size(), 30u);

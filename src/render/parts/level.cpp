@@ -1,4 +1,7 @@
-#include "render/scene_view.hpp"
+#include "render/parts/level.hpp"
+
+#include <algorithm>
+#include <iterator>
 
 #include "planning/device_lights.hpp"
 
@@ -19,13 +22,13 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
   return draws;
 }
 
-passes::PanePass::Needs pane_needs(const planning::FramePlan& plan) {
+passes::PanePass::Needs pane_needs(const FramePlan& plan) {
   return {planning::has_voxel_shadows(plan.lights), plan.media.casters};
 }
 
 }  // namespace
 
-SceneView::SceneView(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
+LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
     : context_(context),
       stream_(stream),
       source_(&scene),
@@ -40,18 +43,30 @@ SceneView::SceneView(gpu::Context& context, gpu::CommandStream& stream, const sc
   if (scene_.has_panes) pane_pass_.emplace(context);
 }
 
-void SceneView::reserve(const planning::FramePlan& plan) {
+void LevelPart::reserve(const FramePlan& plan) {
   const planning::LevelState& level = plan.input.level;
   solid_.reserve(level.voxels);
   sky_light_.reserve(solid_);
   reserve_indirect_light(plan);
   if (pane_pass_) pane_pass_->reserve(pane_needs(plan));
-  if (!plan.changed_objects.empty())
-    shadow_pass_.record_changed(context_, stream_, scene_, level.hidden_objects, plan.changed_objects,
-                                shadows_);
+  redraw_shadows(level.hidden_objects);
 }
 
-void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
+/// The maps are drawn at once, whatever becomes of the frame.
+void LevelPart::redraw_shadows(const std::vector<std::uint32_t>& hidden_objects) {
+  if (without_shadow_ == hidden_objects) return;
+  const std::optional<std::vector<std::uint32_t>> before = std::exchange(without_shadow_, std::nullopt);
+  if (before) {
+    std::vector<std::uint32_t> changed;
+    std::ranges::set_symmetric_difference(*before, hidden_objects, std::back_inserter(changed));
+    shadow_pass_.record_changed(context_, stream_, scene_, hidden_objects, changed, shadows_);
+  } else {
+    shadow_pass_.record(context_, stream_, scene_, hidden_objects, shadows_);
+  }
+  without_shadow_ = hidden_objects;
+}
+
+void LevelPart::reserve_indirect_light(const FramePlan& plan) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
   if (indirect.bounces == 0) return;
   if (indirect.level_changed) {
@@ -61,24 +76,26 @@ void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);
 }
 
-shared::IndirectLayout SceneView::indirect_layout(const planning::FramePlan& plan) const {
+shared::IndirectLayout LevelPart::indirect_layout(const FramePlan& plan) const {
   shared::IndirectLayout layout = light_cells_.layout;
   layout.bounces = plan.indirect_light.bounces;
   return layout;
 }
 
-void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
-                                      const gpu::Buffer& frame, const MediaResources& media) {
+void LevelPart::record_indirect_light(gpu::Recorder& recorder, const FramePlan& plan,
+                                      const FrameResources& resources) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
-  passes::IndirectLightPass::Inputs in{.frame = frame,
+  if (indirect.slices.count == 0) return;
+  const gpu::Scope timed(recorder, "indirect_light");
+  passes::IndirectLightPass::Inputs in{.frame = resources.frame,
                                        .shadows = shadows_,
                                        .solid = solid_,
-                                       .smoke = media.smoke,
-                                       .hole_cells = media.hole_cells,
-                                       .noise = media.noise,
-                                       .volumes = media.volumes,
+                                       .smoke = resources.smoke,
+                                       .hole_cells = resources.holes.cells,
+                                       .noise = resources.noise,
+                                       .volumes = resources.lit_volumes,
                                        .casters = plan.media.casters,
-                                       .glow_field = media.glow_field};
+                                       .glow_field = resources.glow_field};
   if (plan.input.smoke.volume && plan.input.smoke.volume->slot_count() > 0)
     in.g = shared::mean_cosine(plan.input.smoke.look.phase);
   else if (!plan.media.volumes.empty())
@@ -94,29 +111,33 @@ void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::F
   indirect_light_.record(recorder, in, indirect, cells);
 }
 
-void SceneView::record_lights(gpu::Recorder& recorder, const planning::FramePlan& plan) const {
+void LevelPart::upload(gpu::Recorder& recorder, const FramePlan& plan) const {
   recorder.upload(scene_.lights, 0, std::as_bytes(std::span(plan.lights)));
 }
 
-void SceneView::record_level(gpu::Recorder& recorder, const planning::FramePlan& plan,
-                             const gpu::Buffer& frame) {
-  if (solid_.record(recorder, plan.input.level.voxels)) sky_light_.record(recorder, frame, solid_);
+void LevelPart::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  if (solid_.record(recorder, plan.input.level.voxels)) sky_light_.record(recorder, in.frame, solid_);
 }
 
-void SceneView::record_gbuffer(gpu::Recorder& recorder, const planning::FramePlan& plan,
-                               const gpu::Buffer& frame, const passes::GBuffer& target) const {
+void LevelPart::record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan,
+                               const FrameResources& in) const {
   const planning::LevelState& level = plan.input.level;
   gbuffer_pass_.record(recorder, scene_, moving_draws(scene_, level), level.hidden_objects, plan.frustum,
-                       frame, target);
+                       in.frame, in.targets.gbuffer);
 }
 
-void SceneView::record_panes(gpu::Recorder& recorder, const planning::FramePlan& plan,
-                             const passes::PanePass::Inputs& in, const gpu::Image& radiance) const {
+void LevelPart::record_panes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                             const gpu::Image& media) const {
+  if (!scene_.has_panes) return;
+  const gpu::Scope timed(recorder, "panes");
   const planning::LevelState& level = plan.input.level;
   const std::vector<passes::Draw> moving = moving_draws(scene_, level);
   pane_pass_->record(
-      recorder, pane_needs(plan), in,
-      {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)}, radiance);
+      recorder, pane_needs(plan),
+      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.smoke,
+       in.holes.cells, in.lit_volumes},
+      {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)},
+      in.targets.radiance);
 }
 
 }  // namespace brume::render

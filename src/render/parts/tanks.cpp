@@ -1,4 +1,4 @@
-#include "render/tank_layer.hpp"
+#include "render/parts/tanks.hpp"
 
 #include <algorithm>
 
@@ -20,19 +20,19 @@ bool same_picture(const planning::TankPlan& a, const planning::TankPlan& b) {
 }
 
 /// Glass may be anywhere.
-bool may_be_seen(const TankInput& tank, const planning::ViewFrustum& frustum) {
+bool may_be_seen(const planning::TankInput& tank, const planning::ViewFrustum& frustum) {
   const float radius = 0.5f * tank.placement.scale * glm::length(planning::size_of(tank.content->tank));
   return tank.light->scene.glass || frustum.may_intersect({tank.placement.position_world, radius});
 }
 
 }  // namespace
 
-TankLayer::TankLayer(gpu::Context& context, gpu::CommandStream& stream, glm::uvec2 size_px)
+TanksPart::TanksPart(gpu::Context& context, gpu::CommandStream& stream, glm::uvec2 size_px)
     : context_(context), stream_(stream), layer_pass_(context), size_px_(size_px) {
   resize(size_px);
 }
 
-void TankLayer::resize(glm::uvec2 size_px) {
+void TanksPart::resize(glm::uvec2 size_px) {
   // Images of the frame's size are never refused.
   const gpu::Memory::Unlimited always(context_.memory());
   size_px_ = size_px;
@@ -46,18 +46,18 @@ void TankLayer::resize(glm::uvec2 size_px) {
 }
 
 /// That of the same tank which no other of this frame has, or a new one.
-TankLayer::Slot& TankLayer::slot_of(const TankInput& tank) {
+TanksPart::Slot& TanksPart::slot_of(const planning::TankInput& tank) {
   const auto found = std::ranges::find_if(
       slots_, [&](const Slot& slot) { return slot.content == tank.content && slot.frame < frame_; });
   if (found != slots_.end()) return *found;
   Slot& made = slots_.emplace_back(context_, stream_, *tank.content);
-  made.content = tank.content;
   const gpu::Memory::Unlimited always(context_.memory());
   made.sampler.resize(size_px_);
+  made.content = tank.content;  // last: a slot that failed is none's
   return made;
 }
 
-void TankLayer::plan(const TankInput& tank, const scene::Camera& camera) {
+void TanksPart::add(const planning::TankInput& tank, const scene::Camera& camera) {
   Slot& slot = slot_of(tank);
   const bool continues = tank.continues && slot.frame + 1 == frame_ && slot.light == tank.light &&
                          slot.view == tank.view && slot.sampler.samples() > 0;
@@ -76,27 +76,31 @@ void TankLayer::plan(const TankInput& tank, const scene::Camera& camera) {
   slot.samples = std::min(tank.samples, kMostSamples - slot.sampler.samples());
 }
 
-void TankLayer::plan(std::span<const TankInput> tanks, const scene::Camera& camera) {
+void TanksPart::prepare(const FrameInput& input) {
+  const scene::Camera& camera = input.view.camera;
   ++frame_;
   shown_.clear();
+  has_tanks_ = !input.tanks.empty();
   std::erase_if(slots_, [&](const Slot& slot) { return slot.frame + kKeptFrames < frame_; });
-  std::vector<const TankInput*> far_first;
-  for (const TankInput& tank : tanks) far_first.push_back(&tank);
-  const auto distance = [&](const TankInput* tank) {
+  std::vector<const planning::TankInput*> far_first;
+  for (const planning::TankInput& tank : input.tanks) far_first.push_back(&tank);
+  const auto distance = [&](const planning::TankInput* tank) {
     return glm::distance(tank->placement.position_world, camera.position_world);
   };
   std::ranges::stable_sort(far_first, std::ranges::greater(), distance);
   const planning::ViewFrustum frustum(planning::device_camera(camera, size_px_));
-  for (const TankInput* tank : far_first)
-    if (may_be_seen(*tank, frustum)) plan(*tank, camera);
+  for (const planning::TankInput* tank : far_first)
+    if (may_be_seen(*tank, frustum)) add(*tank, camera);
 }
 
-void TankLayer::record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth,
+void TanksPart::record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth,
                                 const gpu::Image& blue_noise) {
   for (Slot* slot : shown_) slot->sampler.record_samples(recorder, blue_noise, slot->samples, &depth);
 }
 
-void TankLayer::record_layers(gpu::Recorder& recorder, const gpu::Image& media) {
+void TanksPart::record_layers(gpu::Recorder& recorder, const gpu::Image& media) {
+  recorder.change(has_layers_) = has_tanks_;
+  if (!has_tanks_) return;
   const gpu::Scope timed(recorder, "tank_layers");
   layer_pass_.begin(recorder, layers_);
   for (const Slot* slot : shown_) layer_pass_.add(recorder, slot->sampler.radiance(), layers_);

@@ -1,0 +1,49 @@
+#include "render/parts/decals.hpp"
+
+namespace brume::render {
+
+void SlicesPart::prepare(const FrameInput& input) {
+  if (input.slices == loaded_ && slices_) return;
+  std::vector<std::span<const grids::DenseGrid>> volumes;
+  if (input.slices)
+    for (const auto& volume : *input.slices) volumes.emplace_back(*volume);
+  if (volumes.empty() && !slices_) return;
+  slices_.emplace(passes::SliceTextures::create(context_, stream_, volumes).value_or_throw());
+  loaded_ = input.slices;
+}
+
+void DecalsPart::resize() {
+  pass_.reset();
+  shown_.change(context_).occlusion = nullptr;
+}
+
+void DecalsPart::reserve(glm::uvec2 size_px) {
+  if (!pass_) pass_.emplace(context_, size_px);
+}
+
+void DecalsPart::upload(gpu::Recorder& recorder, const FramePlan& plan, const SlicesPart& slices) {
+  if (plan.decals.empty()) return;
+  FrameVector<shared::Decal> decals(&recorder.memory());
+  decals.reserve(plan.decals.size());
+  for (const planning::PlacedDecal& placed : plan.decals) {
+    decals.push_back(placed.decal);
+    decals.back().occlusion = slices.textures()[placed.volume];
+  }
+  pass_->upload(recorder, decals);
+}
+
+void DecalsPart::begin(gpu::Recorder& recorder, const FramePlan& plan) {
+  recorder.change(shown_) = {!plan.input.decals.empty(), nullptr};
+  if (plan.decals.empty()) forget(recorder);
+}
+
+void DecalsPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                        const SlicesPart& slices, bool smooths) {
+  if (plan.decals.empty()) pass_->upload(recorder, {});
+  pass_->record(recorder, in.frame, plan.camera, in.targets.gbuffer, in.blue_noise, slices.image(),
+                plan.input.view.continues && smooths);
+  recorder.change(shown_) = {true, &pass_->occlusion()};
+  if (plan.decals.empty()) forget(recorder);
+}
+
+}  // namespace brume::render

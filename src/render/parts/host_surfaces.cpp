@@ -1,0 +1,50 @@
+#include "render/parts/host_surfaces.hpp"
+
+#include <algorithm>
+
+#include "planning/device_lights.hpp"
+
+namespace brume::render {
+
+void HostSurfacesPart::reserve_normals(Targets& targets) {
+  if (!normal_pass_) normal_pass_.emplace(context_);
+  if (!targets.gbuffer.normal_metallic) targets.gbuffer.add_imported_normals(context_);
+}
+
+void HostSurfacesPart::reserve_shadows(glm::uvec2 size_px) {
+  if (!shadow_pass_) shadow_pass_.emplace(context_);
+  if (shadows_) return;
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  shadows_ = gpu::Image(context_, info);
+}
+
+void HostSurfacesPart::record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                                    const HostSurfaces& surfaces) const {
+  import_pass_.record(recorder, surfaces.depth, surfaces.range, plan.camera.near_z, in.targets.gbuffer);
+}
+
+void HostSurfacesPart::record_normals(gpu::Recorder& recorder, const FrameResources& in,
+                                      const HostSurfaces& surfaces) const {
+  normal_pass_->record(recorder, in.frame, surfaces.normals, in.targets.gbuffer);
+}
+
+void HostSurfacesPart::record_shadows(gpu::Recorder& recorder, const FramePlan& plan,
+                                      const FrameResources& in, std::span<const std::uint32_t> lights) {
+  const gpu::Scope timed(recorder, "shadows");
+  shadow_pass_->record(recorder,
+                       {in.frame, in.scene.lights, in.shadows.sun, in.smoke_shadows, in.targets.gbuffer.depth},
+                       planning::planned_lights(plan.lights, in.scene.light_list,
+                                                plan.input.environment.flashes, lights),
+                       shadows_);
+}
+
+void HostSurfacesPart::record_layer(gpu::Recorder& recorder, const passes::MediaLayerPass::Layer& layer,
+                                    const gpu::Image& picture) const {
+  const gpu::Scope timed(recorder, "layer");
+  layer_pass_.record(recorder, layer, picture);
+}
+
+}  // namespace brume::render

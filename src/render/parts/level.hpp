@@ -1,0 +1,61 @@
+// The level of a frame, as any kind of frame draws it: surfaces, shadow maps, and the light that it lets through.
+#pragma once
+
+#include "passes/gbuffer.hpp"
+#include "passes/indirect_light.hpp"
+#include "passes/panes.hpp"
+#include "render/parts/frame_part.hpp"
+
+namespace brume::render {
+
+class LevelPart {
+ public:
+  /// Uploads the scene and draws its shadows. All three must outlive the part. Throws resource_limit.
+  LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene);
+
+  /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
+  /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
+  void reserve(const FramePlan& plan);
+  /// The level of the next plan may be another one of the same layout, or none.
+  void invalidate() { solid_.invalidate(); }
+
+  /// Uploads the lights of a plan.
+  void upload(gpu::Recorder& recorder, const FramePlan& plan) const;
+  /// Updates solid voxels and sky light where the level changed.
+  void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  /// Finds the indirect light of a plan, after the upload of its media and the holes in them.
+  void record_indirect_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  /// Draws the surfaces, grenades in the air included.
+  void record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) const;
+  /// Draws the panes over the picture, in front of `media`. Where there are any.
+  void record_panes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                    const gpu::Image& media) const;
+
+  bool has_panes() const { return scene_.has_panes; }
+  /// Where indirect light is known; without bounces where there is none.
+  shared::IndirectLayout indirect_layout(const FramePlan& plan) const;
+  const passes::SceneResources& resources() const { return scene_; }
+  const passes::ShadowMaps& shadows() const { return shadows_; }
+  passes::LevelLight light() const { return {solid_, sky_light_, indirect_light_.cube()}; }
+
+ private:
+  void reserve_indirect_light(const FramePlan& plan);
+  void redraw_shadows(const std::vector<std::uint32_t>& hidden_objects);
+
+  gpu::Context& context_;
+  gpu::CommandStream& stream_;
+  const scene::Scene* source_;
+  passes::SceneResources scene_;
+  passes::GBufferPass gbuffer_pass_;
+  std::optional<passes::PanePass> pane_pass_;  ///< Where the scene has panes.
+  passes::ShadowPass shadow_pass_;
+  passes::ShadowMaps shadows_;
+  /// The objects without a shadow in the maps, rising; empty: a failure left the maps undefined.
+  std::optional<std::vector<std::uint32_t>> without_shadow_ = std::vector<std::uint32_t>();
+  passes::SolidVolume solid_;
+  passes::SkyLightPass sky_light_;
+  passes::IndirectLightPass indirect_light_;
+  reference::LightCells light_cells_;  ///< Of the last plan with indirect light.
+};
+
+}  // namespace brume::render
