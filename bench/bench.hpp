@@ -60,6 +60,8 @@ class Bench {
     return options_.repetitions > 0 ? options_.repetitions : standard;
   }
   bool has_context() const { return context_ != nullptr; }
+  /// Whether the device is a processor, on which cases are smaller and repeated less often.
+  bool is_slow() { return context().info().kind == gpu::DeviceKind::cpu; }
 
  private:
   BenchOptions options_;

@@ -57,7 +57,7 @@ Result<scenario::Scenario> volume_scenario(const grids::CloudSettings& settings,
 Result<std::vector<Measurement>> measure(Bench& bench, const std::string& name,
                                          const scenario::Scenario& scenario, float step_scale) {
   render::RendererOptions options;
-  options.size_px = bench.context().info().kind == "cpu" ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
+  options.size_px = bench.is_slow() ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
   const FrameTimes times =
       time_frames(bench, name, scenario, options, 0,
                   [step_scale](planning::Quality& quality) { quality.step_scale = step_scale; });

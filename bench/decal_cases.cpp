@@ -16,7 +16,7 @@ Result<std::vector<Measurement>> time_decals(Bench& bench, const std::string& na
                                              Spread spread, bool continues) {
   const auto scenario = scenario::load_scenario(scene_file("flyby/flyby.toml"), {});
   if (!scenario) return scenario.failure();
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
   options.smoke.temporal = continues;

@@ -61,7 +61,7 @@ std::uint32_t RepeatedFrame::texture_samples() const {
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
                        const render::RendererOptions& options, double seconds,
                        const std::function<void(planning::Quality&)>& change) {
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   const unsigned count = bench.repetitions(slow ? 3 : 200);
   const VkDeviceSize before = bench.context().memory().bytes_in_use();
   RepeatedFrame frame(bench.context(), scenario, options, seconds);

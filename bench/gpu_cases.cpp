@@ -97,7 +97,7 @@ Result<std::vector<Measurement>> indirect_light(Bench& bench) {
   options.size_px = {64, 36};
   RepeatedFrame frame(bench.context(), *scenario, options, kGrown);
   frame.input().quality.indirect_update_fraction = 1;
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
   std::vector<double> milliseconds;
   for (unsigned i = 0; i < bench.repetitions(slow ? 3 : 200); ++i)
@@ -148,7 +148,7 @@ Result<std::vector<Measurement>> motel_frames(Bench& bench) {
     if (!scenario) return scenario.failure();
     render::RendererOptions options;
     options.size_px = {1920, 1080};
-    options.smoke.march_scale = bench.context().info().kind == "cpu" ? 4 : 2;
+    options.smoke.march_scale = bench.is_slow() ? 4 : 2;
     options.smoke.masks = &scenario->masks;
     const std::string name = holes > 0 ? "frame/motel_holes" : "frame/motel";
     results.push_back(time_frames(bench, name, *scenario, options, kGrown).all);
@@ -158,7 +158,7 @@ Result<std::vector<Measurement>> motel_frames(Bench& bench) {
 
 /// The frame with increasing numbers of holes, with clustered culling and with a plain loop over all of them.
 Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bool from_all_around) {
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   std::vector<Measurement> results;
   for (const bool plain : {false, true}) {
     double none = 0;
@@ -204,7 +204,7 @@ Result<std::vector<Measurement>> light_cache(Bench& bench) {
   auto scenario = smoke_in_the_yard(yard);
   if (!scenario) return scenario.failure();
   scenario->timeline.smoke.erosion = 0;
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(96, 54) : glm::uvec2(1920, 1080);
   RepeatedFrame frame(bench.context(), *scenario, options, kGrown);

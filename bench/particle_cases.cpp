@@ -63,7 +63,7 @@ class ExhaustFrame {
   }
   /// GPU time of passes together.
   Measurement time(const std::string& name, std::initializer_list<const char*> passes) {
-    const bool slow = bench_.context().info().kind == "cpu";
+    const bool slow = bench_.is_slow();
     std::vector<double> times;
     for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame_.draw();
     for (unsigned i = 0; i < bench_.repetitions(slow ? 3 : 200); ++i) {
@@ -79,7 +79,7 @@ class ExhaustFrame {
   static render::RendererOptions options_of(Bench& bench, std::uint32_t march_scale) {
     render::RendererOptions options;
     options.smoke.march_scale = march_scale;
-    options.size_px = bench.context().info().kind == "cpu" ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
+    options.size_px = bench.is_slow() ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
     return options;
   }
 

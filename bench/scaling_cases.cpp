@@ -69,7 +69,7 @@ Result<scenario::Scenario> scenario_of(scene::Scene scene, const std::vector<glm
 Result<Measurement> time_scenario(Bench& bench, const std::string& name,
                                   const Result<scenario::Scenario>& scenario) {
   if (!scenario) return scenario.failure();
-  const bool slow = bench.context().info().kind == "cpu";
+  const bool slow = bench.is_slow();
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
   Measurement m = time_frames(bench, name, *scenario, options, kBloomed).all;

@@ -19,10 +19,6 @@ namespace {
 constexpr glm::uvec3 kSize(600, 600, 200);
 constexpr glm::uvec2 kPicture(1920, 1080);
 
-bool is_slow(Bench& bench) {
-  return bench.context().info().kind == "cpu";
-}
-
 spheres::PackOptions pack_options(std::uint32_t count, float opacity = 1) {
   spheres::PackOptions options;
   options.size = kSize;
@@ -44,7 +40,7 @@ const spheres::Tank& tank_of(std::uint32_t count, float opacity = 1) {
 Measurement time_pass(Bench& bench, gpu::CommandRunner& runner, const std::string& name,
                       const std::vector<std::string>& passes,
                       const std::function<void(gpu::Recorder&)>& record) {
-  const bool slow = is_slow(bench);
+  const bool slow = bench.is_slow();
   for (unsigned i = 0; i < (slow ? 1u : 20u); ++i) runner.run(record);
   std::vector<double> times;
   for (unsigned i = 0; i < bench.repetitions(slow ? 3 : 100); ++i) {
@@ -115,7 +111,7 @@ struct Picture {
 };
 
 Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& picture) {
-  const glm::uvec2 size = is_slow(bench) ? glm::uvec2(640, 360) : kPicture;
+  const glm::uvec2 size = bench.is_slow() ? glm::uvec2(640, 360) : kPicture;
   const spheres::Tank& tank = tank_of(picture.spheres, picture.opacity);
   scene::TankScene scene = scene::scene_of_tank_file({});
   scene.view = picture.view;
@@ -151,7 +147,7 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
 
 /// The same in a frame, over its surfaces, of which there are none.
 Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture) {
-  const glm::uvec2 size = is_slow(bench) ? glm::uvec2(640, 360) : kPicture;
+  const glm::uvec2 size = bench.is_slow() ? glm::uvec2(640, 360) : kPicture;
   const spheres::Tank& tank = tank_of(picture.spheres, picture.opacity);
   planning::FrameInput frame;
   planning::TankInput& input = frame.tanks.emplace_back();
@@ -205,7 +201,7 @@ Result<std::vector<Measurement>> lens_case(Bench& bench, std::uint32_t blades) {
       const gpu::Scope scope(recorder, "points");
       recorder.bind(pipeline, {{shared::kBindLensSums, gpu::write(sums)}},
                     shared::LensPointsParams{kPoints, blades});
-      recorder.dispatch_threads(pipeline, is_slow(bench) ? kThreads / 64 : kThreads);
+      recorder.dispatch_threads(pipeline, bench.is_slow() ? kThreads / 64 : kThreads);
     }));
   }
   return measured;

@@ -20,13 +20,13 @@ void list_devices(const std::string& json) {
   for (const gpu::DeviceInfo& device : gpu::list_system_devices()) {
     devices.push_back({{"number", number},
                        {"name", device.name},
-                       {"kind", device.kind},
+                       {"kind", gpu::name_of(device.kind)},
                        {"driver", device.driver},
                        {"vulkan", version_text(device.api_version)},
                        {"memory_bytes", device.memory_bytes},
                        {"unsupported", device.unsupported}});
-    text += std::to_string(number) + "  " + device.name + "  (" + device.kind + ", " + device.driver +
-            ", Vulkan " + version_text(device.api_version) + ", " +
+    text += std::to_string(number) + "  " + device.name + "  (" + gpu::name_of(device.kind) + ", " +
+            device.driver + ", Vulkan " + version_text(device.api_version) + ", " +
             std::to_string(device.memory_bytes >> 20) + " MiB)" +
             (device.unsupported.empty() ? "" : "  unsupported: " + device.unsupported) + "\n";
     ++number;

@@ -83,7 +83,7 @@ std::string device_of(const Options& options) {
   std::vector<std::size_t> gpus;
   const std::vector<gpu::DeviceInfo> devices = gpu::list_system_devices();
   for (std::size_t i = 0; i < devices.size(); ++i)
-    if (devices[i].kind != "cpu" && devices[i].unsupported.empty()) gpus.push_back(i);
+    if (devices[i].kind != gpu::DeviceKind::cpu && devices[i].unsupported.empty()) gpus.push_back(i);
   return gpus.empty() ? "" : std::to_string(gpus[static_cast<std::size_t>(here) % gpus.size()]);
 }
 

@@ -92,6 +92,7 @@ void Context::create_device(const Presentation& presentation) {
 }
 
 void Context::read_properties() {
+  tuning_ = tuning_for(info_.kind);
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   VkPhysicalDeviceMaintenance3Properties maintenance{};

@@ -11,6 +11,7 @@
 #include "gpu/functions.hpp"
 #include "gpu/instance.hpp"
 #include "gpu/memory.hpp"
+#include "gpu/tuning.hpp"
 
 namespace brume::gpu {
 
@@ -79,6 +80,7 @@ class Context {
   const Functions& vk() const { return vk_; }
   VkDevice device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
+  const Tuning& tuning() const { return tuning_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   /// The largest allocation of memory that the device promises.
   std::uint64_t max_allocation_bytes() const { return max_allocation_bytes_; }
@@ -130,6 +132,7 @@ class Context {
   std::unique_ptr<Instance> instance_;  // null: the device is the host's
   Functions vk_;
   DeviceInfo info_;
+  Tuning tuning_;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkSemaphore done_ = VK_NULL_HANDLE;  // timeline

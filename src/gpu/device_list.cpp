@@ -9,18 +9,18 @@
 namespace brume::gpu {
 namespace {
 
-const char* kind_name(VkPhysicalDeviceType type) {
+DeviceKind kind_of(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return "discrete";
+      return DeviceKind::discrete;
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return "integrated";
+      return DeviceKind::integrated;
     case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return "virtual";
+      return DeviceKind::virtual_gpu;
     case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return "cpu";
+      return DeviceKind::cpu;
     default:
-      return "other";
+      return DeviceKind::other;
   }
 }
 
@@ -59,13 +59,26 @@ std::string lower(std::string text) {
 
 int speed_rank(const DeviceInfo& device) {
   if (!device.unsupported.empty()) return 0;
-  if (device.kind == "discrete") return 5;
-  if (device.kind == "integrated") return 4;
-  if (device.kind == "virtual") return 3;
-  return device.kind == "cpu" ? 1 : 2;
+  return 1 + static_cast<int>(device.kind);
 }
 
 }  // namespace
+
+const char* name_of(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::discrete:
+      return "discrete";
+    case DeviceKind::integrated:
+      return "integrated";
+    case DeviceKind::virtual_gpu:
+      return "virtual";
+    case DeviceKind::cpu:
+      return "cpu";
+    case DeviceKind::other:
+      break;
+  }
+  return "other";
+}
 
 std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
   std::uint32_t count = 0;
@@ -86,7 +99,7 @@ std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
     info.handle = handle;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    info.kind = kind_name(properties.properties.deviceType);
+    info.kind = kind_of(properties.properties.deviceType);
     info.api_version = properties.properties.apiVersion;
     info.unsupported = missing_feature(vk, handle, info.api_version);
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {

@@ -8,10 +8,15 @@
 
 namespace brume::gpu {
 
+/// From the slowest to the fastest.
+enum class DeviceKind { cpu, other, virtual_gpu, integrated, discrete };
+/// "discrete", "integrated", "virtual", "cpu" or "other".
+const char* name_of(DeviceKind kind);
+
 struct DeviceInfo {
   std::string name;    ///< As reported by the driver.
   std::string driver;  ///< Driver name and version.
-  std::string kind;    ///< "discrete", "integrated", "virtual", "cpu" or "other".
+  DeviceKind kind = DeviceKind::other;
   std::uint32_t api_version = 0;
   std::uint64_t memory_bytes = 0;  ///< The largest device-local heap.
   std::string unsupported;         ///< Why it cannot be used; empty if it can.

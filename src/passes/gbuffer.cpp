@@ -20,12 +20,6 @@ gpu::Image target_image(gpu::Context& context, glm::uvec2 size, VkFormat format,
 constexpr VkFormat kFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16B16A16_SFLOAT,
                                  VK_FORMAT_R16G16B16A16_SFLOAT};
 
-/// Floors stay sharp towards the horizon; 16 looks the same. Without a GPU it would double the time of the
-/// pass.
-float anisotropy_on(const gpu::Context& context) {
-  return context.info().kind == "cpu" ? 1 : 8;
-}
-
 /// Writes depth and, with a fragment shader, all targets.
 gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::ShaderCode* fragment) {
   gpu::GraphicsInfo info{&vertex, fragment, {}};
@@ -84,11 +78,11 @@ GBufferPass::DepthFirst::DepthFirst(gpu::Context& context)
       dull(context, dull_info()),
       clear(context, shaders::gbuffer_clear_comp) {}
 
-GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.info().kind != "cpu") {}
+GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.tuning().depth_first) {}
 
 GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
     : pipeline_(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag)),
-      maps_(context, anisotropy_on(context)) {
+      maps_(context, context.tuning().surface_anisotropy) {
   if (!depth_first) return;
   depth_first_.emplace(context);
 }

@@ -30,8 +30,7 @@ class GBufferPass {
  public:
   /// In the form that suits the device.
   explicit GBufferPass(gpu::Context& context);
-  /// `depth_first`: draws all surfaces twice, so that hidden ones write no material. The same surfaces.
-  /// Faster where a fragment costs more than a vertex, hence not without a GPU.
+  /// `depth_first`: as in gpu::Tuning. The same surfaces.
   GBufferPass(gpu::Context& context, bool depth_first);
   /// Draws the scene and `moving`, without `hidden` objects and draws outside of `view`.
   /// `frame` holds FrameConstants.

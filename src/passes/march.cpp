@@ -44,8 +44,6 @@ MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t 
 MarchPass::MarchPass(gpu::Context& context, const Options& options)
     : context_(context),
       options_(options),
-      block_steps_(context.info().kind == "cpu" ? 1 : 4),
-      split_by_holes_(context.info().kind == "cpu"),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       repeat_mips_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}),
@@ -64,15 +62,16 @@ std::uint32_t MarchPass::holes_of(const Inputs& in) const {
 }
 
 void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
+  const gpu::Tuning& tuning = context_.tuning();
   const bool several = (media & shared::kMediumSeveral) != 0;
   const gpu::ShaderCode& code = several ? shaders::march_several_comp : shaders::march_comp;
   for (const std::uint32_t kind : {shared::kRaysOfPixels, shared::kRaysOfTiles, shared::kRaysOfList}) {
     if (rays == (kind == shared::kRaysOfPixels ? MarchRays::of_tiles : MarchRays::of_pixels)) continue;
     for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)}) {
       if (pipelines_.contains({kind, holes, media})) continue;
-      pipelines_.try_emplace(
-          {kind, holes, media}, context_, code,
-          std::vector{counts_of(options_), kind, holes, media, block_steps_, split_by_holes_ ? 1u : 0u});
+      pipelines_.try_emplace({kind, holes, media}, context_, code,
+                             std::vector{counts_of(options_), kind, holes, media, tuning.march_block_steps,
+                                         tuning.split_march_by_holes ? 1u : 0u});
     }
   }
 }
@@ -85,7 +84,7 @@ void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inpu
     recorder.dispatch_threads(pipeline, rays.smoke.info().size.x, rays.smoke.info().size.y);
   };
   const std::uint32_t holes = holes_of(in);
-  if (holes != shared::kHolesClustered || !split_by_holes_) return dispatch_one(holes);
+  if (holes != shared::kHolesClustered || !context_.tuning().split_march_by_holes) return dispatch_one(holes);
   recorder.concurrently([&] {
     dispatch_one(holes);
     dispatch_one(shared::kHolesNone);

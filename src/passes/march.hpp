@@ -94,11 +94,6 @@ class MarchPass {
   gpu::Context& context_;
   Options options_;
   std::map<Variant, gpu::ComputePipeline> pipelines_;
-  const std::uint32_t block_steps_;  ///< lib/media_block.glsl
-  /// Where holes are, rays march by a pipeline for tiles that meet some and one for the others. A driver
-  /// without a GPU runs the code for holes even where there are none; on a GPU the workgroups that end at
-  /// once cost more.
-  const bool split_by_holes_;
   gpu::Sampler linear_, repeat_, repeat_mips_, nearest_;
 };
 

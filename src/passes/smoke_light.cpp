@@ -36,7 +36,6 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp),
       inscatter_pass_(context, shaders::inscatter_comp),
-      one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
   trim();
@@ -85,10 +84,11 @@ void SmokeLightPass::upload(gpu::Recorder& recorder, const planning::SmokeLightP
 template <typename Dispatch>
 void SmokeLightPass::for_slices(const Part& part, const volume::IndexRange& range, std::uint32_t sliced,
                                 const Dispatch& dispatch) const {
-  // One thread per texel; without a GPU one group for all of them, because idle threads cost as much as busy
-  // ones there.
+  // One thread per texel, or one group for all of them.
   const auto threads_for = [&](std::uint32_t texels) {
-    return one_group_ ? kTexelThreads : (texels + kTexelThreads - 1) / kTexelThreads * kTexelThreads;
+    return context_.tuning().light_in_one_group
+               ? kTexelThreads
+               : (texels + kTexelThreads - 1) / kTexelThreads * kTexelThreads;
   };
   const std::uint32_t whole = range.count - sliced;
   if (whole > 0) dispatch({range.first, whole}, threads_for(shared::kTexelsPerBrick));

@@ -57,9 +57,9 @@ TEST_F(GpuTest, TimingsNameTheirScopes) {
 
 TEST(Devices, ChoosesByNumberByNameAndBySpeed) {
   std::vector<DeviceInfo> devices(3);
-  devices[0] = {"llvmpipe", "", "cpu", 0, 0, "", nullptr};
-  devices[1] = {"Some Discrete", "", "discrete", 0, 0, "", nullptr};
-  devices[2] = {"Old Discrete", "", "discrete", 0, 0, "lacks synchronization2", nullptr};
+  devices[0] = {"llvmpipe", "", DeviceKind::cpu, 0, 0, "", nullptr};
+  devices[1] = {"Some Discrete", "", DeviceKind::discrete, 0, 0, "", nullptr};
+  devices[2] = {"Old Discrete", "", DeviceKind::discrete, 0, 0, "lacks synchronization2", nullptr};
   EXPECT_EQ(choose_device(devices, "").name, "Some Discrete");
   EXPECT_EQ(choose_device(devices, "0").name, "llvmpipe");
   EXPECT_EQ(choose_device(devices, "LLVM").name, "llvmpipe");

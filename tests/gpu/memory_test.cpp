@@ -133,7 +133,7 @@ TEST_F(GpuTest, MemoryComesFromTheHostWhereItSaysHow) {
 
 // What reads a texel or a word before it is written then gives another result each time.
 TEST_F(GpuTest, MemoryOfTestsBeginsWithArbitraryFiniteValues) {
-  if (context().info().kind != "cpu") GTEST_SKIP() << "the CPU does not reach the device's memory";
+  if (context().info().kind != DeviceKind::cpu) GTEST_SKIP() << "the CPU does not reach the device's memory";
   constexpr std::size_t kWords = 1000;
   constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   const Buffer first(context(), kWords * sizeof(float), kUsage),

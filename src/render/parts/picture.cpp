@@ -42,8 +42,7 @@ void ParticlesPart::record_overdraw(gpu::Recorder& recorder, const FramePlan& pl
 PicturePart::PicturePart(gpu::Context& context, glm::uvec2 size_px, const Options& options)
     : context_(context),
       size_px_(size_px),
-      // Without a GPU a pass of its own costs next to nothing.
-      shading_displays_(context.info().kind != "cpu" && !options.antialias && !options.has_panes),
+      shading_displays_(context.tuning().shade_displays && !options.antialias && !options.has_panes),
       shade_pass_(context) {
   if (options.antialias) antialias_pass_.emplace(context, size_px);
   if (options.prepare_all)
