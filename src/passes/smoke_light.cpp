@@ -9,7 +9,6 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kTexelThreads = 64;
 /// What the pipelines of rays differ by.
 constexpr std::uint32_t kRayMedia = shared::kMediumVolumes | shared::kMediumTransfer;
 
@@ -83,12 +82,10 @@ void SmokeLightPass::upload(gpu::Recorder& recorder, const planning::SmokeLightP
 
 template <typename Dispatch>
 void SmokeLightPass::for_slices(const Part& part, const volume::IndexRange& range, std::uint32_t sliced,
-                                const Dispatch& dispatch) const {
+                                std::uint32_t group, const Dispatch& dispatch) const {
   // One thread per texel, or one group for all of them.
   const auto threads_for = [&](std::uint32_t texels) {
-    return context_.tuning().light_in_one_group
-               ? kTexelThreads
-               : (texels + kTexelThreads - 1) / kTexelThreads * kTexelThreads;
+    return context_.tuning().light_in_one_group ? group : (texels + group - 1) / group * group;
   };
   const std::uint32_t whole = range.count - sliced;
   if (whole > 0) dispatch({range.first, whole}, threads_for(shared::kTexelsPerBrick));
@@ -96,14 +93,15 @@ void SmokeLightPass::for_slices(const Part& part, const volume::IndexRange& rang
 }
 
 void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
-  for_slices(part, part.shadow_rays, part.sliced_rays,
+  if (part.shadow_rays.count == 0) return;
+  for_slices(part, part.shadow_rays, part.sliced_rays, rays_pass(in).group()[0],
              [&](const volume::IndexRange& range, std::uint32_t threads) {
                dispatch_rays(recorder, in, range, threads);
              });
 }
 
 void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
-  for_slices(part, part.gathers, part.sliced_gathers,
+  for_slices(part, part.gathers, part.sliced_gathers, inscatter_pass_.group()[0],
              [&](const volume::IndexRange& range, std::uint32_t threads) {
                dispatch_gathers(recorder, in, range, threads);
              });
@@ -124,15 +122,18 @@ void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& i
                     {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLightChanges, gpu::read(changes_)},
                 },
-                params_of(range, 256));
+                params_of(range, texels_pass_.group()[0]));
   const Groups groups = groups_of(range.count);
-  recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
+  recorder.dispatch_threads(texels_pass_, texels_pass_.group()[0] * groups.y, groups.z);
+}
+
+const gpu::ComputePipeline& SmokeLightPass::rays_pass(const Inputs& in) const {
+  return rays_passes_.at(in.casters & kRayMedia);
 }
 
 void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                                    std::uint32_t threads) const {
-  const gpu::ComputePipeline& rays_pass = rays_passes_.at(in.casters & kRayMedia);
-  recorder.bind(rays_pass,
+  recorder.bind(rays_pass(in),
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
@@ -156,7 +157,7 @@ void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, co
                 },
                 params_of(range, threads));
   const Groups groups = groups_of(range.count);
-  recorder.dispatch_threads(rays_pass, threads, groups.y, groups.z);
+  recorder.dispatch_threads(rays_pass(in), threads, groups.y, groups.z);
 }
 
 void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,

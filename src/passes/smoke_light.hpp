@@ -47,15 +47,16 @@ class SmokeLightPass {
   void record_gathers(gpu::Recorder& recorder, const Inputs& in, const Part& part) const;
 
  private:
+  const gpu::ComputePipeline& rays_pass(const Inputs& inputs) const;
   void dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                      std::uint32_t threads) const;
   void dispatch_gathers(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                         std::uint32_t threads) const;
   /// Calls dispatch(range, threads) for items of all texels, and for the sliced ones, at the end, of some
-  /// phases.
+  /// phases. `group`: threads of a workgroup.
   template <typename Dispatch>
   void for_slices(const Part& part, const volume::IndexRange& range, std::uint32_t sliced,
-                  const Dispatch& dispatch) const;
+                  std::uint32_t group, const Dispatch& dispatch) const;
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, inscatter_pass_;
