@@ -1,7 +1,6 @@
 #include "bench/frames.hpp"
 
-#include <cstring>
-#include <glm/gtc/packing.hpp>
+#include "render/read_back.hpp"
 
 namespace brume::bench {
 
@@ -11,7 +10,7 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
       simulation_(scenario::Simulation::create(scenario).value_or_throw()),
       runner_(context),
       renderer_(context, runner_, scenario.scene, options),
-      counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
+      counter_(gpu::readback_buffer(context, sizeof(std::uint32_t))) {
   simulation_->advance_to(seconds);
   input_ = planning::frame_input(scenario, *simulation_, seconds, holes_);
   input_.quality.rebuild_light = true;
@@ -38,24 +37,12 @@ FrameCost RepeatedFrame::draw() {
 }
 
 std::vector<glm::vec4> RepeatedFrame::radiance() {
-  const gpu::Image& image = renderer_.targets().radiance;
-  const std::size_t count = std::size_t{image.info().size.x} * image.info().size.y;
-  const gpu::Buffer copy(context_, count * sizeof(std::uint64_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                         gpu::MemoryUse::readback);
-  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(image, copy); });
-  std::vector<glm::vec4> pixels(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint64_t texel = 0;
-    std::memcpy(&texel, copy.mapped() + i * sizeof texel, sizeof texel);
-    pixels[i] = glm::unpackHalf4x16(texel);
-  }
-  return pixels;
+  return render::unpack_halves(
+      gpu::read_back(context_, runner_, renderer_.targets().radiance, sizeof(std::uint64_t)));
 }
 
 std::uint32_t RepeatedFrame::texture_samples() const {
-  std::uint32_t count = 0;
-  std::memcpy(&count, counter_.mapped(), sizeof count);
-  return count;
+  return gpu::values_of<std::uint32_t>(counter_).front();
 }
 
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,

@@ -8,6 +8,7 @@
 
 #include "bench/decals/ray_traced_occlusion.hpp"
 #include "core/tasks.hpp"
+#include "gpu/read_back.hpp"
 #include "image/png.hpp"
 #include "render/playback.hpp"
 #include "scenario/moved_objects.hpp"
@@ -59,13 +60,6 @@ std::vector<voxel::Triangle> carried_triangles(const scenario::Scenario& scenari
   return triangles;
 }
 
-template <typename T>
-std::vector<T> values_of(const gpu::Buffer& buffer) {
-  std::vector<T> values(buffer.size() / sizeof(T));
-  std::memcpy(values.data(), buffer.mapped(), values.size() * sizeof(T));
-  return values;
-}
-
 }  // namespace
 
 void Difference::add(double decal, double reference) {
@@ -103,9 +97,9 @@ struct ViewRenderer::Parts {
         simulation(scenario::Simulation::create(scenario_in).value_or_throw()),
         renderer(context_in, runner_in, scenario_in.scene, render::RendererOptions{size_px}) {
     const std::size_t pixels = std::size_t{size_px.x} * size_px.y;
-    depth = gpu::Buffer(context, 4 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+    depth = gpu::readback_buffer(context, 4 * pixels);
     for (gpu::Buffer* const buffer : {&normal, &occlusion})
-      *buffer = gpu::Buffer(context, 8 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+      *buffer = gpu::readback_buffer(context, 8 * pixels);
   }
 };
 
@@ -131,9 +125,9 @@ View ViewRenderer::draw(double seconds) {
   // From texels to surfaces.
   const glm::uvec2 size_px = in.renderer.targets().size_px;
   const shared::Camera camera = planning::FramePlan(input, size_px).camera;
-  const auto depth = values_of<float>(in.depth);
-  const auto normal = values_of<std::uint64_t>(in.normal);
-  const auto occlusion = values_of<std::uint64_t>(in.occlusion);
+  const auto depth = gpu::values_of<float>(in.depth);
+  const auto normal = gpu::values_of<std::uint64_t>(in.normal);
+  const auto occlusion = gpu::values_of<std::uint64_t>(in.occlusion);
   View view{std::vector<View::Kind>(depth.size(), View::Kind::sky), std::vector<glm::dvec3>(depth.size()),
             std::vector<glm::dvec3>(depth.size()), std::vector<float>(depth.size(), 0)};
   for (std::size_t i = 0; i < depth.size(); ++i) {

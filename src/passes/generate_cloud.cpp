@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "brume_shaders.hpp"
+#include "gpu/read_back.hpp"
 
 namespace brume::passes {
 namespace {
@@ -26,8 +27,7 @@ void GenerateCloudPass::record(gpu::Recorder& recorder, const gpu::Buffer& brick
 
 CloudGenerator::CloudGenerator(gpu::Context& context)
     : pass_(context),
-      copy_(context, GenerateCloudPass::kMaxBricks * kVoxels * sizeof(float),
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
+      copy_(gpu::readback_buffer(context, GenerateCloudPass::kMaxBricks * kVoxels * sizeof(float))) {
   gpu::grow(context, bricks_, GenerateCloudPass::kMaxBricks * sizeof(glm::ivec3));
   gpu::grow(context, values_, copy_.size());
 }

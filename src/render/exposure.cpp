@@ -1,10 +1,9 @@
 #include "render/exposure.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <glm/gtc/packing.hpp>
 
 #include "planning/exposure.hpp"
+#include "render/read_back.hpp"
 
 namespace brume::render {
 float measure_exposure(gpu::Context& context, Renderer& renderer, FrameInput input) {
@@ -12,20 +11,12 @@ float measure_exposure(gpu::Context& context, Renderer& renderer, FrameInput inp
   const glm::uvec2 size = renderer.targets().size_px;
   const glm::uvec2 small(std::clamp(kHeight * size.x / size.y, 8u, 512u), kHeight);
   input.smoke.volume = nullptr;
-  const std::size_t count = std::size_t{small.x} * small.y;
-  const gpu::Buffer radiance(context, count * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+  const gpu::Buffer radiance = gpu::readback_buffer(context, std::size_t{8} * small.x * small.y);
   renderer.resize(small);
   renderer.draw(input,
                 [&](gpu::Recorder& recorder) { recorder.read_back(renderer.targets().radiance, radiance); });
   renderer.resize(size);
-
-  std::vector<glm::vec4> pixels(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint64_t half = 0;
-    std::memcpy(&half, static_cast<const std::byte*>(radiance.mapped()) + 8 * i, 8);
-    pixels[i] = glm::unpackHalf4x16(half);
-  }
-  return planning::exposure_of(pixels);
+  return planning::exposure_of(unpack_halves(radiance));
 }
 
 }  // namespace brume::render

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <bit>
-#include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <span>
 
+#include "gpu/read_back.hpp"
 #include "planning/device_camera.hpp"
 #include "scene/color.hpp"
 
@@ -15,15 +15,6 @@ namespace {
 
 using Half = std::uint16_t;
 using Halves = std::vector<Half>;
-
-gpu::Buffer readback(gpu::Context& context, std::size_t bytes) {
-  return {context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback};
-}
-
-template <typename T>
-std::span<const T> values_of(const gpu::Buffer& buffer, std::size_t count) {
-  return {reinterpret_cast<const T*>(buffer.mapped()), count};
-}
 
 /// A channel of an image with four values per pixel.
 Halves channel_of(std::span<const Half> rgba, std::size_t channel) {
@@ -55,11 +46,11 @@ Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel
 FrameLayers::FrameLayers(gpu::Context& context, glm::uvec2 size_px)
     : size_px_(size_px),
       context_(context),
-      radiance_(readback(context, std::size_t{8} * size_px.x * size_px.y)),
-      media_(readback(context, radiance_.size())),
-      albedo_(readback(context, radiance_.size() / 2)),
-      depth_(readback(context, radiance_.size() / 2)),
-      entries_(readback(context, sizeof(std::uint32_t) + radiance_.size() / 2)) {}
+      radiance_(gpu::readback_buffer(context, std::size_t{8} * size_px.x * size_px.y)),
+      media_(gpu::readback_buffer(context, radiance_.size())),
+      albedo_(gpu::readback_buffer(context, radiance_.size() / 2)),
+      depth_(gpu::readback_buffer(context, radiance_.size() / 2)),
+      entries_(gpu::readback_buffer(context, sizeof(std::uint32_t) + radiance_.size() / 2)) {}
 
 void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   const Targets& targets = renderer.targets();
@@ -72,17 +63,17 @@ void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   has_decals_ = renderer.has_decals();
   has_occlusion_ = renderer.occlusion() != nullptr;
   if (!has_occlusion_) return;
-  if (!occlusion_) occlusion_ = readback(context_, radiance_.size());
+  if (!occlusion_) occlusion_ = gpu::readback_buffer(context_, radiance_.size());
   recorder.read_back(*renderer.occlusion(), occlusion_);
 }
 
 image::LayeredImage FrameLayers::image() const {
   // As the device has them.
   const std::size_t count = std::size_t{size_px_.x} * size_px_.y;
-  const auto radiance = values_of<Half>(radiance_, 4 * count), media = values_of<Half>(media_, 4 * count);
-  const auto albedo = values_of<std::uint8_t>(albedo_, 4 * count);
-  const auto depth = values_of<float>(depth_, count);
-  const auto entries = values_of<float>(entries_, 1 + count).subspan(1);
+  const auto radiance = gpu::values_of<Half>(radiance_), media = gpu::values_of<Half>(media_);
+  const auto albedo = gpu::values_of<std::uint8_t>(albedo_);
+  const auto depth = gpu::values_of<float>(depth_);
+  const auto entries = gpu::values_of<float>(entries_).subspan(1);
 
   // What is computed from them.
   Halves alpha(count);
@@ -105,9 +96,8 @@ image::LayeredImage FrameLayers::image() const {
   image.layers.push_back({"Z", std::move(z)});
   image.layers.push_back({"transmittance.V", channel_of(media, 3)});
   if (has_decals_)
-    image.layers.push_back({"occlusion.V", has_occlusion_
-                                               ? channel_of(values_of<Half>(occlusion_, 4 * count), 0)
-                                               : Halves(count, 0)});
+    image.layers.push_back(
+        {"occlusion.V", has_occlusion_ ? channel_of(gpu::values_of<Half>(occlusion_), 0) : Halves(count, 0)});
   image.layers.push_back({"depth_in.V", std::vector<float>(entries.begin(), entries.end())});
   return image;
 }

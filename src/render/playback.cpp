@@ -1,11 +1,11 @@
 #include "render/playback.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/progress.hpp"
 #include "render/exposure.hpp"
 #include "render/layer_mean.hpp"
+#include "render/read_back.hpp"
 
 namespace brume::render {
 namespace {
@@ -31,9 +31,8 @@ Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, co
       simulation_(std::move(simulation)),
       runner_(context),
       renderer_(context, runner_, scenario.scene, with_masks(options, scenario)),
-      pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
-              VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback),
-      list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
+      pixels_(gpu::readback_buffer(context, std::size_t{4} * options.size_px.x * options.size_px.y)),
+      list_(gpu::readback_buffer(context, sizeof(shared::MarchList))) {}
 
 void Playback::measure_exposure() {
   const double seconds = double{scenario_.timeline.duration};
@@ -45,8 +44,7 @@ void Playback::measure_exposure() {
 
 double Playback::fraction_marched() const {
   if (!renderer_.march().tiles()) return 1;
-  shared::MarchList list{};
-  std::memcpy(&list, list_.mapped(), sizeof list);
+  const shared::MarchList& list = gpu::values_of<shared::MarchList>(list_).front();
   const glm::uvec2 blocks(renderer_.march().tiles()->far.info().size);
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
@@ -90,12 +88,7 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   draw_frame(seconds, frame_index, {[&](gpu::Recorder& recorder, bool is_last) {
                if (is_last) recorder.read_back(renderer_.targets().display, pixels_);
              }});
-  image::Image8 image;
-  image.width = renderer_.targets().size_px.x;
-  image.height = renderer_.targets().size_px.y;
-  image.rgba.resize(pixels_.size());
-  std::memcpy(image.rgba.data(), pixels_.mapped(), image.rgba.size());
-  return image;
+  return picture_of(pixels_, renderer_.targets().size_px);
 }
 
 image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_index) {

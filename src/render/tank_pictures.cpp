@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
 #include "core/progress.hpp"
+#include "render/read_back.hpp"
 
 namespace brume::render {
 namespace {
@@ -66,26 +66,17 @@ void TankPictures::add_samples(double seconds, const std::function<bool()>& stop
 
 image::Image8 TankPictures::draw(double seconds, const std::function<bool()>& stopped) {
   add_samples(seconds, stopped);
-  const std::size_t bytes = std::size_t{4} * size_px_.x * size_px_.y;
-  const gpu::Buffer pixels(context_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(renderer_.display(), pixels); });
-  image::Image8 image{size_px_.x, size_px_.y, std::vector<std::uint8_t>(bytes)};
-  std::memcpy(image.rgba.data(), pixels.mapped(), bytes);
-  return image;
+  return read_picture(context_, runner_, renderer_.display());
 }
 
 image::LayeredImage TankPictures::draw_layers(double seconds, const std::function<bool()>& stopped) {
   add_samples(seconds, stopped);
-  const std::size_t count = std::size_t{size_px_.x} * size_px_.y, bytes = count * sizeof(glm::vec4);
-  const gpu::Buffer sums(context_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(renderer_.sum(), sums); });
-  std::vector<glm::vec4> sum(count);
-  std::memcpy(sum.data(), sums.mapped(), bytes);
+  const auto sum = gpu::read_texels<glm::vec4>(context_, runner_, renderer_.sum());
   image::LayeredImage image{size_px_.x, size_px_.y, {}};
   constexpr const char* kNames[]{"R", "G", "B"};
   for (int channel = 0; channel < 3; ++channel) {
-    std::vector<float> values(count);
-    for (std::size_t i = 0; i < count; ++i)
+    std::vector<float> values(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
       values[i] = sum[i][channel] / static_cast<float>(renderer_.samples());
     image.layers.push_back({kNames[channel], std::move(values)});
   }

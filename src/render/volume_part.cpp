@@ -1,18 +1,14 @@
 #include "render/volume_part.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <glm/gtc/packing.hpp>
+
+#include "render/read_back.hpp"
 
 namespace brume::render {
 namespace {
 
 constexpr std::size_t kHalvesPerPixel = 4;
-
-std::size_t texels_of(const gpu::Image& image) {
-  const glm::uvec3 size = image.info().size;
-  return std::size_t{size.x} * size.y * size.z;
-}
 
 void check_frame(const FramePlan& plan) {
   const FrameInput& input = plan.input;
@@ -57,13 +53,10 @@ VolumePartRenderer::VolumePartRenderer(gpu::Context& context, gpu::CommandRunner
 }
 
 std::vector<std::uint16_t> VolumePartRenderer::halves_of(const gpu::Image& image) {
-  const bool is_media = &image == &renderer_.media();
-  std::vector<std::uint16_t> halves(texels_of(image) * (is_media ? kHalvesPerPixel : 1));
-  const gpu::Buffer copy(context_, std::as_bytes(std::span(halves)).size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                         gpu::MemoryUse::readback);
-  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(image, copy); });
-  std::memcpy(halves.data(), copy.mapped(), std::as_bytes(std::span(halves)).size());
-  return halves;
+  const std::size_t per_texel = &image == &renderer_.media() ? kHalvesPerPixel : 1;
+  const gpu::Buffer copy = gpu::read_back(context_, runner_, image, per_texel * sizeof(std::uint16_t));
+  const auto halves = gpu::values_of<std::uint16_t>(copy);
+  return {halves.begin(), halves.end()};
 }
 
 void VolumePartRenderer::set_halves(const gpu::Image& image, std::span<const std::uint16_t> halves) {
@@ -97,8 +90,9 @@ Pixels VolumePartRenderer::march(std::span<const float> depths) {
     std::vector<std::uint16_t> halves(depths.size());
     std::ranges::transform(depths, halves.begin(), [](float depth) { return glm::packHalf1x16(depth); });
     const passes::VolumeLightPass& light = renderer_.volumes().light();
-    const std::size_t of_sun = texels_of(light.sun_depths());
-    BRUME_ASSERT(depths.size() == of_sun + texels_of(light.sky_depths()), std::to_string(depths.size()));
+    const std::size_t of_sun = gpu::texel_count(light.sun_depths());
+    BRUME_ASSERT(depths.size() == of_sun + gpu::texel_count(light.sky_depths()),
+                 std::to_string(depths.size()));
     set_halves(light.sun_depths(), std::span(halves).first(of_sun));
     set_halves(light.sky_depths(), std::span(halves).subspan(of_sun));
   }
@@ -116,16 +110,8 @@ image::Image8 VolumePartRenderer::picture(const Pixels& pixels) {
   for (const glm::vec4& pixel : pixels)
     for (int channel = 0; channel < 4; ++channel) halves.push_back(glm::packHalf1x16(pixel[channel]));
   set_halves(renderer_.media(), halves);
-  const Targets& targets = renderer_.targets();
-  const std::size_t bytes = kHalvesPerPixel * pixels.size();
-  const gpu::Buffer copy(context_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-  runner_.run([&](gpu::Recorder& recorder) {
-    renderer_.record_picture(recorder, *plan_);
-    recorder.read_back(targets.display, copy);
-  });
-  image::Image8 picture{targets.size_px.x, targets.size_px.y, std::vector<std::uint8_t>(bytes)};
-  std::memcpy(picture.rgba.data(), copy.mapped(), bytes);
-  return picture;
+  return read_picture(context_, runner_, renderer_.targets().display,
+                      [&](gpu::Recorder& recorder) { renderer_.record_picture(recorder, *plan_); });
 }
 
 }  // namespace brume::render

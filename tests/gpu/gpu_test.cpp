@@ -76,7 +76,7 @@ TEST(HostedContext, RecordsIntoCommandsOfTheHost) {
     EXPECT_FALSE(borrowed.owns_device());
     HostRecording recording(borrowed);
     const Buffer from(borrowed, 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    const Buffer to(borrowed, 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    const Buffer to = readback_buffer(borrowed, 64);
     host.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording.begin(commands, frame, completed);
       recording.recorder().fill(from, 0x01020304u);
@@ -95,7 +95,7 @@ TEST(HostedContext, DestroysNothingThatIsInFlight) {
   {
     Context borrowed(host.device());
     HostRecording recording(borrowed);
-    const Buffer to(borrowed, 1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    const Buffer to = readback_buffer(borrowed, 1 << 20);
     const VkDeviceSize before = borrowed.memory().bytes_in_use();
     for (std::uint32_t i = 0; i < 8; ++i) {
       host.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <vector>
 
-#include "gpu/recorder.hpp"
+#include "gpu/read_back.hpp"
 #include "tests/gpu/shared_pipelines.hpp"
 
 namespace brume::gpu {
@@ -41,22 +40,12 @@ class GpuTest : public testing::Test {
   }
   template <typename T>
   static std::vector<T> read_back(const Buffer& buffer, std::size_t count) {
-    const Buffer copy(context(), count * sizeof(T), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    runner().run([&](Recorder& recorder) { recorder.read_back(buffer, copy, count * sizeof(T)); });
-    std::vector<T> values(count);
-    std::memcpy(values.data(), copy.mapped(), count * sizeof(T));
-    return values;
+    return read_values<T>(context(), runner(), buffer, count);
   }
   /// The texels of an image with texels of type T.
   template <typename T>
   static std::vector<T> read_back(const Image& image) {
-    const glm::uvec3 size = image.info().size;
-    const std::size_t count = std::size_t{size.x} * size.y * size.z;
-    const Buffer copy(context(), count * sizeof(T), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    runner().run([&](Recorder& recorder) { recorder.read_back(image, copy); });
-    std::vector<T> values(count);
-    std::memcpy(values.data(), copy.mapped(), count * sizeof(T));
-    return values;
+    return read_texels<T>(context(), runner(), image);
   }
 };
 

@@ -94,8 +94,7 @@ TEST_F(DecalsTest, DarkenThePictureInThePassOfTheMedia) {
     before.emplace_back(0.1f + 0.01f * static_cast<float>(i % 97), 0.5f,
                         2 - 0.01f * static_cast<float>(i % 31), 1);
   picture_ = uploaded(before, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-  const gpu::Buffer after(*gpu_, before.size() * sizeof(glm::vec4), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                          gpu::MemoryUse::readback);
+  const gpu::Buffer after = gpu::readback_buffer(*gpu_, before.size() * sizeof(glm::vec4));
   host_->frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
     // Into the layout for attachments.
     gpu::Recorder::Attachments attachments;
@@ -121,7 +120,7 @@ TEST_F(DecalsTest, DarkenThePictureInThePassOfTheMedia) {
   });
   host_->wait();
   const Pixels media = pixels_of(copies_.back()), occlusion = pixels_of(occlusions_.back());
-  const auto* const drawn = reinterpret_cast<const glm::vec4*>(after.mapped());
+  const auto drawn = gpu::values_of<glm::vec4>(after);
   int in_both = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double remaining = media[i].a * (1 - occlusion[i].r);

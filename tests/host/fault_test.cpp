@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gpu/device_list.hpp"
+#include "gpu/read_back.hpp"
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
 #include "scenario/scenario.hpp"
@@ -155,8 +156,7 @@ class FaultTest : public testing::Test {
   brume_result draw(HostedSmoke& smoke, double seconds) {
     smoke.advance_to(seconds);
     brume_result result = BRUME_OK;
-    picture_ = gpu::Buffer(gpu_, VkDeviceSize{8} * kFaultSize.x * kFaultSize.y,
-                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+    picture_ = gpu::readback_buffer(gpu_, VkDeviceSize{8} * kFaultSize.x * kFaultSize.y);
     host_.frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording_.begin(commands, frame, completed);
       recording_.recorder().clear(depth_, {});

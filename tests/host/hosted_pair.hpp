@@ -1,11 +1,11 @@
 // The renderer and the interface, which draw the same frames on a host's device.
 #pragma once
 
-#include <cstring>
 #include <deque>
 #include <functional>
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/read_back.hpp"
 #include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
 #include "scenario/simulation.hpp"
@@ -16,14 +16,12 @@ namespace brume::host {
 using Texels = std::vector<std::uint64_t>;  // of half floats
 
 inline gpu::Buffer readback_buffer(gpu::Context& context) {
-  return {context, Texels::value_type{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-          gpu::MemoryUse::readback};
+  return gpu::readback_buffer(context, sizeof(Texels::value_type) * kSize.x * kSize.y);
 }
 
 inline Texels texels_of(const gpu::Buffer& buffer) {
-  Texels texels(buffer.size() / 8);
-  std::memcpy(texels.data(), buffer.mapped(), buffer.size());
-  return texels;
+  const auto texels = gpu::values_of<Texels::value_type>(buffer);
+  return {texels.begin(), texels.end()};
 }
 
 /// The largest difference of two images of half floats.

@@ -1,6 +1,5 @@
 // A renderer on a host's device, whose commands the host submits, draws what one with a device of its own
 // draws.
-#include <cstring>
 #include <deque>
 #include <set>
 
@@ -22,14 +21,12 @@ using Texels = std::vector<std::uint64_t>;  // of half floats
 constexpr double kTimes[] = {0.5, 1, 2, 3.25, 3.5, 5.1, 5.2, 9, 9.1, 9.5};
 
 gpu::Buffer readback_buffer(gpu::Context& context) {
-  return {context, Texels::value_type{8} * kSize.x * kSize.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-          gpu::MemoryUse::readback};
+  return gpu::readback_buffer(context, sizeof(Texels::value_type) * kSize.x * kSize.y);
 }
 
 Texels texels_of(const gpu::Buffer& buffer) {
-  Texels texels(buffer.size() / 8);
-  std::memcpy(texels.data(), buffer.mapped(), buffer.size());
-  return texels;
+  const auto texels = gpu::values_of<Texels::value_type>(buffer);
+  return {texels.begin(), texels.end()};
 }
 
 class HostTest : public gpu::GpuTest {

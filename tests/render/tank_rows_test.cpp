@@ -1,5 +1,4 @@
 // Parts of a tank's picture: rows of a sample at a time, other sizes, other exposures.
-#include <cstring>
 
 #include "planning/tank_plan.hpp"
 #include "render/tank_renderer.hpp"
@@ -27,16 +26,12 @@ class TankRowsTest : public gpu::GpuTest {
     renderer.set_view(planning::plan_tank(scenario_.scene, scenario_.tank, 0, size_px),
                       planning::plan_tank_display(scenario_.scene, size_px));
   }
-  std::vector<std::uint8_t> read(const gpu::Image& image, std::size_t pixel_bytes) {
-    const std::size_t bytes = pixel_bytes * image.info().size.x * image.info().size.y;
-    const gpu::Buffer buffer(context(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-    runner().run([&](gpu::Recorder& recorder) { recorder.read_back(image, buffer); });
-    std::vector<std::uint8_t> read(bytes);
-    std::memcpy(read.data(), buffer.mapped(), bytes);
-    return read;
+  std::vector<glm::uvec4> sums(const TankRenderer& renderer) {  // as their bits
+    return read_back<glm::uvec4>(renderer.sum());
   }
-  std::vector<std::uint8_t> sums(const TankRenderer& renderer) { return read(renderer.sum(), 16); }
-  std::vector<std::uint8_t> shown(const TankRenderer& renderer) { return read(renderer.display(), 4); }
+  std::vector<std::uint32_t> shown(const TankRenderer& renderer) {
+    return read_back<std::uint32_t>(renderer.display());
+  }
   void add_samples(TankRenderer& renderer, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i)
       runner().run([&](gpu::Recorder& recorder) { renderer.record_samples(recorder, 1); });
@@ -84,7 +79,8 @@ TEST_F(TankRowsTest, TheExposureChangesThePictureAndNotItsSamples) {
   TankRenderer renderer(context(), runner(), scenario_.tank, kPictureSize);
   set_view(renderer, kPictureSize);
   add_samples(renderer, 2);
-  const auto before = sums(renderer), dark = shown(renderer);
+  const auto before = sums(renderer);
+  const auto dark = shown(renderer);
   scenario_.scene.exposure = 2;
   renderer.set_display(planning::plan_tank_display(scenario_.scene, kPictureSize));
   runner().run([&](gpu::Recorder& recorder) { renderer.record_display(recorder); });
