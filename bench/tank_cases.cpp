@@ -162,11 +162,7 @@ Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture
   camera.vertical_fov = 0.7f;
   gpu::CommandRunner runner(bench.context());
   const auto image = [&](VkFormat format) {
-    gpu::ImageInfo info;
-    info.format = format;
-    info.size = {size, 1};
-    info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return gpu::Image(bench.context(), info);
+    return gpu::Image(bench.context(), gpu::storage_image(size, format, VK_IMAGE_USAGE_TRANSFER_DST_BIT));
   };
   const gpu::Image depth = image(VK_FORMAT_R32_SFLOAT), media = image(VK_FORMAT_R16G16B16A16_SFLOAT);
   gpu::Image blue_noise;

@@ -84,6 +84,37 @@ VkImageViewCreateInfo view_info(const Image& image, VkImageViewType type, std::u
 
 }  // namespace
 
+ImageInfo storage_image(const glm::uvec2& size, VkFormat format, VkImageUsageFlags more) {
+  ImageInfo info = storage_image_3d({size, 1}, format, more);
+  info.three_dimensional = false;
+  return info;
+}
+
+ImageInfo storage_image_3d(const glm::uvec3& size, VkFormat format, VkImageUsageFlags more) {
+  ImageInfo info;
+  info.format = format;
+  info.size = size;
+  info.three_dimensional = true;
+  info.usage =
+      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | more;
+  return info;
+}
+
+ImageInfo sampled_image(const glm::uvec2& size, VkFormat format, VkImageUsageFlags more) {
+  ImageInfo info = sampled_image_3d({size, 1}, format, more);
+  info.three_dimensional = false;
+  return info;
+}
+
+ImageInfo sampled_image_3d(const glm::uvec3& size, VkFormat format, VkImageUsageFlags more) {
+  ImageInfo info;
+  info.format = format;
+  info.size = size;
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | more;
+  return info;
+}
+
 Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), info_(wanted) {
   context.expect_retirement();
   // The image.

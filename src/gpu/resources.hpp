@@ -60,6 +60,13 @@ struct ImageInfo {
   VkImageUsageFlags usage = 0;
 };
 
+/// An image that shaders store and sample, and the CPU reads back: 2D, or 3D. `more`: usages beside these.
+ImageInfo storage_image(const glm::uvec2& size, VkFormat format, VkImageUsageFlags more = 0);
+ImageInfo storage_image_3d(const glm::uvec3& size, VkFormat format, VkImageUsageFlags more = 0);
+/// An image that is uploaded, for shaders to sample: 2D, or 3D.
+ImageInfo sampled_image(const glm::uvec2& size, VkFormat format, VkImageUsageFlags more = 0);
+ImageInfo sampled_image_3d(const glm::uvec3& size, VkFormat format, VkImageUsageFlags more = 0);
+
 /// An image of a host, lent for as long as the Image is used.
 struct LentImage {
   VkImage handle = VK_NULL_HANDLE;

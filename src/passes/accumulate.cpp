@@ -11,10 +11,7 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
       pipeline_(context, shaders::accumulate_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  const gpu::ImageInfo info = gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
   const VkDeviceSize bytes = VkDeviceSize{sizeof(shared::AccumulatedPixel)} * size_px.x * size_px.y;
   for (std::size_t i = 0; i < 2; ++i) {
     smoke_[i] = gpu::Image(context, info);

@@ -142,12 +142,8 @@ gpu::Image make_blue_noise(gpu::Context& context, gpu::Recorder& recorder) {
     const auto channel = blue_noise_channel(static_cast<std::uint32_t>(begin));
     for (std::uint32_t i = 0; i < kCount; ++i) rgba[4 * i + begin] = static_cast<std::byte>(channel[i]);
   });
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8B8A8_UNORM;
-  info.size = {kBlueNoiseSize, kBlueNoiseSize, 1};
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  gpu::Image image(context, info);
-  const gpu::Recorder::Region all{rgba, glm::ivec3(0), info.size};
+  gpu::Image image(context, gpu::sampled_image(glm::uvec2(kBlueNoiseSize), VK_FORMAT_R8G8B8A8_UNORM));
+  const gpu::Recorder::Region all{rgba, glm::ivec3(0), image.info().size};
   recorder.upload(image, {&all, 1});
   return image;
 }

@@ -18,13 +18,7 @@ gpu::Image make_image(gpu::Context& context, glm::ivec3 bricks, VkFormat format,
         ErrorCode::resource_limit,
         "a volume needs more bricks than the device's 3D textures hold; use larger voxels or less smoke");
   }
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = texels;
-  info.three_dimensional = true;
-  info.usage =
-      usage | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::sampled_image_3d(texels, format, usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
 }
 
 /// A multiple of an eighth of a power of two, so that the next frame of a sequence takes as many in most

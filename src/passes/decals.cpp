@@ -12,10 +12,7 @@ DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
       linear_(context, {}),
       decals_(context, shared::kMaxDecals * sizeof(shared::Decal),
               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  const gpu::ImageInfo info = gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
   for (gpu::Image& image : occlusion_) image = gpu::Image(context, info);
 }
 

@@ -14,12 +14,9 @@ namespace {
 /// Rows of kFinePagesAcross pages.
 gpu::Image make_pages(gpu::Context& context, std::uint32_t rows) {
   constexpr std::uint32_t kEdge{shared::kFinePageTexels};
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = rows == 0 ? glm::uvec3(1) : glm::uvec3(shared::kFinePagesAcross * kEdge, rows * kEdge, kEdge);
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  const glm::uvec3 size =
+      rows == 0 ? glm::uvec3(1) : glm::uvec3(shared::kFinePagesAcross * kEdge, rows * kEdge, kEdge);
+  return gpu::Image(context, gpu::storage_image_3d(size, VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 }  // namespace

@@ -16,12 +16,8 @@ constexpr std::uint32_t kEdge = shared::kGlowEdge;
 
 /// Cubes, `along_x` and `along_z` of them.
 gpu::Image cubes(gpu::Context& context, std::uint32_t along_x, std::uint32_t along_z) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {kEdge * along_x, kEdge, kEdge * along_z};
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image_3d({kEdge * along_x, kEdge, kEdge * along_z},
+                                                   VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 }  // namespace

@@ -3,12 +3,8 @@
 namespace brume::passes {
 
 gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const smoke::MaskAtlas& masks) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8_UNORM;
-  info.size = {masks.width(), masks.height(), 1};
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  gpu::Image image(context, info);
-  const gpu::Recorder::Region all{std::as_bytes(masks.texels()), glm::ivec3(0), info.size};
+  gpu::Image image(context, gpu::sampled_image({masks.width(), masks.height()}, VK_FORMAT_R8_UNORM));
+  const gpu::Recorder::Region all{std::as_bytes(masks.texels()), glm::ivec3(0), image.info().size};
   recorder.upload(image, {&all, 1});
   return image;
 }

@@ -15,13 +15,7 @@ namespace brume::passes {
 namespace {
 
 gpu::Image make_image(gpu::Context& context, VkFormat format, glm::uvec3 size) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = size;
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  return {context, info};
+  return {context, gpu::storage_image_3d(size, format, VK_IMAGE_USAGE_TRANSFER_DST_BIT)};
 }
 
 /// What the pipelines of media differ by.

@@ -12,11 +12,7 @@ namespace brume::passes {
 namespace {
 
 gpu::Image tile_image(gpu::Context& context, glm::uvec2 tiles) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {tiles, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image(tiles, VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 gpu::Buffer tile_buffer(gpu::Context& context, glm::uvec2 tiles, std::size_t head, std::size_t per_tile) {

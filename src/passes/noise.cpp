@@ -27,22 +27,13 @@ void NoisePass::record_detail(gpu::Recorder& recorder, const gpu::Image& tile,
 }
 
 gpu::Image make_noise_tile(gpu::Context& context, std::uint32_t size) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8B8A8_UNORM;
-  info.size = glm::uvec3(size);
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image_3d(glm::uvec3(size), VK_FORMAT_R8G8B8A8_UNORM));
 }
 
 gpu::Image make_detail_tile(gpu::Context& context) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8_UNORM;
-  info.size = glm::uvec3(shared::kDetailTexels);
-  info.three_dimensional = true;
+  gpu::ImageInfo info = gpu::storage_image_3d(glm::uvec3(shared::kDetailTexels), VK_FORMAT_R8G8_UNORM,
+                                              VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   info.mip_levels = static_cast<std::uint32_t>(std::bit_width(shared::kDetailTexels));
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   return gpu::Image(context, info);
 }
 

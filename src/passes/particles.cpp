@@ -45,12 +45,9 @@ VkFormat layer_format(gpu::Context& context) {
 }
 
 gpu::Image layer_image(gpu::Context& context, VkFormat format, glm::uvec2 size_px) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(
+      context, gpu::sampled_image(size_px, format,
+                                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
 }
 
 }  // namespace

@@ -15,11 +15,10 @@ constexpr std::uint32_t kMaxShadowLayers = 2046;  // maxImageArrayLayers is at l
 
 gpu::Image upload_image(gpu::Context& context, gpu::Recorder& recorder, const image::Image8& pixels,
                         bool srgb) {
-  gpu::ImageInfo info;
-  info.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-  info.size = {pixels.width, pixels.height, 1};
+  gpu::ImageInfo info = gpu::sampled_image({pixels.width, pixels.height},
+                                           srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                                           VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   info.mip_levels = static_cast<std::uint32_t>(std::bit_width(std::max(pixels.width, pixels.height)));
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   gpu::Image image(context, info);
   const gpu::Recorder::Region all{std::as_bytes(std::span(pixels.rgba)), glm::ivec3(0), info.size};
   recorder.upload(image, {&all, 1});

@@ -18,12 +18,7 @@ void SkyLightPass::reserve(const SolidVolume& solid) {
         gpu::Buffer(context_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   const glm::uvec3 size(solid.layout().size);
   if (light_ && light_.info().size == size) return;
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = size;
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  light_ = gpu::Image(context_, info);
+  light_ = gpu::Image(context_, gpu::storage_image_3d(size, VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 void SkyLightPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const {

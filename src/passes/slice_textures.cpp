@@ -58,11 +58,8 @@ std::vector<Half4> texels_of(std::span<const grids::DenseGrid> channels, const g
 }
 
 gpu::Image slice_image(gpu::Context& context, glm::uvec2 size) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {size, 1};
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context,
+                    gpu::sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
 }
 
 gpu::Recorder::Region slice_region(const std::vector<Half4>& texels, glm::uvec2 first, glm::uvec2 size) {

@@ -31,13 +31,10 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 ima
   const std::uint64_t rays =
       std::clamp<std::uint64_t>(std::uint64_t{image_px.x} * image_px.y / 8, 1u << 16, 1u << 19);
   SmokeShadows shadows;
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16_SFLOAT;
   // At most four times as wide as high, so that one large face fits.
   const std::uint32_t width = std::min(std::bit_ceil(static_cast<std::uint32_t>(2 * std::sqrt(rays))), 1024u);
-  info.size = {width, static_cast<std::uint32_t>(rays / width), 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  const gpu::ImageInfo info = gpu::storage_image({width, static_cast<std::uint32_t>(rays / width)},
+                                                 VK_FORMAT_R16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   shadows.atlas = gpu::Image(context, info);
   const std::size_t faces = std::max<std::size_t>(max_lights, 1) * shared::kFacesPerLight;
   shadows.faces = gpu::Buffer(context, faces * sizeof(shared::SmokeShadowFace),

@@ -38,12 +38,8 @@ void SolidVolume::make(const voxel::GridLayout& grid) {
   const auto words = static_cast<std::size_t>(shared::solid_row_words(size.x) * size.y * size.z);
   std::vector<std::uint32_t> bits(words, 0);
 
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8_UNORM;
-  info.size = glm::uvec3(size);
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  gpu::Image texels(context_, info);
+  gpu::Image texels(
+      context_, gpu::sampled_image_3d(glm::uvec3(size), VK_FORMAT_R8_UNORM, VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
   gpu::Buffer buffer(context_, words * sizeof(std::uint32_t),
                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT);

@@ -9,12 +9,7 @@ namespace brume::passes {
 namespace {
 
 gpu::Image voxel_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = size;
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image_3d(size, format));
 }
 
 // Of all voxels.

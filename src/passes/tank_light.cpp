@@ -10,12 +10,7 @@ namespace {
 constexpr std::uint32_t kNearLayers = 2;
 
 gpu::Image image_3d(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = size;
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image_3d(size, format));
 }
 
 }  // namespace

@@ -15,13 +15,8 @@ constexpr std::uint32_t kLightMedia =
 /// `count` cubes along z, `side_by_side` of them along x.
 gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,
                  std::uint32_t side_by_side) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = {edge * side_by_side, edge, edge * count};
-  info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image_3d({edge * side_by_side, edge, edge * count}, format,
+                                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT));
 }
 
 }  // namespace

@@ -63,11 +63,8 @@ std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning:
 }
 
 gpu::Image make_colors(gpu::Context& context) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {shared::kVolumeColors, shared::kMaxVolumes, 1};
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::sampled_image({shared::kVolumeColors, shared::kMaxVolumes},
+                                                VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 /// All that the colours of a volume follow from.
