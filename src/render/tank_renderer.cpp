@@ -22,11 +22,7 @@ void TankRenderer::set_view(const planning::TankPlan& plan, const planning::Tank
 
 void TankRenderer::resize(glm::uvec2 size_px) {
   sampler_.resize(size_px);
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8B8A8_UNORM;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  shown_ = gpu::Image(context_, info);
+  shown_ = gpu::Image(context_, gpu::storage_image(size_px, VK_FORMAT_R8G8B8A8_UNORM));
 }
 
 void TankRenderer::record_samples(gpu::Recorder& recorder, std::uint32_t count) {

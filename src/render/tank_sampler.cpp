@@ -8,11 +8,7 @@ namespace brume::render {
 namespace {
 
 gpu::Image picture_image(gpu::Context& context, glm::uvec2 size_px, VkFormat format) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
+  return gpu::Image(context, gpu::storage_image(size_px, format));
 }
 
 }  // namespace

@@ -5,18 +5,8 @@
 namespace brume::render {
 namespace {
 
-gpu::Image storage_image(gpu::Context& context, glm::uvec2 size, VkFormat format,
-                         VkImageUsageFlags usage = 0) {
-  gpu::ImageInfo info;
-  info.format = format;
-  info.size = {size, 1};
-  info.usage =
-      usage | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return gpu::Image(context, info);
-}
-
 gpu::Image media_image(gpu::Context& context, glm::uvec2 size) {
-  return storage_image(context, size, VK_FORMAT_R16G16B16A16_SFLOAT, passes::kRaycastTargetUsage);
+  return {context, gpu::storage_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, passes::kRaycastTargetUsage)};
 }
 
 }  // namespace
@@ -25,9 +15,10 @@ Targets::Targets(gpu::Context& context, glm::uvec2 size)
     : size_px(size),
       gbuffer(context, size),
       media(media_image(context, size)),
-      radiance(storage_image(context, size, VK_FORMAT_R16G16B16A16_SFLOAT,
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
-      display(storage_image(context, size, VK_FORMAT_R8G8B8A8_UNORM)) {}
+      radiance(context,
+               gpu::storage_image(size, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
+      display(context, gpu::storage_image(size, VK_FORMAT_R8G8B8A8_UNORM)) {}
 
 Targets::Targets(glm::uvec2 size, passes::GBuffer&& surfaces, gpu::Image&& media_target)
     : size_px(size), gbuffer(std::move(surfaces)), media(std::move(media_target)) {}

@@ -14,11 +14,7 @@ void HostSurfacesPart::reserve_normals(Targets& targets) {
 void HostSurfacesPart::reserve_shadows(glm::uvec2 size_px) {
   if (!shadow_pass_) shadow_pass_.emplace(context_);
   if (shadows_) return;
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  shadows_ = gpu::Image(context_, info);
+  shadows_ = gpu::Image(context_, gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
 void HostSurfacesPart::record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,

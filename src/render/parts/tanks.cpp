@@ -36,12 +36,8 @@ void TanksPart::resize(glm::uvec2 size_px) {
   // Images of the frame's size are never refused.
   const gpu::Memory::Unlimited always(context_.memory());
   size_px_ = size_px;
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  layers_ = gpu::Image(context_, info);
+  layers_ = gpu::Image(
+      context_, gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_DST_BIT));
   for (Slot& slot : slots_) slot.sampler.resize(size_px);
 }
 
