@@ -71,7 +71,7 @@ brume_precompiled(brume_headers ${brume_common_headers})
 # The libraries in which the tests of the debug preset spend their time, and which its -O1 is for. The sanitizers multiply
 # the code of the others, which compile for longer than they then run: -Og for them, with all checks. Of those that take
 # longest to compile they are calls, which takes a fifth less.
-set(brume_busy_libraries voxel volume sim smoke triangle_bvh light_cells reference)
+set(brume_busy_libraries voxel volume trace sim smoke surfaces reference)
 set(brume_large_libraries image scene scenario frame_planning)
 
 # brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): the folder `NAME` as brume::NAME.

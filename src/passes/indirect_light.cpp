@@ -55,7 +55,7 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
   cube_ = make_image(context, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
 }
 
-void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t most_lights,
+void IndirectLightPass::reserve(const surfaces::LightCells& level, std::size_t most_lights,
                                 std::uint32_t casters) {
   if (!medium_passes_.contains(casters & kCellMedia))
     medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
@@ -89,7 +89,7 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
     *image = std::move(made[next++]);
 }
 
-void IndirectLightPass::upload(gpu::Recorder& recorder, const reference::LightCells& level) const {
+void IndirectLightPass::upload(gpu::Recorder& recorder, const surfaces::LightCells& level) const {
   upload_list<shared::SurfacePatch>(recorder, patches_, level.patches);
   upload_list<std::uint32_t>(recorder, probes_, level.probes);
   upload_list<std::uint32_t>(recorder, hits_, level.hits);

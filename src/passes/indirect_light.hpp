@@ -12,8 +12,8 @@
 #include "passes/solid_volume.hpp"
 #include "passes/volume_upload.hpp"
 #include "planning/indirect_light_plan.hpp"
-#include "reference/light_cells.hpp"
 #include "shared/indirect_light.h"
+#include "surfaces/light_cells.hpp"
 
 namespace brume::passes {
 
@@ -23,7 +23,7 @@ class IndirectLightPass {
 
   /// Makes room for a level of these cells, for as many lights as any of its frames has. Outside of a
   /// recording, when the device is done with what was recorded before. Throws resource_limit.
-  void reserve(const reference::LightCells& level, std::size_t most_lights, std::uint32_t casters);
+  void reserve(const surfaces::LightCells& level, std::size_t most_lights, std::uint32_t casters);
 
   struct Inputs {
     const gpu::Buffer& frame;
@@ -38,7 +38,7 @@ class IndirectLightPass {
     const gpu::Image& glow_field;  ///< GlowFieldPass::field.
   };
   /// Uploads the level of the last `reserve`.
-  void upload(gpu::Recorder& recorder, const reference::LightCells& level) const;
+  void upload(gpu::Recorder& recorder, const surfaces::LightCells& level) const;
   /// Does the slices of a plan. `media`: cells that may hold media, in the plan of the first slice; empty:
   /// none.
   void record(gpu::Recorder& recorder, const Inputs& in, const planning::IndirectLightPlan& plan,

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "reference/majorants.hpp"
-#include "reference/sampler.hpp"
+#include "surfaces/sampler.hpp"
 
 namespace brume::reference {
+
+using surfaces::Sampler;
 
 class Medium;
 

@@ -6,10 +6,12 @@
 #include <optional>
 
 #include "reference/phase.hpp"
-#include "reference/surface.hpp"
+#include "surfaces/surface.hpp"
 
 namespace brume::reference {
 namespace {
+
+using surfaces::basis_around;
 
 /// Beyond this distance of the light from the first vertex of a path from the eye, the chance that it has one
 /// from the light falls with the square of the distance [m].

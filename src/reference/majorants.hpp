@@ -9,21 +9,14 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "surfaces/ray.hpp"
 
 namespace brume::reference {
 
+using surfaces::Ray;
+
 /// By how much bounds exceed what they are of: values at points are rounded.
 constexpr float kBoundSlack = 1.0001f;
-
-struct Ray {
-  static constexpr float kNoEnd = std::numeric_limits<float>::infinity();
-  glm::vec3 origin{0};
-  glm::vec3 direction{0, 0, 1};  ///< Unit.
-  float end = kNoEnd;            ///< [m]
-  float time = 0;                ///< While the shutter is open, [0, 1].
-  glm::vec3 at(float t) const { return origin + t * direction; }
-  Ray without_end() const { return {origin, direction, kNoEnd, time}; }
-};
 
 /// Cells of equal size under an affine transform, each with an upper bound of the extinction in it [1/m]. A
 /// cell may be divided into voxels with bounds of their own.

@@ -4,10 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "reference/motion.hpp"
+#include "surfaces/motion.hpp"
 
 namespace brume::reference {
 namespace {
+
+using surfaces::at_time;
 
 /// An exponentially distributed optical depth of mean 1.
 float random_depth(Sampler& sampler) {

@@ -9,8 +9,8 @@
 
 #include "reference/emission_cells.hpp"
 #include "reference/majorants.hpp"
-#include "reference/sampler.hpp"
 #include "shared/phase.h"
+#include "surfaces/sampler.hpp"
 
 namespace brume::reference {
 

@@ -15,6 +15,10 @@
 namespace brume::reference {
 namespace {
 
+using surfaces::Emitter;
+using surfaces::Reflection;
+using surfaces::SurfaceHit;
+
 float largest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
-#include "reference/sampler.hpp"
 #include "reference/scene.hpp"
+#include "surfaces/sampler.hpp"
 
 namespace brume::reference {
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/surface.hpp"
+#include "surfaces/surface.hpp"
 
 namespace brume::reference {
 namespace {
+
+using surfaces::basis_around;
 
 /// The inverse of the integral of Henyey and Greenstein's function.
 float cosine_of_hg(float g, float u) {

@@ -3,10 +3,12 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/sampler.hpp"
 #include "shared/phase.h"
+#include "surfaces/sampler.hpp"
 
 namespace brume::reference {
+
+using surfaces::Sampler;
 
 /// A direction of light after scattering, as likely as shared::phase_value says; `direction` before, unit.
 glm::vec3 sample_phase(const shared::Phase& phase, const glm::vec3& direction, Sampler& sampler);

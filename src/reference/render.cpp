@@ -10,10 +10,12 @@
 #include "core/tasks.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/lens.hpp"
-#include "reference/motion.hpp"
+#include "surfaces/motion.hpp"
 
 namespace brume::reference {
 namespace {
+
+using surfaces::at_time;
 
 constexpr std::uint32_t kTileEdge = 16;
 /// Tiles are judged after 2^n samples, from here on: earlier, the error itself is too uncertain.

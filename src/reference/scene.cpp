@@ -14,6 +14,8 @@
 namespace brume::reference {
 namespace {
 
+using surfaces::Emitter;
+
 /// Of lib/hash.glsl.
 glm::vec3 hash3(const glm::uvec3& v) {
   return glm::vec3(shared::pcg3d(v) >> 8u) * (1.0f / 16777216.0f);

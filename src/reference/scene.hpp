@@ -8,14 +8,16 @@
 
 #include "planning/frame_input.hpp"
 #include "reference/medium.hpp"
-#include "reference/surfaces.hpp"
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/sky_light.h"
 #include "smoke/mask_atlas.hpp"
 #include "smoke/noise_tile.hpp"
+#include "surfaces/surfaces.hpp"
 
 namespace brume::reference {
+
+using surfaces::Surfaces;
 
 /// Light that surrounds all: of what rays from the eye see, and of what scattered rays see.
 struct Environment {

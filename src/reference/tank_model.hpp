@@ -7,12 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "reference/sampler.hpp"
 #include "scene/tank_scene.hpp"
 #include "spheres/tank.hpp"
+#include "surfaces/sampler.hpp"
 #include "trace/sphere_tree.hpp"
 
 namespace brume::reference {
+
+using surfaces::Sampler;
 
 // All lengths are in voxels from the tank's low corner, all numbers doubles.
 

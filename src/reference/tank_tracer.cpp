@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reference/surface.hpp"
+#include "surfaces/surface.hpp"
 
 namespace brume::reference {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "apps/cli/coverage.hpp"
 #include "image/png.hpp"
-#include "reference/surfaces.hpp"
 #include "scenario/world_triangles.hpp"
 #include "smoke/holes.hpp"
+#include "surfaces/surfaces.hpp"
 #include "tests/cli/run_program.hpp"
 
 namespace brume::cli {
@@ -332,7 +332,7 @@ void compare_level(const WorkFolder& folder, unsigned seed, Counts& counts) {
   const std::vector<Triangle3> walls = walls_of(scenario.scene);
   // What pictures show: the G-buffer draws the same (GBufferPass).
   const planning::LevelState all;
-  const reference::Surfaces drawn(scenario.scene, {&all, 1});
+  const surfaces::Surfaces drawn(scenario.scene, {&all, 1});
   Random random(1000 + seed);
   for (const double time : {0.0, 3.0}) {
     simulation->advance_to(time);

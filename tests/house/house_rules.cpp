@@ -9,10 +9,10 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 25> kFolders{
-    "core",   "palettes", "spheres", "image", "scene", "voxel",    "volume",   "grids",     "trace",
-    "bake",   "sim",      "smoke",   "wire",  "api",   "scenario", "planning", "reference", "gpu",
-    "passes", "render",   "host",    "bench", "apps",  "examples", "python"};
+constexpr std::array<std::string_view, 26> kFolders{
+    "core", "palettes", "spheres", "image", "scene", "voxel",    "volume",   "grids",    "trace",
+    "bake", "sim",      "smoke",   "wire",  "api",   "scenario", "planning", "surfaces", "reference",
+    "gpu",  "passes",   "render",  "host",  "bench", "apps",     "examples", "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {

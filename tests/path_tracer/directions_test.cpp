@@ -2,11 +2,15 @@
 #include <numbers>
 
 #include "reference/phase.hpp"
-#include "reference/surface.hpp"
+#include "surfaces/surface.hpp"
 #include "tests/path_tracer/statistics.hpp"
 
 namespace brume::reference {
 namespace {
+
+using surfaces::basis_around;
+using surfaces::mix_bits;
+using surfaces::Reflection;
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kSamples = kSanitized ? 1u << 12 : 1u << 16;

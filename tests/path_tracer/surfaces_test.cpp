@@ -7,6 +7,9 @@
 namespace brume::reference {
 namespace {
 
+using surfaces::basis_around;
+using surfaces::Reflection;
+
 constexpr double kHalfTurn = std::numbers::pi;
 
 /// Adds a square of two triangles around `middle`, spanned by half edges, as an object of its own.

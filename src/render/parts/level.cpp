@@ -70,8 +70,8 @@ void LevelPart::reserve_indirect_light(const FramePlan& plan) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
   if (indirect.bounces == 0) return;
   if (indirect.level_changed) {
-    const reference::Surfaces surfaces(*source_, {&plan.input.level, 1});
-    light_cells_ = reference::make_light_cells(*plan.input.level.voxels.light_grid(), surfaces);
+    const surfaces::Surfaces surfaces(*source_, {&plan.input.level, 1});
+    light_cells_ = surfaces::make_light_cells(*plan.input.level.voxels.light_grid(), surfaces);
   }
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);
 }

@@ -55,7 +55,7 @@ class LevelPart {
   passes::SolidVolume solid_;
   passes::SkyLightPass sky_light_;
   passes::IndirectLightPass indirect_light_;
-  reference::LightCells light_cells_;  ///< Of the last plan with indirect light.
+  surfaces::LightCells light_cells_;  ///< Of the last plan with indirect light.
 };
 
 }  // namespace brume::render

@@ -1,4 +1,4 @@
-#include "reference/small_emitters.hpp"
+#include "surfaces/small_emitters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "trace/low_discrepancy.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 /// How far a piece may reach from its middle [cells]: a larger one is met by enough of a probe's rays nearby.
@@ -168,4 +168,4 @@ shared::EmitterRay SmallEmitters::ray_to(std::uint32_t sample, glm::vec3 centre_
   return {sample, area * cosine / std::max(distance * distance, nearest * nearest) / shared::kRaySolidAngle};
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

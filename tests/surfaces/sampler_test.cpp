@@ -2,10 +2,10 @@
 #include <complex>
 #include <numbers>
 
-#include "reference/sampler.hpp"
+#include "surfaces/sampler.hpp"
 #include "tests/path_tracer/statistics.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 TEST(SamplerTest, EachBlockOfAPixelIsStratified) {
@@ -133,4 +133,4 @@ TEST(SamplerTest, NumbersAreBelowOne) {
 }
 
 }  // namespace
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "planning/frame_input.hpp"
-#include "reference/majorants.hpp"
-#include "reference/surface.hpp"
 #include "scene/scene.hpp"
+#include "surfaces/ray.hpp"
+#include "surfaces/surface.hpp"
 #include "trace/triangle_tree.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// Where a ray meets a surface.
 struct SurfaceHit {
@@ -98,4 +98,4 @@ class Surfaces {
   Tree opaque_, panes_;
 };
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

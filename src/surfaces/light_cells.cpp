@@ -1,14 +1,14 @@
-#include "reference/light_cells.hpp"
+#include "surfaces/light_cells.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "core/tasks.hpp"
-#include "reference/small_emitters.hpp"
 #include "shared/light.h"
+#include "surfaces/small_emitters.hpp"
 #include "voxel/coarse_solid.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 constexpr std::uint32_t kFaces = 6;
@@ -265,4 +265,4 @@ LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces
   return level;
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

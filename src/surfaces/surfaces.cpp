@@ -1,14 +1,14 @@
-#include "reference/surfaces.hpp"
+#include "surfaces/surfaces.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "reference/motion.hpp"
 #include "scene/color.hpp"
 #include "shared/pane.h"
+#include "surfaces/motion.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 const std::array<float, 256>& linear_values() {
@@ -322,4 +322,4 @@ glm::vec3 Surfaces::off_surface(const SurfaceHit& hit, const glm::vec3& directio
   return hit.position + (glm::dot(direction, hit.geometric_normal) < 0 ? -off : off) * hit.geometric_normal;
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// The most steps of a shutter's time.
 constexpr std::size_t kMostSteps = 9;
@@ -25,4 +25,4 @@ Value at_time(std::span<const Value> steps, float time) {
   return at_time(steps, time, [](const Value& a, const Value& b, float f) { return (1 - f) * a + f * b; });
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -1,5 +1,5 @@
 // Cells of indirect light and what their rays meet.
-#include "reference/light_cells.hpp"
+#include "surfaces/light_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "tests/render/boxes.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 constexpr float kHalf = 2, kWall = 0.3f, kOut = kHalf + kWall;
@@ -256,4 +256,4 @@ TEST(LightCells, AreTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "planning/frame_input.hpp"
-#include "reference/surfaces.hpp"
 #include "shared/indirect_light.h"
+#include "surfaces/surfaces.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// The most cells of a level, and along an axis; larger levels have cells of several voxels.
 constexpr std::uint32_t kMaxLightCells = 1u << 17;
@@ -33,4 +33,4 @@ struct LightCells {
 /// The same for any number of threads.
 LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces);
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -7,7 +7,7 @@
 
 #include "shared/hash.h"
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// A fraction of 2^32 as a float in [0, 1).
 inline float unit_float(std::uint32_t bits) {
@@ -71,4 +71,4 @@ class Sampler {
   const std::function<bool()>* stopped_ = nullptr;
 };
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

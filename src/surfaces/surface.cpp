@@ -1,10 +1,10 @@
-#include "reference/surface.hpp"
+#include "surfaces/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -97,4 +97,4 @@ Reflection::Direction Reflection::sample(const glm::vec3& view, Sampler& sampler
   return out;
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -1,11 +1,11 @@
-#include "reference/sampler.hpp"
+#include "surfaces/sampler.hpp"
 
 #include <array>
 #include <bit>
 
 #include "trace/low_discrepancy.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 namespace {
 
 /// Digits of the Morton code, of base 4, that are shuffled; images that are larger repeat.
@@ -76,4 +76,4 @@ glm::vec2 Sampler::next_2d() {
           unit_float(trace::second_scrambled(point, mix_bits(seed)))};
 }
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "reference/surfaces.hpp"
 #include "shared/indirect_light.h"
+#include "surfaces/surfaces.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// Pieces of emitting triangles that share corners, as far as a piece reaches no farther than a few cells
 /// from its middle.
@@ -52,4 +52,4 @@ class SmallEmitters {
   std::vector<shared::EmitterSample> samples_;
 };
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces

@@ -3,9 +3,9 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/sampler.hpp"
+#include "surfaces/sampler.hpp"
 
-namespace brume::reference {
+namespace brume::surfaces {
 
 /// Lambert below GGX with Schlick's Fresnel and Hammon's 2017 approximation of the height-correlated Smith
 /// term. Directions point away from the surface, unit.
@@ -37,4 +37,4 @@ struct Reflection {
 /// Orthonormal Basis, Revisited".
 void basis_around(const glm::vec3& n, glm::vec3& x, glm::vec3& y);
 
-}  // namespace brume::reference
+}  // namespace brume::surfaces
