@@ -8,6 +8,9 @@ namespace brume::passes {
 namespace {
 
 constexpr VkFormat kFormat = VK_FORMAT_D32_SFLOAT;
+/// Layers that are drawn in one submission: waiting for each would take longer than to draw it, and the
+/// commands of all at once could take any memory.
+constexpr std::size_t kLayersOfSubmission = 32;
 
 std::uint32_t layer_count(const SceneResources& scene) {
   std::uint32_t count = 0;
@@ -105,57 +108,60 @@ void ShadowPass::record_changed(gpu::Context& context, gpu::CommandStream& strea
 void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                                HiddenObjects hidden, const ShadowMaps& maps,
                                const std::function<bool(const Sees&)>& accepts) const {
-  const auto record_one = [&](std::uint32_t layer, const glm::mat4& clip_from_world, const Sees& sees) {
+  std::vector<Layer> layers;
+  const auto add = [&](std::uint32_t index, const glm::mat4& clip_from_world, const Sees& sees) {
     if (!accepts(sees)) return;
-    record_layer(context, stream, scene, maps, layer, clip_from_world,
-                 [&](const Draw& draw) { return !draw.is_pane && !is_hidden(draw, hidden) && sees(draw); });
+    Layer& layer = layers.emplace_back(Layer{index, clip_from_world});
+    for (const Draw& draw : scene.draws)
+      if (!draw.is_pane && !is_hidden(draw, hidden) && sees(draw))
+        (draw.alpha_cutoff > 0 ? layer.cut : layer.whole).push_back(&draw);
   };
   for (const shared::Light& light : scene.light_list) {
     if (light.shadow_layer == shared::kNoShadow) continue;
     if (light.kind == shared::kLightDirectional) {
-      record_one(light.shadow_layer, maps.sun_clip_from_world, [](const Draw&) { return true; });
+      add(light.shadow_layer, maps.sun_clip_from_world, [](const Draw&) { return true; });
       continue;
     }
     for (std::uint32_t face = 0; face < 6; ++face)
-      record_one(light.shadow_layer + face, face_clip_from_world(light, face),
-                 [&](const Draw& draw) { return face_sees(light, face, draw); });
+      add(light.shadow_layer + face, face_clip_from_world(light, face),
+          [&](const Draw& draw) { return face_sees(light, face, draw); });
+  }
+
+  // The views of a submission live until the device is done with it.
+  std::vector<gpu::LayerView> views;
+  for (std::size_t first = 0; first < layers.size(); first += kLayersOfSubmission) {
+    const auto some = std::span(layers).subspan(first, std::min(kLayersOfSubmission, layers.size() - first));
+    views.clear();
+    for (const Layer& layer : some) views.emplace_back(context, maps.layers, layer.index);
+    stream.run([&](gpu::Recorder& recorder) {
+      for (std::size_t i = 0; i < some.size(); ++i)
+        record_layer(recorder, scene, maps, some[i], views[i].handle());
+    });
   }
 }
 
-void ShadowPass::record_layer(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
-                              const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
-                              const Sees& draws) const {
-  // One submission a layer: its view lives until the device is done with it.
-  const gpu::LayerView view(context, maps.layers, layer);
-  stream.run([&](gpu::Recorder& recorder) {
-    const auto material_of = [&](const Draw& draw) -> const MaterialImages& {
-      return scene.materials[draw.material];
-    };
-    const auto draw_one = [&](const gpu::GraphicsPipeline& pipeline, const Draw& draw) {
-      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh, draw.alpha_cutoff};
-      recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
-      recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
-    };
-    std::vector<const Draw*> cut;
-    for (const Draw& draw : scene.draws)
-      if (draw.alpha_cutoff > 0 && draws(draw)) cut.push_back(&draw);
-
-    recorder.prepare_for_draws({gpu::read(scene.vertices)});
-    for (const Draw* const draw : cut)
-      recorder.prepare_for_draws({maps_.sampled(scene, material_of(*draw).base_color)});
-    recorder.prepare_indices(scene.indices);
-    recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
-    recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
-    for (const Draw& draw : scene.draws)
-      if (draw.alpha_cutoff <= 0 && draws(draw)) draw_one(pipeline_, draw);
-    for (const Draw* const draw : cut) {
-      recorder.bind_for_draws(
-          cut_pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)},
-                          {shared::kBindBaseColorMap, maps_.sampled(scene, material_of(*draw).base_color)}});
-      draw_one(cut_pipeline_, *draw);
-    }
-    recorder.end_rendering();
-  });
+void ShadowPass::record_layer(gpu::Recorder& recorder, const SceneResources& scene, const ShadowMaps& maps,
+                              const Layer& layer, VkImageView view) const {
+  const auto draw_one = [&](const gpu::GraphicsPipeline& pipeline, const Draw& draw) {
+    const shared::ShadowDraw constants{layer.clip_from_world * draw.world_from_mesh, draw.alpha_cutoff};
+    recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
+    recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+  };
+  const auto map_of = [&](const Draw& draw) {
+    return maps_.sampled(scene, scene.materials[draw.material].base_color);
+  };
+  recorder.prepare_for_draws({gpu::read(scene.vertices)});
+  for (const Draw* const draw : layer.cut) recorder.prepare_for_draws({map_of(*draw)});
+  recorder.prepare_indices(scene.indices);
+  recorder.begin_rendering({{}, &maps.layers, view}, glm::uvec2(maps.layers.info().size));
+  recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
+  for (const Draw* const draw : layer.whole) draw_one(pipeline_, *draw);
+  for (const Draw* const draw : layer.cut) {
+    recorder.bind_for_draws(cut_pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)},
+                                            {shared::kBindBaseColorMap, map_of(*draw)}});
+    draw_one(cut_pipeline_, *draw);
+  }
+  recorder.end_rendering();
 }
 
 }  // namespace brume::passes

@@ -34,9 +34,14 @@ class ShadowPass {
   void record_layers(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                      HiddenObjects hidden, const ShadowMaps& maps,
                      const std::function<bool(const Sees&)>& accepts) const;
-  void record_layer(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
-                    const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
-                    const Sees& draws) const;
+  /// A layer, and what it shows.
+  struct Layer {
+    std::uint32_t index;
+    glm::mat4 clip_from_world;
+    std::vector<const Draw*> whole = {}, cut = {};  ///< What no texture cuts out, and the rest.
+  };
+  void record_layer(gpu::Recorder& recorder, const SceneResources& scene, const ShadowMaps& maps,
+                    const Layer& layer, VkImageView view) const;
   gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< Of what no texture cuts out, and of the rest.
   MapSamplers maps_;
 };
