@@ -10,6 +10,7 @@
 #include "planning/particle_plan.hpp"
 #include "planning/tank_input.hpp"
 #include "scenario/moved_objects.hpp"
+#include "scenario/next_level.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
 #include "shared/frame.h"
@@ -69,6 +70,9 @@ struct LevelState {
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
   /// Of the scene, rising; hidden objects, too, which are drawn here without a shadow.
   std::vector<scenario::MovedObject> moved;
+  /// The level of later frames, for what takes long to compute from it; null: unknown. Never decides what is
+  /// shown.
+  std::shared_ptr<const scenario::NextLevel> next = nullptr;
 };
 
 using smoke::SmokeInput;

@@ -74,6 +74,7 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
+  if (!target.room.holds_indirect_light) history.indirect_light.invalidate();
   plan.indirect_light = history.indirect_light.plan(plan.input, plan.lit_media, plan.holes, lights, memory);
 }
 

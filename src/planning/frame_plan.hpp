@@ -30,6 +30,7 @@ struct PlanRoom {
   std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
   SmokeLightRoom smoke_light{};
   VolumeLightRoom volume_light{};
+  bool holds_indirect_light = true;  ///< Of the last committed frame.
 };
 
 /// What plans follow from besides the frame's input: the scene, and what the renderer draws into.

@@ -90,6 +90,8 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   add_moved_objects(scenario, carriers, seconds, input);
+  // Where what moves will be is unknown.
+  if (input.environment.bounces > 0 && carriers.empty()) input.level.next = simulation.next_level();
   add_decals(scenario, carriers, seconds, input);
   return input;
 }

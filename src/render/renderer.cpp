@@ -84,7 +84,7 @@ planning::PlanTarget Renderer::plan_target() const {
           glm::uvec2(smoke_.shadows().atlas.info().size),
           slices_.textures(),
           {smoke_budget_.atlas_bricks(), smoke_budget_.most_bricks(), smoke_.light_room(),
-           volumes_.light_room()},
+           volumes_.light_room(), level_.holds_indirect_light()},
           holds_all_smoke()};
 }
 

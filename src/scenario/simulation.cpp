@@ -4,6 +4,8 @@
 #include <iterator>
 #include <map>
 
+#include "sim/level_edit.hpp"
+
 namespace brume::scenario {
 namespace {
 
@@ -68,6 +70,7 @@ Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<Level
     orders_.insert(orders_.end(), orders.begin(), orders.end());
   }
   std::move(changes.begin(), changes.end(), std::back_inserter(level_events_));
+  next_level_.reset();
   return {};
 }
 
@@ -102,6 +105,7 @@ void Simulation::replace_level(std::vector<LevelEvent> changes) {
   }
   planes_.clear();
   hidden_objects_.clear();
+  next_level_.reset();
   in_effect_ = 0;
   level_events_ = std::move(changes);
 }
@@ -123,13 +127,38 @@ void Simulation::follow_level() {
     planes_.add(level_events_[i].planes);
   in_effect_ = count;
 
-  // The last event decides whether an object is hidden.
+  hidden_objects_ = hidden_after(count);
+  next_level_.reset();
+}
+
+/// The last of the first `events` decides whether an object is hidden.
+std::vector<std::uint32_t> Simulation::hidden_after(std::size_t events) const {
   std::map<std::uint32_t, bool> hidden;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < events; ++i)
     for (const std::uint32_t object : level_events_[i].objects) hidden[object] = level_events_[i].hidden;
-  hidden_objects_.clear();
+  std::vector<std::uint32_t> objects;
   for (const auto& [object, is_hidden] : hidden)
-    if (is_hidden) hidden_objects_.push_back(object);
+    if (is_hidden) objects.push_back(object);
+  return objects;
+}
+
+std::shared_ptr<const NextLevel> Simulation::next_level() const {
+  if (next_level_ || in_effect_ == level_events_.size()) return next_level_;
+  const auto tick_of = [&](const LevelEvent& event) {
+    return tick_at(event.time, world_.settings().ticks_per_second);
+  };
+  // Changes of one tick happen at once.
+  const voxel::Solids now = world_.solids();
+  voxel::BitGrid grid = now.smoke;
+  voxel::RoleGrids roles;
+  if (&now.sight != &now.smoke) roles.sight = now.sight;
+  std::size_t end = in_effect_;
+  for (; end < level_events_.size() && tick_of(level_events_[end]) == tick_of(level_events_[in_effect_]);
+       ++end)
+    sim::apply_edits(grid, roles, level_events_[end].blocks);
+  next_level_ = std::make_shared<const NextLevel>(
+      NextLevel{roles.sight ? std::move(*roles.sight) : std::move(grid), hidden_after(end)});
+  return next_level_;
 }
 
 }  // namespace brume::scenario

@@ -7,6 +7,7 @@
 
 #include "scenario/events.hpp"
 #include "scenario/level_events.hpp"
+#include "scenario/next_level.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/smoke_report.hpp"
 #include "sim/world.hpp"
@@ -31,6 +32,9 @@ class Simulation {
   const voxel::PatchedPlanes& planes() const { return planes_; }
   /// Scene objects that are open doors at the present tick, ascending.
   std::span<const std::uint32_t> hidden_objects() const { return hidden_objects_; }
+  /// The level after the next of its changes, as far as that is known; null: none follows. The same object
+  /// until the level changes or is edited.
+  std::shared_ptr<const NextLevel> next_level() const;
   /// All changes of the level, sorted by time.
   const std::vector<LevelEvent>& level_events() const { return level_events_; }
 
@@ -48,11 +52,13 @@ class Simulation {
  private:
   Simulation(const Scenario& scenario, std::vector<LevelEvent> level_events);
   void follow_level();
+  std::vector<std::uint32_t> hidden_after(std::size_t events) const;
   void replace_level(std::vector<LevelEvent> changes);
 
   std::vector<LevelEvent> level_events_;
   std::size_t in_effect_ = 0;  // number of level_events_ in effect
   std::vector<std::uint32_t> hidden_objects_;
+  mutable std::shared_ptr<const NextLevel> next_level_;  // null: yet to be made
   sim::World world_;
   std::vector<EventOrder> orders_;  // sort keys of the world's log, in parallel
   voxel::PatchedPlanes planes_;

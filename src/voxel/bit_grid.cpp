@@ -47,4 +47,19 @@ std::uint64_t BitGrid::bytes() const {
          bricks_.size() * sizeof(bricks_[0]);
 }
 
+bool same_voxels(const BitGrid& a, const BitGrid& b) {
+  if (a.layout() != b.layout()) return false;
+  // An allocated brick may be empty.
+  constexpr BitGrid::Brick kEmpty{};
+  const auto has_bricks_of = [&](const BitGrid& one, const BitGrid& other) {
+    bool same = true;
+    one.for_each_brick([&](glm::ivec3 at, const BitGrid::Brick& brick) {
+      const BitGrid::Brick* const found = other.find_brick(at);
+      same = same && brick == (found ? *found : kEmpty);
+    });
+    return same;
+  };
+  return has_bricks_of(a, b) && has_bricks_of(b, a);
+}
+
 }  // namespace brume::voxel

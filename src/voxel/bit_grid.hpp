@@ -97,6 +97,9 @@ class BitGrid {
   std::vector<Brick> bricks_;
 };
 
+/// Whether both have one layout and the same voxels solid.
+bool same_voxels(const BitGrid& a, const BitGrid& b);
+
 template <typename Visit>
 void BitGrid::for_each_brick(Visit visit) const {
   for (int z = 0; z < root_size_.z; ++z)

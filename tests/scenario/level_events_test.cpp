@@ -59,6 +59,29 @@ TEST(LevelEvents, ADoorTogglesVoxelsPlanesAndVisibility) {
   }
 }
 
+TEST(LevelEvents, TheNextLevelIsKnownBefore) {
+  Scenario scenario = two_rooms();
+  scenario.timeline.doors = {{1.0, "door", true, ""},
+                             {1.0, "poster", true, ""},
+                             {2.0, "door", false, ""},
+                             {3.0, "poster", false, ""}};
+  scenario.timeline.edits = {{1.5, {-2, 0, -1}, {-1, 1, 1}, true}};
+  const auto simulation = Simulation::create(scenario).value_or_throw();
+  for (const double time : {0.0, 1.0, 1.5, 2.0, 0.5, 2.5}) {
+    SCOPED_TRACE(time);
+    simulation->advance_to(time);
+    const std::shared_ptr<const NextLevel> next = simulation->next_level();
+    ASSERT_TRUE(next);
+    EXPECT_EQ(simulation->next_level(), next) << "the same until the level changes";
+    for (double later = time; simulation->next_level() == next; later += 0.1) simulation->advance_to(later);
+    EXPECT_TRUE(voxel::same_voxels(next->opaque, simulation->world().solids().sight));
+    const auto hidden = simulation->hidden_objects();
+    EXPECT_EQ(next->hidden_objects, std::vector<std::uint32_t>(hidden.begin(), hidden.end()));
+  }
+  simulation->advance_to(3);
+  EXPECT_FALSE(simulation->next_level());
+}
+
 TEST(LevelEvents, SmokePassesOnlyOpenDoors) {
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{3.0, "door", true, ""}};

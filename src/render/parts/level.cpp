@@ -31,14 +31,14 @@ passes::PanePass::Needs pane_needs(const FramePlan& plan) {
 LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
     : context_(context),
       stream_(stream),
-      source_(&scene),
       scene_(passes::upload_scene(context, stream, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       solid_(context),
       sky_light_(context),
-      indirect_light_(context) {
+      indirect_light_(context),
+      light_cells_maker_(scene) {
   shadow_pass_.record(context, stream, scene_, {}, shadows_);
   if (scene_.has_panes) pane_pass_.emplace(context);
 }
@@ -70,8 +70,10 @@ void LevelPart::reserve_indirect_light(const FramePlan& plan) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
   if (indirect.bounces == 0) return;
   if (indirect.level_changed) {
-    const surfaces::Surfaces surfaces(*source_, {&plan.input.level, 1});
-    light_cells_ = surfaces::make_light_cells(*plan.input.level.voxels.light_grid(), surfaces);
+    ++levels_;
+    light_cells_ = light_cells_maker_.make(plan.input.level);
+  } else if (plan.input.view.sample.index == 0) {  // a frame that follows another: the next level may come, too
+    light_cells_maker_.expect(plan.input.level.next);
   }
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);
 }
@@ -100,7 +102,10 @@ void LevelPart::record_indirect_light(gpu::Recorder& recorder, const FramePlan& 
     in.g = shared::mean_cosine(plan.input.smoke.look.phase);
   else if (!plan.media.volumes.empty())
     in.g = plan.media.volumes.front().instance.look.anisotropy;
-  if (indirect.level_changed) indirect_light_.upload(recorder, light_cells_);
+  if (indirect.level_changed) {
+    indirect_light_.upload(recorder, light_cells_);
+    recorder.change(uploaded_levels_) = levels_;
+  }
   const shared::IndirectLayout& layout = light_cells_.layout;
   Box<int> cells{glm::ivec3(0), glm::ivec3(0)};
   if (!indirect.media.empty())

@@ -5,6 +5,7 @@
 #include "passes/indirect_light.hpp"
 #include "passes/panes.hpp"
 #include "render/parts/frame_part.hpp"
+#include "surfaces/light_cells_maker.hpp"
 
 namespace brume::render {
 
@@ -32,6 +33,9 @@ class LevelPart {
                     const gpu::Image& media) const;
 
   bool has_panes() const { return scene_.has_panes; }
+  /// Whether the device has the indirect light of the last frame: not where the level of a frame that was
+  /// never drawn took its place.
+  bool holds_indirect_light() const { return uploaded_levels_.get(context_) == levels_; }
   /// Where indirect light is known; without bounces where there is none.
   shared::IndirectLayout indirect_layout(const FramePlan& plan) const;
   const passes::SceneResources& resources() const { return scene_; }
@@ -44,7 +48,6 @@ class LevelPart {
 
   gpu::Context& context_;
   gpu::CommandStream& stream_;
-  const scene::Scene* source_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
   std::optional<passes::PanePass> pane_pass_;  ///< Where the scene has panes.
@@ -55,7 +58,10 @@ class LevelPart {
   passes::SolidVolume solid_;
   passes::SkyLightPass sky_light_;
   passes::IndirectLightPass indirect_light_;
+  surfaces::LightCellsMaker light_cells_maker_;
   surfaces::LightCells light_cells_;  ///< Of the last plan with indirect light.
+  std::uint64_t levels_ = 0;          ///< That light cells were made of.
+  gpu::Recorded<std::uint64_t> uploaded_levels_;
 };
 
 }  // namespace brume::render

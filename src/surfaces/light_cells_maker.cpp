@@ -1,0 +1,75 @@
+#include "surfaces/light_cells_maker.hpp"
+
+#include <atomic>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/log.hpp"
+#include "core/tasks.hpp"
+
+namespace brume::surfaces {
+namespace {
+
+LightCells make_cells(const scene::Scene& scene, const planning::LevelState& level,
+                      const voxel::BitGrid& grid) {
+  const Surfaces surfaces(scene, {&level, 1});
+  return make_light_cells(grid, surfaces);
+}
+
+}  // namespace
+
+struct LightCellsMaker::Expected {
+  Expected(const scene::Scene& scene, std::shared_ptr<const scenario::NextLevel> expected_level)
+      : level(std::move(expected_level)),
+        thread([this, &scene, log = log_of_threads(), threads = thread_count()] {
+          run(scene, log.get(), threads);
+        }) {}
+  ~Expected() { thread.join(); }
+
+  void run(const scene::Scene& scene, LogSink* log, unsigned threads) noexcept {
+    const LogScope log_scope(log);
+    const ThreadCountScope count(threads);
+    try {
+      planning::LevelState state;
+      state.hidden_objects = level->hidden_objects;
+      cells = make_cells(scene, state, level->opaque);
+    } catch (...) {
+      // Whoever needs the cells meets the same failure.
+    }
+    is_done = true;
+    is_done.notify_all();
+  }
+  bool is(const planning::LevelState& state) const {
+    return state.moved.empty() && state.grenades.empty() && state.hidden_objects == level->hidden_objects &&
+           voxel::same_voxels(*state.voxels.light_grid(), level->opaque);
+  }
+
+  std::shared_ptr<const scenario::NextLevel> level;
+  std::optional<LightCells> cells;
+  std::atomic<bool> is_done{false};
+  std::thread thread;
+};
+
+LightCellsMaker::LightCellsMaker(const scene::Scene& scene) : scene_(scene) {}
+
+LightCellsMaker::~LightCellsMaker() = default;
+
+LightCells LightCellsMaker::make(const planning::LevelState& level) {
+  was_expected_ = false;
+  if (expected_ && expected_->is(level)) {
+    // It began before, and has as many threads: to wait takes no longer than to begin now.
+    expected_->is_done.wait(false);
+    const std::unique_ptr<Expected> expected = std::move(expected_);
+    was_expected_ = expected->cells.has_value();
+    if (was_expected_) return std::move(*expected->cells);
+  }
+  return make_cells(scene_, level, *level.voxels.light_grid());
+}
+
+void LightCellsMaker::expect(const std::shared_ptr<const scenario::NextLevel>& level) {
+  if (!level || (expected_ && (expected_->level == level || !expected_->is_done))) return;
+  expected_ = std::make_unique<Expected>(scene_, level);
+}
+
+}  // namespace brume::surfaces
