@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/file.hpp"
 #include "scene/load.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/outputs.hpp"
 #include "apps/cli/units.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "grids/slice_atlas.hpp"
 
 namespace brume::cli {

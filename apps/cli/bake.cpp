@@ -4,10 +4,10 @@
 
 #include "apps/cli/atlas_options.hpp"
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/units.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "grids/files.hpp"

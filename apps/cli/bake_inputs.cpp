@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
 #include "image/image.hpp"

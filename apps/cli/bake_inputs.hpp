@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/json.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/box.hpp"
 #include "scene/scene.hpp"
 #include "voxel/triangle.hpp"

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/number.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/tanks.hpp"
 #include "apps/cli/units.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/number.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "palettes/choice.hpp"

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "bench/names.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"

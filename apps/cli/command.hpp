@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/outputs.hpp"
 
 namespace brume::cli {
 

@@ -2,8 +2,8 @@
 // and what follows an option.
 #include <algorithm>
 
-#include "apps/cli/help.hpp"
 #include "apps/cli/manual.hpp"
+#include "apps/command_line/help.hpp"
 
 namespace brume::cli {
 namespace {

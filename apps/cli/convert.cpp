@@ -2,14 +2,14 @@
 #include <cstdio>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/convert_film.hpp"
 #include "apps/cli/info.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/tanks.hpp"
 #include "apps/cli/units.hpp"
 #include "apps/cli/volumes.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
 #include "grids/raw_file.hpp"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/parse.hpp"
-#include "apps/cli/targets.hpp"
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/parse.hpp"
+#include "apps/command_line/targets.hpp"
+#include "apps/command_line/unit_key.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "image/decode.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "apps/cli/console.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/progress.hpp"
 #include "planning/smoke_look.hpp"
 #include "smoke/drawn_sight.hpp"

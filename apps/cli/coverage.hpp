@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 #include "scenario/simulation.hpp"
 #include "smoke/sight.hpp"
 

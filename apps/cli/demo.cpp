@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/data_files.hpp"
 #include "apps/cli/demo_picture.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
 #include "gpu/context.hpp"
 #include "image/png.hpp"

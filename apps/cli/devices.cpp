@@ -1,7 +1,7 @@
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "gpu/device_list.hpp"
 
 namespace brume::cli {

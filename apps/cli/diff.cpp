@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "image/decode.hpp"

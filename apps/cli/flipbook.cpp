@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/cli/console.hpp"
 #include "apps/cli/flipbook_maps.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/targets.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"

@@ -6,8 +6,8 @@
 
 #include "apps/cli/flipbook_options.hpp"
 #include "apps/cli/frame_source.hpp"
-#include "apps/cli/number.hpp"
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/number.hpp"
+#include "apps/command_line/parse.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::cli {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/targets.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "scene/load.hpp"

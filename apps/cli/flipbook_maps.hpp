@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/cli/flipbook_options.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/json.hpp"
 
 namespace brume::cli {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
 
 namespace brume::cli {

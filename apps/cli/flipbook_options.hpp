@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "image/flipbook.hpp"
 
 namespace brume::cli {

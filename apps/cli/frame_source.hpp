@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "apps/cli/json.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/targets.hpp"
 #include "scene/scene.hpp"
 
 namespace brume::cli {

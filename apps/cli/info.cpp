@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/tanks.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "grids/files.hpp"

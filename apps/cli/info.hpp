@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cli/json.hpp"
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "scene/scene.hpp"
 #include "voxel/bit_grid.hpp"
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <numbers>
 
-#include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/log.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/world_triangles.hpp"

@@ -1,5 +1,5 @@
-#include "apps/cli/console.hpp"
 #include "apps/cli/run.hpp"
+#include "apps/command_line/console.hpp"
 
 int main(int argc, char** argv) {
   brume::cli::reserve_standard_descriptors();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "apps/cli/help.hpp"
+#include "apps/command_line/help.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 

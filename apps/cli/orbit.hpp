@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::cli {

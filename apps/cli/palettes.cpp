@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/palette_sheet.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "image/png.hpp"
 #include "palettes/file.hpp"
 #include "palettes/sample.hpp"

@@ -2,12 +2,12 @@
 #include <cstdio>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/coverage.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/query_sense.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "smoke/sight.hpp"

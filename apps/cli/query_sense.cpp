@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"

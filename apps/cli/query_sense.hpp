@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/outputs.hpp"
 
 namespace brume::cli {
 

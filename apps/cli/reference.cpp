@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/unit_key.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
 #include "planning/scenario_frame.hpp"

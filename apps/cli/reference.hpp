@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/targets.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/render.hpp"
 #include "scenario/simulation.hpp"
@@ -29,8 +29,8 @@ std::vector<std::string> texts_of(const ReferenceOptions& options);
 
 /// Adds samples to a picture until the limits of the options, with progress. Saves and continues the
 /// checkpoint, whose key is `key`. `samples` comes from the render's settings; `spent` is the part of
-/// the time limit that is used up [s]. Warns where parts of the picture have no sample at the end. Throws Error and
-/// Interrupted.
+/// the time limit that is used up [s]. Warns where parts of the picture have no sample at the end. Throws
+/// Error and Interrupted.
 void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
                  std::uint64_t key, double spent = 0);
 

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/flipbook.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/orbit.hpp"
 #include "apps/cli/render_options.hpp"
 #include "apps/cli/render_output.hpp"
 #include "apps/cli/render_tank.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/timed_playback.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"

@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "apps/cli/arguments.hpp"
 #include "apps/cli/flipbook_options.hpp"
-#include "apps/cli/outputs.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/reference.hpp"
 #include "apps/cli/scene_options.hpp"
-#include "apps/cli/targets.hpp"
 #include "apps/cli/units.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/outputs.hpp"
+#include "apps/command_line/parse.hpp"
+#include "apps/command_line/targets.hpp"
 #include "passes/debug_view.hpp"
 #include "render/renderer.hpp"
 #include "scenario/first_view.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "apps/cli/console.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
@@ -54,8 +54,9 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
                      const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice,
-               fps, raycast, mode, shard, background, scene_options, reference, flipbook, time, orbit, shutter, samples,
-               temporal, resume, step, light_update_fraction, resolve_error_scale, volume_memory] = options;
+               fps, raycast, mode, shard, background, scene_options, reference, flipbook, time, orbit,
+               shutter, samples, temporal, resume, step, light_update_fraction, resolve_error_scale,
+               volume_memory] = options;
   files.push_back(timeline);
   if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
 

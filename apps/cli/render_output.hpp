@@ -9,7 +9,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/render_options.hpp"
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/unit_key.hpp"
 
 namespace brume::cli {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
 #include "apps/cli/render_output.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "gpu/context.hpp"
 #include "reference/picture.hpp"
 #include "reference/tank_tracer.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/data_files.hpp"
 #include "apps/cli/manual.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/tasks.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "scenario/smoke_report.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/json.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/smoke_report.hpp"

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"
 #include "apps/cli/stopwatch.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/parse.hpp"
+#include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"

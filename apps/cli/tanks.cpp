@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/log.hpp"
 #include "scene/load.hpp"
 #include "scene/tank_scene.hpp"

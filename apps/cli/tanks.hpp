@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/cli/info.hpp"
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "core/box.hpp"
 #include "spheres/tank.hpp"
 

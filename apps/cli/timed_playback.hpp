@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/targets.hpp"
 #include "render/playback.hpp"
 
 namespace brume::cli {

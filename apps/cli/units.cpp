@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/targets.hpp"
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/targets.hpp"
+#include "apps/command_line/unit_key.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/cli/command.hpp"
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 
 namespace brume::cli {
 

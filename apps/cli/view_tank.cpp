@@ -1,7 +1,7 @@
 #include "apps/cli/view_tank.hpp"
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/tank_viewer.hpp"
 #include "scenario/tank.hpp"

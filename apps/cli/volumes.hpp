@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "grids/grid.hpp"
 
 namespace brume::cli {

@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cli/arguments.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
-#include "apps/cli/outputs.hpp"
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/arguments.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/json.hpp"
+#include "apps/command_line/outputs.hpp"
+#include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "gpu/context.hpp"

@@ -9,10 +9,13 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 26> kFolders{
-    "core", "palettes", "spheres", "image", "scene", "voxel",    "volume",   "grids",    "trace",
-    "bake", "sim",      "smoke",   "wire",  "api",   "scenario", "planning", "surfaces", "reference",
-    "gpu",  "passes",   "render",  "host",  "bench", "apps",     "examples", "python"};
+constexpr std::array<std::string_view, 30> kFolders{
+    "core",     "palettes",    "spheres",   "image",    "scene",
+    "voxel",    "volume",      "grids",     "trace",    "bake",
+    "sim",      "smoke",       "wire",      "api",      "scenario",
+    "planning", "surfaces",    "reference", "gpu",      "passes",
+    "render",   "host",        "bench",     "apps/vdb", "apps/command_line",
+    "apps/mpi", "apps/viewer", "apps/cli",  "examples", "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {
@@ -54,13 +57,19 @@ std::span<const std::string_view> folders() {
   return kFolders;
 }
 
+std::string_view folder_of(std::string_view path) {
+  if (path.starts_with("src/")) path.remove_prefix(4);
+  std::size_t slash = path.find('/');
+  if (path.starts_with("apps/")) slash = path.find('/', slash + 1);
+  return slash == std::string_view::npos ? std::string_view() : path.substr(0, slash);
+}
+
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text) {
   static const std::regex include(R"re(#\s*include\s*"([^"]+)")re");
   std::vector<std::string> found;
   for (const std::string& path : matches(text, include)) {
-    const std::size_t slash = path.find('/');
-    if (slash == std::string::npos) continue;  // A generated header.
-    const std::string_view other = std::string_view(path).substr(0, slash);
+    const std::string_view other = folder_of(path);
+    if (other.empty()) continue;      // A generated header.
     if (other == "shared") continue;  // The lowest layer: plain structs for C++ and GLSL.
     if (place(other) > place(folder) || place(other) == std::ssize(kFolders)) found.push_back(path);
   }

@@ -11,7 +11,10 @@ namespace brume::house {
 /// The folders from bottom to top: a file may include its own folder and those before it.
 std::span<const std::string_view> folders();
 
-/// The includes of a file in src/FOLDER, or "apps", that point up in folders() or to a folder that is not in
+/// "core" for src/core/file.hpp and core/file.hpp, "apps/cli" for apps/cli/main.cpp; empty for a file in none.
+std::string_view folder_of(std::string_view path);
+
+/// The includes of a file of a folder that point up in folders() or to a folder that is not in
 /// it.
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text);
 

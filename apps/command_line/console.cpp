@@ -1,4 +1,4 @@
-#include "apps/cli/console.hpp"
+#include "apps/command_line/console.hpp"
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -17,7 +17,7 @@
 #include <optional>
 #include <thread>
 
-#include "apps/cli/json.hpp"
+#include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"

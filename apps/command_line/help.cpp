@@ -1,4 +1,4 @@
-#include "apps/cli/help.hpp"
+#include "apps/command_line/help.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

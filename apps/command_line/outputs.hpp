@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/file_kind.hpp"
+#include "apps/command_line/file_kind.hpp"
 #include "core/error.hpp"
 
 namespace brume::cli {

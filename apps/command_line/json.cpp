@@ -1,4 +1,4 @@
-#include "apps/cli/json.hpp"
+#include "apps/command_line/json.hpp"
 
 #include <charconv>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "apps/cli/parse.hpp"
+#include "apps/command_line/parse.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/cli/number.hpp"
+#include "apps/command_line/number.hpp"
 #include "core/error.hpp"
 #include "image/image.hpp"
 #include "scene/timeline.hpp"

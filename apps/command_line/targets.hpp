@@ -8,9 +8,9 @@
 #include <optional>
 #include <variant>
 
-#include "apps/cli/number.hpp"
-#include "apps/cli/outputs.hpp"
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/number.hpp"
+#include "apps/command_line/outputs.hpp"
+#include "apps/command_line/unit_key.hpp"
 #include "image/background.hpp"
 #include "image/image.hpp"
 #include "image/texels.hpp"

@@ -1,4 +1,4 @@
-#include "apps/cli/file_kind.hpp"
+#include "apps/command_line/file_kind.hpp"
 
 #include <algorithm>
 #include <sstream>

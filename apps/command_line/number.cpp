@@ -1,4 +1,4 @@
-#include "apps/cli/number.hpp"
+#include "apps/command_line/number.hpp"
 
 #include <charconv>
 #include <cmath>

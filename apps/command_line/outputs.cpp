@@ -1,11 +1,11 @@
-#include "apps/cli/outputs.hpp"
+#include "apps/command_line/outputs.hpp"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/targets.hpp"
 #include "core/atomic_file.hpp"
 #include "core/file.hpp"
 

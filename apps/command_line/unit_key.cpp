@@ -1,4 +1,4 @@
-#include "apps/cli/unit_key.hpp"
+#include "apps/command_line/unit_key.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/cli/console.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/key.hpp"
 
 namespace brume::cli {

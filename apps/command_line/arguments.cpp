@@ -1,11 +1,11 @@
-#include "apps/cli/arguments.hpp"
+#include "apps/command_line/arguments.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "apps/cli/console.hpp"
-#include "apps/cli/help.hpp"
-#include "apps/cli/number.hpp"
+#include "apps/command_line/console.hpp"
+#include "apps/command_line/help.hpp"
+#include "apps/command_line/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
 #include "scene/load.hpp"

@@ -1,4 +1,4 @@
-#include "apps/cli/targets.hpp"
+#include "apps/command_line/targets.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/cli/console.hpp"
+#include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/progress.hpp"
