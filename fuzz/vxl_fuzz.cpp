@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/hash.hpp"
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr std::size_t kVersionAt = 8, kLengthAt = 72, kChecksumBytes = 8;
 
 /// The bytes before the payload: files with roles have counts of them.
 std::size_t head_bytes(const std::uint8_t* bytes, std::size_t size) {
-  return size > kVersionAt && bytes[kVersionAt] == brume::voxel::kVxlRolesVersion ? 88 : 80;
+  return size > kVersionAt && bytes[kVersionAt] == brume::vxl::kRolesVersion ? 88 : 80;
 }
 
 void read(std::vector<std::byte> bytes, std::size_t head) {
@@ -25,10 +25,10 @@ void read(std::vector<std::byte> bytes, std::size_t head) {
   const std::uint64_t checksum = brume::hash_bytes(bytes);
   const auto* raw = reinterpret_cast<const std::byte*>(&checksum);
   bytes.insert(bytes.end(), raw, raw + kChecksumBytes);
-  const auto contents = brume::voxel::decode_vxl(bytes, std::nullopt);
+  const auto contents = brume::vxl::decode(bytes, std::nullopt);
   if (!contents || !*contents) return;
   // Accepted contents must be consistent: written again they are read again.
-  const auto again = brume::voxel::decode_vxl(brume::voxel::encode_vxl(**contents, 1), 1);
+  const auto again = brume::vxl::decode(brume::vxl::encode(**contents, 1), 1);
   if (!again || !*again || !((*again)->planes == (*contents)->planes)) std::abort();
   const brume::voxel::Solids before((*contents)->grid, (*contents)->roles),
       after((*again)->grid, (*again)->roles);
@@ -41,7 +41,7 @@ void read(std::vector<std::byte> bytes, std::size_t head) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* bytes = reinterpret_cast<const std::byte*>(data);
-  static_cast<void>(brume::voxel::decode_vxl({bytes, size}, std::nullopt));
+  static_cast<void>(brume::vxl::decode({bytes, size}, std::nullopt));
   const std::size_t head = head_bytes(data, size);
   if (size < head) return 0;
   read({bytes, bytes + size}, head);

@@ -11,7 +11,7 @@
 #include "scenario/world_triangles.hpp"
 #include "scene/load.hpp"
 #include "voxel/voxelize.hpp"
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 
 namespace brume::python {
 namespace {
@@ -114,7 +114,7 @@ Level from_triangles(const py::object& value, float voxel_size, const py::object
 Level load_level(const fs::path& path, float voxel_size, int margin) {
   return released([&] {
     if (scene::lower_extension(path) == ".vxl") {
-      auto contents = of_file(voxel::load_vxl(path, std::nullopt), path);
+      auto contents = of_file(vxl::load(path, std::nullopt), path);
       return level_of({std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles,
                        std::move(contents->roles)});
     }
@@ -128,7 +128,7 @@ void save_level(const Level& level, const fs::path& path) {
   if (scene::lower_extension(path) != ".vxl") refuse("path", path.string() + ": expected the suffix .vxl");
   released([&] {
     const scenario::Voxels& v = *level.voxels;
-    of_file(voxel::save_vxl(path, {v.grid, v.planes, v.triangles, v.roles}, 0), path, FileUse::write);
+    of_file(vxl::save(path, {v.grid, v.planes, v.triangles, v.roles}, 0), path, FileUse::write);
   });
 }
 

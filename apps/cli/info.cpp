@@ -13,7 +13,7 @@
 #include "scenario/tank.hpp"
 #include "scene/load.hpp"
 #include "spheres/file.hpp"
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 #include "wire/replay.hpp"
 
 namespace brume::cli {
@@ -50,7 +50,7 @@ Summary layers_summary(const std::filesystem::path& path) {
 }
 
 Summary voxel_summary(const std::filesystem::path& path) {
-  const auto contents = voxel::load_vxl(path, std::nullopt).value_or_throw();
+  const auto contents = vxl::load(path, std::nullopt).value_or_throw();
   BRUME_ASSERT(contents.has_value(), "loading without a key accepts any file");
   Summary summary("voxels");
   add_layout(summary, contents->grid.layout());

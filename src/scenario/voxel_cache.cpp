@@ -9,7 +9,7 @@
 #include "core/log.hpp"
 #include "scenario/world_triangles.hpp"
 #include "voxel/voxelize.hpp"
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -17,12 +17,11 @@ namespace {
 using voxel::GridLayout;
 using voxel::SurfacePlanes;
 using voxel::Triangle;
-using voxel::VxlContents;
 
 // A hash of all that the voxels depend on: the triangles in world space, the layout and the format's version.
 std::uint64_t cache_key(const voxel::TrianglesByRole& triangles, const GridLayout& layout) {
   static_assert(sizeof(Triangle) == 36 && sizeof(GridLayout) == 28, "no padding to hash");
-  std::uint64_t key = hash_values(std::span(&voxel::kVxlVersion, 1));
+  std::uint64_t key = hash_values(std::span(&vxl::kVersion, 1));
   key = hash_bytes(std::as_bytes(std::span(&layout, 1)), key);
   key = hash_bytes(std::as_bytes(std::span(triangles.smoke)), key);
   if (!triangles.walls && triangles.grilles.empty()) return key;
@@ -36,10 +35,10 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // The cache's contents, if it exists, is valid and has this key.
-std::optional<VxlContents> from_cache(const std::filesystem::path& path, std::uint64_t key) {
+std::optional<vxl::Contents> from_cache(const std::filesystem::path& path, std::uint64_t key) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
-  auto loaded = voxel::load_vxl(path, key);
+  auto loaded = vxl::load(path, key);
   if (!loaded) {
     log_warning(loaded.failure().message + "; voxelizing again");
     return std::nullopt;
@@ -65,13 +64,13 @@ Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridLayout& lay
   auto grid = voxel::voxelize(triangles.smoke, layout);
   const double milliseconds = milliseconds_since(start);
   if (!grid) return grid.failure();
-  VxlContents contents{std::move(*grid), {}, triangles.smoke.size()};
+  vxl::Contents contents{std::move(*grid), {}, triangles.smoke.size()};
   contents.planes = SurfacePlanes::build(triangles.smoke, contents.grid);
   auto roles = voxel::voxelize_roles(triangles, contents.grid);
   if (!roles) return roles.failure();
   contents.roles = std::move(*roles);
   if (!cache_path.empty()) {
-    if (auto saved = voxel::save_vxl(cache_path, contents, key); !saved) return saved.failure();
+    if (auto saved = vxl::save(cache_path, contents, key); !saved) return saved.failure();
   }
   return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds,
                 contents.triangles,       std::move(contents.roles)};

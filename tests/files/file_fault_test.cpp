@@ -21,7 +21,7 @@
 #include "spheres/export.hpp"
 #include "spheres/file.hpp"
 #include "tests/work_folder.hpp"
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 #include "wire/replay.hpp"
 
 namespace {
@@ -192,11 +192,11 @@ TEST_F(FileFaultTest, Pictures) {
 }
 
 TEST_F(FileFaultTest, Voxels) {
-  const voxel::VxlContents contents{voxel::BitGrid({{33, 17, 5}, 0.25f, {0, 0, 0}}), {}, 7};
+  const vxl::Contents contents{voxel::BitGrid({{33, 17, 5}, 0.25f, {0, 0, 0}}), {}, 7};
   expect_whole_or_not_at_all(
-      "level.vxl", [&](const auto& path) { return voxel::save_vxl(path, contents, 9); },
+      "level.vxl", [&](const auto& path) { return vxl::save(path, contents, 9); },
       [&](const auto& path) -> Result<bool> {
-        const auto loaded = voxel::load_vxl(path, 9);
+        const auto loaded = vxl::load(path, 9);
         if (!loaded) return loaded.failure();
         return loaded->has_value() && (*loaded)->triangles == 7;
       });

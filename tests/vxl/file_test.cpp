@@ -1,4 +1,4 @@
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,8 +9,13 @@
 #include "core/hash.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::voxel {
+namespace brume::vxl {
 namespace {
+
+using voxel::BitGrid;
+using voxel::SurfacePlanes;
+using voxel::Triangle;
+using voxel::voxelize;
 
 using glm::ivec3;
 using glm::vec3;
@@ -18,11 +23,11 @@ using glm::vec3;
 constexpr std::uint64_t kKey = 42;
 
 // A floor and one loose triangle.
-VxlContents small_contents() {
+Contents small_contents() {
   const vec3 a(-1, 0.1f, -1), b(2, 0.1f, -1), c(2, 0.1f, 2), d(-1, 0.1f, 2);
   const std::vector<Triangle> triangles{
       {a, c, b}, {a, d, c}, {vec3(0, 1.5f, 0), vec3(1, 2, 0.5f), vec3(0.2f, 1.1f, 1)}};
-  VxlContents contents{
+  Contents contents{
       *voxelize(triangles, {{11, 7, 9}, 0.4f, vec3(-1.3f, -0.4f, -1.1f)}), {}, triangles.size()};
   contents.planes = SurfacePlanes::build(triangles, contents.grid);
   return contents;
@@ -36,24 +41,24 @@ void expect_same(const BitGrid& a, const BitGrid& b) {
 }
 
 TEST(VxlCodec, RoundTrips) {
-  const VxlContents contents = small_contents();
+  const Contents contents = small_contents();
   ASSERT_GT(contents.planes.plane_count(), 10u);
-  const auto bytes = encode_vxl(contents, kKey);
-  const auto decoded = decode_vxl(bytes, kKey);
+  const auto bytes = encode(contents, kKey);
+  const auto decoded = decode(bytes, kKey);
   ASSERT_TRUE(decoded) << decoded.failure().message;
   ASSERT_TRUE(*decoded);
   expect_same((*decoded)->grid, contents.grid);
   EXPECT_EQ((*decoded)->planes, contents.planes);
   EXPECT_EQ((*decoded)->triangles, 3u);
-  EXPECT_EQ(encode_vxl(**decoded, kKey), bytes);
-  EXPECT_FALSE(*decode_vxl(bytes, kKey + 1));
-  EXPECT_TRUE(*decode_vxl(bytes, std::nullopt));
+  EXPECT_EQ(encode(**decoded, kKey), bytes);
+  EXPECT_FALSE(*decode(bytes, kKey + 1));
+  EXPECT_TRUE(*decode(bytes, std::nullopt));
 }
 
 /// The same with a pane of glass across it, and a grille above.
-VxlContents contents_with_roles(bool glass, bool grille) {
+Contents contents_with_roles(bool glass, bool grille) {
   const vec3 a(0.5f, -1, -1), b(0.5f, 2, -1), c(0.5f, 2, 2), d(-1, 1.9f, -1), e(-1, 1.9f, 2);
-  VxlContents contents = small_contents();
+  Contents contents = small_contents();
   TrianglesByRole triangles;
   if (glass) triangles.add(Role::glass, std::vector<Triangle>{{a, b, c}});
   if (glass) contents.grid = united(contents.grid, *voxelize(triangles.smoke, contents.grid.layout()));
@@ -66,12 +71,12 @@ VxlContents contents_with_roles(bool glass, bool grille) {
 
 TEST(VxlCodec, RoundTripsRoles) {
   for (const auto& [glass, grille] : {std::pair(true, false), {false, true}, {true, true}}) {
-    const VxlContents contents = contents_with_roles(glass, grille);
-    const auto bytes = encode_vxl(contents, kKey);
-    const auto decoded = decode_vxl(bytes, kKey);
+    const Contents contents = contents_with_roles(glass, grille);
+    const auto bytes = encode(contents, kKey);
+    const auto decoded = decode(bytes, kKey);
     ASSERT_TRUE(decoded) << decoded.failure().message;
-    const VxlContents& back = **decoded;
-    EXPECT_EQ(encode_vxl(back, kKey), bytes);
+    const Contents& back = **decoded;
+    EXPECT_EQ(encode(back, kKey), bytes);
     EXPECT_EQ(back.roles.sight.has_value(), glass);
     EXPECT_EQ(back.roles.bodies.has_value(), grille);
     const Solids expected(contents.grid, contents.roles), got(back.grid, back.roles);
@@ -84,39 +89,39 @@ TEST(VxlCodec, RoundTripsRoles) {
     EXPECT_EQ(glasses > 0, glass);
     EXPECT_EQ(grilles > 0, grille);
     for (std::size_t length = 0; length < bytes.size(); ++length)
-      ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
+      ASSERT_FALSE(decode(std::span(bytes).first(length), kKey)) << length;
   }
 }
 
 TEST(VxlCodec, WallsAloneAreAFileOfTheFirstVersion) {
-  VxlContents contents = small_contents();
-  const auto bytes = encode_vxl(contents, kKey);
+  Contents contents = small_contents();
+  const auto bytes = encode(contents, kKey);
   std::uint32_t version = 0;
   std::memcpy(&version, bytes.data() + 8, sizeof version);
-  EXPECT_EQ(version, kVxlVersion);
+  EXPECT_EQ(version, kVersion);
   contents.roles = {contents.grid, contents.grid};  // as if glass and grilles lay in walls
-  EXPECT_EQ(encode_vxl(contents, kKey), bytes);
+  EXPECT_EQ(encode(contents, kKey), bytes);
 }
 
 TEST(VxlCodec, RoundTripsAnEmptyGrid) {
-  const auto bytes = encode_vxl({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
-  const auto decoded = decode_vxl(bytes, kKey);
+  const auto bytes = encode({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
+  const auto decoded = decode(bytes, kKey);
   ASSERT_TRUE(decoded && *decoded);
   EXPECT_EQ((*decoded)->grid.count_solid(), 0u);
 }
 
 TEST(VxlCodec, RejectsEveryTruncation) {
-  const auto bytes = encode_vxl(small_contents(), kKey);
+  const auto bytes = encode(small_contents(), kKey);
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
+    ASSERT_FALSE(decode(std::span(bytes).first(length), kKey)) << length;
 }
 
 TEST(VxlCodec, RejectsEveryFlippedBit) {
-  auto bytes = encode_vxl(small_contents(), kKey);
+  auto bytes = encode(small_contents(), kKey);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     const auto mask = static_cast<std::byte>(1u << bit % 8);
     bytes[bit / 8] ^= mask;
-    ASSERT_FALSE(decode_vxl(bytes, kKey)) << bit;
+    ASSERT_FALSE(decode(bytes, kKey)) << bit;
     bytes[bit / 8] ^= mask;
   }
 }
@@ -126,14 +131,14 @@ INSTANTIATE_TEST_SUITE_P(Roles, VxlDamage, testing::Bool());
 
 TEST_P(VxlDamage, SurvivesFlippedBitsWithAMatchingChecksum) {
   // Damage with a matching checksum: either rejected or another valid grid.
-  auto bytes = encode_vxl(GetParam() ? contents_with_roles(true, true) : small_contents(), kKey);
+  auto bytes = encode(GetParam() ? contents_with_roles(true, true) : small_contents(), kKey);
   int refused = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() - 8); ++bit) {
     auto damaged = bytes;
     damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     const std::uint64_t checksum = hash_bytes(std::span(damaged).first(damaged.size() - 8));
     std::memcpy(damaged.data() + damaged.size() - 8, &checksum, 8);
-    const auto decoded = decode_vxl(damaged, std::nullopt);
+    const auto decoded = decode(damaged, std::nullopt);
     refused += !decoded;
     if (!decoded || !*decoded) continue;
     // No voxel outside of the grid: every counted one can be queried.
@@ -152,19 +157,19 @@ TEST(VxlFile, LoadsWhatWasSavedAndNamesAFileThatIsDamaged) {
   const auto folder = std::filesystem::path(testing::TempDir()) / ("brume_vxl_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const auto path = folder / "room.vxl";
-  const VxlContents contents = small_contents();
-  ASSERT_TRUE(save_vxl(path, contents, kKey));
-  EXPECT_EQ(*read_file(path), encode_vxl(contents, kKey));
-  const auto loaded = load_vxl(path, kKey);
+  const Contents contents = small_contents();
+  ASSERT_TRUE(save(path, contents, kKey));
+  EXPECT_EQ(*read_file(path), encode(contents, kKey));
+  const auto loaded = load(path, kKey);
   ASSERT_TRUE(loaded && *loaded);
   EXPECT_EQ((*loaded)->planes, contents.planes);
 
   ASSERT_TRUE(write_file_atomic(path, std::string("no voxels")));
-  const auto damaged = load_vxl(path, kKey);
+  const auto damaged = load(path, kKey);
   ASSERT_FALSE(damaged);
   EXPECT_NE(damaged.failure().message.find("room.vxl: "), std::string::npos) << damaged.failure().message;
   std::filesystem::remove_all(folder);
 }
 
 }  // namespace
-}  // namespace brume::voxel
+}  // namespace brume::vxl

@@ -1,4 +1,4 @@
-#include "voxel/vxl_file.hpp"
+#include "vxl/file.hpp"
 
 #include <zstd.h>
 
@@ -13,8 +13,17 @@
 #include "core/hash.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::voxel {
+namespace brume::vxl {
 namespace {
+
+using voxel::BitGrid;
+using voxel::GridLayout;
+using voxel::kBrickSize;
+using voxel::kMaxPlanes;
+using voxel::Plane;
+using voxel::RoleGrids;
+using voxel::Solids;
+using voxel::SurfacePlanes;
 
 using glm::ivec3;
 
@@ -49,7 +58,7 @@ static_assert(sizeof(RoleCounts) == 8);
 
 /// The bytes before the payload.
 std::size_t head_bytes(std::uint32_t version) {
-  return sizeof(Header) + (version == kVxlRolesVersion ? sizeof(RoleCounts) : 0);
+  return sizeof(Header) + (version == kRolesVersion ? sizeof(RoleCounts) : 0);
 }
 static_assert(sizeof(Plane) == 16 && sizeof(BitGrid::Brick) == 64);
 
@@ -193,7 +202,7 @@ std::optional<std::uint64_t> payload_bytes(const Header& header, const RoleCount
 
 }  // namespace
 
-std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key) {
+std::vector<std::byte> encode(const Contents& contents, std::uint64_t key) {
   const GridLayout& layout = contents.grid.layout();
   const auto bricks = numbered_bricks(contents.grid);
   auto payload = encode_payload(bricks, contents.planes);
@@ -204,7 +213,7 @@ std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key
   append_bricks(payload, grille_bricks);
   const RoleCounts roles{static_cast<std::uint32_t>(glass_bricks.size()),
                          static_cast<std::uint32_t>(grille_bricks.size())};
-  const std::uint32_t version = roles.glass + roles.grilles > 0 ? kVxlRolesVersion : kVxlVersion;
+  const std::uint32_t version = roles.glass + roles.grilles > 0 ? kRolesVersion : kVersion;
   const std::size_t head = head_bytes(version);
   Header header{kMagic,
                 version,
@@ -231,16 +240,16 @@ std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key
   return bytes;
 }
 
-Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
-                                              std::optional<std::uint64_t> expected_key) {
+Result<std::optional<Contents>> decode(std::span<const std::byte> bytes,
+                                       std::optional<std::uint64_t> expected_key) {
   // Signature, version, length, checksum and key.
   Header header;
   if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or truncated");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != kMagic) return damaged("not a voxel cache");
-  if (header.version != kVxlVersion && header.version != kVxlRolesVersion)
+  if (header.version != kVersion && header.version != kRolesVersion)
     return damaged("a voxel cache of version " + std::to_string(header.version) + ", not " +
-                   std::to_string(kVxlVersion) + " or " + std::to_string(kVxlRolesVersion));
+                   std::to_string(kVersion) + " or " + std::to_string(kRolesVersion));
   const std::size_t head = head_bytes(header.version);
   if (bytes.size() < head + kChecksumBytes || header.compressed_bytes != bytes.size() - head - kChecksumBytes)
     return damaged("a voxel cache that is truncated or too long");
@@ -250,7 +259,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   std::memcpy(&checksum, bytes.data() + bytes.size() - kChecksumBytes, kChecksumBytes);
   if (checksum != hash_bytes(bytes.first(bytes.size() - kChecksumBytes)))
     return damaged("a damaged voxel cache: its checksum is wrong");
-  if (expected_key && header.key != *expected_key) return std::optional<VxlContents>();
+  if (expected_key && header.key != *expected_key) return std::optional<Contents>();
 
   // The payload, as long as grid and counts allow.
   const GridLayout layout{header.size, header.voxel_size, header.origin_world};
@@ -263,7 +272,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   if (ZSTD_isError(got) || got != payload.size()) return damaged("a voxel cache that does not unpack");
 
   // Bricks, planes and roles.
-  VxlContents contents{BitGrid(layout), {}, header.triangles};
+  Contents contents{BitGrid(layout), {}, header.triangles};
   std::span<const std::byte> rest(payload);
   if (auto decoded = decode_bricks(rest, header.bricks, contents.grid); !decoded) return decoded.failure();
   auto planes = decode_planes(rest, header);
@@ -272,20 +281,20 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   auto roles = decode_roles(rest, role_counts, contents.grid);
   if (!roles) return roles.failure();
   contents.roles = std::move(*roles);
-  return std::optional<VxlContents>(std::move(contents));
+  return std::optional<Contents>(std::move(contents));
 }
 
-Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
-                                            std::optional<std::uint64_t> expected_key) {
+Result<std::optional<Contents>> load(const std::filesystem::path& path,
+                                     std::optional<std::uint64_t> expected_key) {
   const auto bytes = read_file(path);
   if (!bytes) return bytes.failure();
-  auto contents = decode_vxl(*bytes, expected_key);
+  auto contents = decode(*bytes, expected_key);
   if (!contents) return Failure{contents.failure().code, path.string() + ": " + contents.failure().message};
   return contents;
 }
 
-Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& contents, std::uint64_t key) {
-  return write_file_atomic(path, encode_vxl(contents, key));
+Result<void> save(const std::filesystem::path& path, const Contents& contents, std::uint64_t key) {
+  return write_file_atomic(path, encode(contents, key));
 }
 
-}  // namespace brume::voxel
+}  // namespace brume::vxl
