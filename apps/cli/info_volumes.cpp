@@ -12,7 +12,7 @@
 #include "grids/cut_sides.hpp"
 #include "grids/files.hpp"
 #include "grids/metadata.hpp"
-#include "scenario/volume_frame.hpp"
+#include "volumes/volume_frame.hpp"
 
 namespace brume::cli {
 namespace {
@@ -233,7 +233,7 @@ Summary volume_summary(const std::filesystem::path& path, Outputs& outputs) {
   Json list = Json::list({});
   for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));
   summary.set("grids", list);
-  if (const auto shown = scenario::shown_grids(file)) {
+  if (const auto shown = volumes::shown_grids(file)) {
     summary.add_line("", "");
     summary.add("shown", *shown);
   }

@@ -16,7 +16,7 @@ constexpr float kLeastReach = 1e-4f;
 std::vector<glm::vec3> corners_of(const scenario::Scenario& scenario) {
   std::vector<glm::vec3> corners = scene::level_corners(scenario.scene);
   for (std::size_t i = 0; i < scenario.timeline.volumes.size(); ++i) {
-    const auto more = scenario::corners_of(scenario.timeline.volumes[i], *scenario.volumes, i);
+    const auto more = volumes::corners_of(scenario.timeline.volumes[i], *scenario.volumes, i);
     corners.insert(corners.end(), more.begin(), more.end());
   }
   return corners;

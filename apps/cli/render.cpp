@@ -77,7 +77,7 @@ Json report_volumes(const scenario::Scenario& scenario) {
   Json volumes = Json::list({});
   for (std::size_t i = 0; i < scenario.timeline.volumes.size(); ++i) {
     const scene::VolumeOptions& volume = scenario.timeline.volumes[i];
-    const scenario::VolumeFrame& frame = scenario.volumes->typical_frame(i);
+    const volumes::VolumeFrame& frame = scenario.volumes->typical_frame(i);
     volumes.push_back({{"file", volume.file.string()},
                        {"density", frame.density_name},
                        {"extinction", double{volume.extinction}},

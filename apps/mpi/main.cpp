@@ -32,9 +32,9 @@
 #include "render/volume_room.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/simulation.hpp"
-#include "scenario/volumes.hpp"
 #include "scene/load.hpp"
 #include "volume/parts.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::mpi {
 namespace {

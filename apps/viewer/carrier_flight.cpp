@@ -28,14 +28,14 @@ float size_of_carried(const scenario::Scenario& scenario, const scene::Carrier& 
   const scene::Timeline& timeline = scenario.timeline;
   for (std::size_t i = 0; i < timeline.volumes.size() && box.empty(); ++i)
     if (timeline.volumes[i].carrier == carrier.name)
-      box = scenario::transformed(scenario::world_from_file(timeline.volumes[i]),
-                                  scenario.volumes->typical_frame(i).bounds);
+      box = volumes::transformed(volumes::world_from_file(timeline.volumes[i]),
+                                 scenario.volumes->typical_frame(i).bounds);
   for (std::size_t i = 0; i < timeline.decals.size() && box.empty(); ++i)
     if (timeline.decals[i].carrier == carrier.name) {
       const scenario::SliceVolume& slices = scenario.slices.of_decals[i];
       const Box<double>& grid = (*scenario.slices.volumes)[slices.volume]->front().box;
-      box = scenario::transformed(scenario::world_from_file({}, timeline.decals[i], 0) * slices.file_from_box,
-                                  {glm::vec3(grid.low), glm::vec3(grid.high)});
+      box = volumes::transformed(scenario::world_from_file({}, timeline.decals[i], 0) * slices.file_from_box,
+                                 {glm::vec3(grid.low), glm::vec3(grid.high)});
     }
   return box.empty() ? 1 : glm::length(box.high - box.low);
 }

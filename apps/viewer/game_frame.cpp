@@ -25,8 +25,7 @@ planning::CameraAt camera_of(const Game& game) {
 
 }  // namespace
 
-render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
-                               scenario::VolumeWait wait) {
+render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes, volumes::VolumeWait wait) {
   const auto steered = game.steered_carriers();
   return input_of(game, {.wait = wait, .steered = steered ? &*steered : nullptr, .camera = camera_of(game)},
                   holes);

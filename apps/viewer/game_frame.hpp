@@ -11,7 +11,7 @@ namespace brume::viewer {
 /// What a renderer shows of a game: what is steered where it is, and decals only if they are chosen. `holes`
 /// keeps the holes that the result refers to.
 render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
-                               scenario::VolumeWait wait = scenario::VolumeWait::until_loaded);
+                               volumes::VolumeWait wait = volumes::VolumeWait::until_loaded);
 
 /// A paused frame of a game, as `brume render` shows it: the mean of the samples of its camera.
 class StillFrame {

@@ -44,7 +44,7 @@ bool Painter::is_still(const Screen& screen, const Game& game, const Window& win
 bool Painter::draw_film(Screen& screen, const Game& game, const Quality& quality, float light_update_fraction,
                         const ImDrawData& ui) {
   std::vector<shared::Hole> holes;
-  render::FrameInput input = frame_input(game, holes, scenario::VolumeWait::never);
+  render::FrameInput input = frame_input(game, holes, volumes::VolumeWait::never);
   input.quality.volume_upload_bytes = kVolumeUploadBytes;
   input.view.continues = continues_ && game.choices().temporal;
   input.view.frame_index = ++frame_index_;

@@ -32,8 +32,8 @@ Screen::Screen(const Window& window, const ScreenOptions& options)
 
 void Screen::load(const scenario::Scenario& scenario, glm::uvec2 size_px, std::uint64_t volume_bytes) {
   if (scenario.volumes) {
-    scenario::VolumeRoom room = render::volume_room(context_, volume_bytes);
-    const std::uint64_t previews = 2 * scenario::kPreviewBricks * scenario.timeline.volumes.size();
+    volumes::VolumeRoom room = render::volume_room(context_, volume_bytes);
+    const std::uint64_t previews = 2 * volumes::kPreviewBricks * scenario.timeline.volumes.size();
     room.bricks -= std::min(room.bricks / 4, previews);
     scenario.volumes->limit(room).value_or_throw();
     scenario.volumes->make_previews();

@@ -42,14 +42,14 @@ bool grid_row(const char* label, const char* about, std::string& chosen,
   return true;
 }
 
-bool grid_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+bool grid_rows(scene::VolumeOptions& options, const volumes::VolumeFrame& frame) {
   bool changed = grid_row("density grid", "what is dense", options.density, frame.number_grids);
   std::vector<std::string> heat_grids = frame.number_grids;
-  heat_grids.emplace_back(scenario::kNoGrid);
+  heat_grids.emplace_back(volumes::kNoGrid);
   changed = grid_row("heat grid", "what glows", options.heat, heat_grids) || changed;
   if (!frame.color_grids.empty() && options.masks.empty()) {
     std::vector<std::string> color_grids = frame.color_grids;
-    color_grids.emplace_back(scenario::kNoGrid);
+    color_grids.emplace_back(volumes::kNoGrid);
     changed =
         grid_row("colour grid", "colours that multiply the albedo", options.color, color_grids) || changed;
   }
@@ -81,7 +81,7 @@ bool look_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file, 
 }
 
 /// The values that the curves span: those of the first frame, or chosen.
-bool range_row(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+bool range_row(scene::VolumeOptions& options, const volumes::VolumeFrame& frame) {
   begin_row("range of values", "what the curve and the colours span");
   bool is_set = options.range.has_value();
   bool changed = checkbox("##range set", &is_set);
@@ -145,7 +145,7 @@ bool mask_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file) 
 
 /// The rows of a noise, `visit` of its options, in lengths up to the volume's own.
 template <typename Noise, typename Visit>
-bool noise_rows(const char* name, Noise& noise, const Noise& file, const scenario::VolumeFrame& frame,
+bool noise_rows(const char* name, Noise& noise, const Noise& file, const volumes::VolumeFrame& frame,
                 const Visit& visit) {
   const glm::vec3 size = frame.bounds.high - frame.bounds.low;
   const double edge = std::max({double{size.x}, double{size.y}, double{size.z}, 1e-3});
@@ -196,7 +196,7 @@ bool color_map_row(scene::ColorMap& map) {
   return changed;
 }
 
-bool transfer_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+bool transfer_rows(scene::VolumeOptions& options, const volumes::VolumeFrame& frame) {
   bool changed = color_map_row(options.color_map);
   begin_row("opacity curve", "opacity of the values, in place of the values themselves");
   bool has_curve = !options.opacity.empty();
@@ -224,7 +224,7 @@ void lay_out_volumes(Game& game) {
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (begin_tree(volumes[i].file.filename().string().c_str())) {
-      const scenario::VolumeFrame& frame = live.scenario().volumes->typical_frame(i);
+      const volumes::VolumeFrame& frame = live.scenario().volumes->typical_frame(i);
       changed = grid_rows(volumes[i], frame) || changed;
       changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
       changed = mask_rows(volumes[i], file[i]) || changed;

@@ -6,7 +6,7 @@
 
 #include "host/frame.hpp"
 #include "host/volumes.hpp"
-#include "scenario/decal_volume.hpp"
+#include "volumes/decal_volume.hpp"
 
 using namespace brume::api;
 
@@ -52,13 +52,13 @@ grids::DenseGrid grid_of(const brume_decal_params& params, const char* name, con
   return grid;
 }
 
-scenario::SampledGrids of_arrays(const brume_decal_params& params) {
+volumes::SampledGrids of_arrays(const brume_decal_params& params) {
   const float& up = required(params.up, "up");
   grids::DenseVolume volume{grid_of(params, "up", &up)};
-  scenario::SampledGrids sampled;
+  volumes::SampledGrids sampled;
   if (params.down) {
     volume.push_back(grid_of(params, "down", params.down));
-    sampled.occluder = scenario::occluder_of(volume[0], volume[1]);
+    sampled.occluder = volumes::occluder_of(volume[0], volume[1]);
   } else {
     volume.push_back(volume.front());
   }
@@ -66,19 +66,19 @@ scenario::SampledGrids of_arrays(const brume_decal_params& params) {
   return sampled;
 }
 
-scenario::SampledGrids of_file(const brume_decal_params& params) {
+volumes::SampledGrids of_file(const brume_decal_params& params) {
   const std::string file = params.file;
   require(!file.empty(), "`file` is empty");
   require(!params.up && !params.down, "`up` and `down` must be null where `file` is given");
   const grids::GridFile grids = loaded(grids::load_volume_file(file));
-  auto sampled = scenario::decal_volume(grids, params.grid ? params.grid : "");
+  auto sampled = volumes::decal_volume(grids, params.grid ? params.grid : "");
   if (!sampled)
     fail(result_of(sampled.failure().code, BRUME_ERROR_DATA), file + ": " + sampled.failure().message);
   return *std::move(sampled);
 }
 
 DecalData load(const brume_decal_params& params) {
-  scenario::SampledGrids sampled = params.file ? of_file(params) : of_arrays(params);
+  volumes::SampledGrids sampled = params.file ? of_file(params) : of_arrays(params);
   unwrap(passes::pack_slices({&sampled.volume->front().size, 1}, kMostTexels));
   return {std::move(sampled.volume), sampled.file_from_box, glm::vec3(sampled.occluder.middle),
           static_cast<float>(sampled.occluder.radius)};

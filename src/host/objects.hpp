@@ -11,8 +11,8 @@
 #include "api/objects.hpp"
 #include "gpu/host_recording.hpp"
 #include "render/renderer.hpp"
-#include "scenario/volumes.hpp"
 #include "scene/scene.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::host {
 
@@ -28,9 +28,9 @@ struct DeviceData {
 
 /// A file of grids or a sequence of them.
 struct VolumeData {
-  scene::VolumeOptions options;                ///< Without its place and look, which are of each frame.
-  std::shared_ptr<scenario::Volumes> volumes;  ///< Of one.
-  scenario::VolumeWait wait = scenario::VolumeWait::never;
+  scene::VolumeOptions options;               ///< Without its place and look, which are of each frame.
+  std::shared_ptr<volumes::Volumes> volumes;  ///< Of one.
+  volumes::VolumeWait wait = volumes::VolumeWait::never;
   std::mutex mutex;  ///< Held while frames are chosen.
 };
 

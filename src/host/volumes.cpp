@@ -37,10 +37,10 @@ scene::VolumeOptions options_of(const brume_volume_params& params) {
 std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
   auto data = std::make_shared<VolumeData>();
   data->options = options_of(params);
-  data->wait = params.wait_for_frame != 0 ? scenario::VolumeWait::until_loaded : scenario::VolumeWait::never;
-  data->volumes = loaded(scenario::Volumes::load(std::span(&data->options, 1), grids::load_volume_file));
+  data->wait = params.wait_for_frame != 0 ? volumes::VolumeWait::until_loaded : volumes::VolumeWait::never;
+  data->volumes = loaded(volumes::Volumes::load(std::span(&data->options, 1), grids::load_volume_file));
   if (params.max_bytes > 0) {
-    scenario::VolumeRoom room;
+    volumes::VolumeRoom room;
     room.bricks = std::min(room.bricks, params.max_bytes / kBrickBytes);
     loaded(data->volumes->limit(room));
   }
@@ -124,7 +124,7 @@ brume_result brume_volume_describe(const brume_volume* volume, brume_volume_info
     brume::host::VolumeData& data = *call.handle(volume).data;
     required(info, "info");
     const std::scoped_lock lock(data.mutex);
-    const brume::scenario::VolumeFrame& first = data.volumes->typical_frame(0);
+    const brume::volumes::VolumeFrame& first = data.volumes->typical_frame(0);
     const auto point = [](const glm::vec3& p) { return brume_point{p.x, p.y, p.z}; };
     *info = {point(first.bounds.low),
              point(first.bounds.high),

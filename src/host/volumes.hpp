@@ -3,12 +3,12 @@
 
 #include "host/objects.hpp"
 #include "planning/frame_input.hpp"
-#include "scenario/volumes.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::host {
 
 /// The volumes of a frame as they are at their times: holds what FrameInput points to.
-using ShownVolumes = std::vector<scenario::VolumeAt>;
+using ShownVolumes = std::vector<volumes::VolumeAt>;
 
 /// Adds the volumes of a frame, and the light of what glows in them. Loads what they wait for. Throws a
 /// CallFailure for what brume_assets.h does not allow.

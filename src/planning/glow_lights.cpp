@@ -39,12 +39,12 @@ glm::dvec3 leaving_ball(const scene::VolumeOptions& options, double optical_radi
   return escape / (1.0 - albedo * (1 - escape));
 }
 
-shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+shared::Light light_of(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                        const grids::GlowBall& ball, double exposure, bool scattered) {
-  const scenario::VolumeFrame& frame = *volume.frame;
+  const volumes::VolumeFrame& frame = *volume.frame;
   const double voxel_volume = std::abs(glm::determinant(glm::dmat3(glm::dmat4(volume.world_from_heat))));
   const double radius = ball.radius * std::cbrt(voxel_volume);
-  const double kelvin = double{scenario::kelvin_of(options, frame)} * double{frame.heat->unit};
+  const double kelvin = double{volumes::kelvin_of(options, frame)} * double{frame.heat->unit};
   const double ratio = kelvin / double{kUnitGlow};
 
   // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.
@@ -61,13 +61,13 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
 }
 
 /// What leaves a ball of a mask; the extinction that dims it is that of the volume where all masks are 1.
-void add_mask_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
+void add_mask_lights(const scene::VolumeOptions& options, const volumes::VolumeAt& volume, double seconds,
                      double exposure, bool scattered, std::vector<shared::Light>& lights) {
-  const scenario::VolumeFrame& frame = *volume.frame;
+  const volumes::VolumeFrame& frame = *volume.frame;
   const glm::dmat4 world_from_file =
       glm::dmat4(volume.world_from_density) * glm::inverse(frame.density.world_from_voxel);
   const double cubed = std::abs(glm::determinant(glm::dmat3(world_from_file))), scale = std::cbrt(cubed);
-  for (const scenario::MaskGlow& ball : frame.mask_glow) {
+  for (const volumes::MaskGlow& ball : frame.mask_glow) {
     const glm::dvec3 glow(scene::glow_at(options.masks[ball.mask], seconds));
     const double radius = ball.radius * scale;
     const glm::dvec3 leaves = leaving_ball(options, double{options.extinction} * radius, scattered);
@@ -78,7 +78,7 @@ void add_mask_lights(const scene::VolumeOptions& options, const scenario::Volume
 
 }  // namespace
 
-std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                                        double seconds, float exposure, bool scattered) {
   std::vector<shared::Light> lights;
   if (!volume.frame) return lights;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scenario/volumes.hpp"
 #include "shared/light.h"
+#include "volumes/volumes.hpp"
 
 namespace brume::planning {
 
@@ -12,7 +12,7 @@ namespace brume::planning {
 /// that is seen beyond its edge at an exposure (View::exposure). Its intensity is that of all that the ball
 /// emits and that leaves a homogeneous ball straight, and with `scattered` of what leaves it after having
 /// been scattered, too.
-std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                                        double seconds, float exposure, bool scattered);
 
 }  // namespace brume::planning

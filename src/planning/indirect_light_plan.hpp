@@ -39,7 +39,10 @@ class IndirectLightCache {
   /// The frame of the last plan was recorded.
   void commit() { state_.commit(); }
   /// The device lost its light.
-  void invalidate() { state_.reset() = {}; }
+  void invalidate() {
+    State& state = state_.reset();
+    state = State{.version = state.version + 1};
+  }
 
  private:
   struct State {

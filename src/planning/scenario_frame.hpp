@@ -13,7 +13,7 @@ namespace brume::planning {
 using CameraAt = std::function<scene::Camera(double seconds)>;
 
 struct FrameOptions {
-  scenario::VolumeWait wait = scenario::VolumeWait::until_loaded;
+  volumes::VolumeWait wait = volumes::VolumeWait::until_loaded;
   /// In place of the timeline's carriers; of the same names and objects. null: those of the timeline.
   const std::vector<scene::Carrier>* steered = nullptr;
   /// Whether volumes that the timeline shows as particles are; else they are volumes like others.

@@ -13,14 +13,14 @@ static_assert(scene::kMostVolumes == shared::kMaxVolumes);
 static_assert(scene::kMostVolumes <= shared::kMaxParticleSystems);
 
 /// A volume that moves with its carrier.
-void move_by(const glm::mat4& pose, scenario::VolumeAt& volume) {
+void move_by(const glm::mat4& pose, volumes::VolumeAt& volume) {
   for (glm::mat4* matrix : {&volume.world_from_density, &volume.world_from_heat,
                             &volume.world_from_density_preview, &volume.world_from_heat_preview})
     *matrix = pose * *matrix;
 }
 
 /// The disturbance in voxels of the density.
-DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const scenario::VolumeFrame& frame,
+DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const volumes::VolumeFrame& frame,
                                 double seconds) {
   if (disturbance.strength <= 0) return {};
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
@@ -35,21 +35,21 @@ float largest_factor(const scene::VolumeOptions& options, float value) {
 /// The optical depth along the shortest edge of a voxel, of one as dense as voxels usually are. Of the
 /// typical frame, so that a sequence is lit in one way.
 float voxel_depth_of(const scene::VolumeOptions& options, const glm::mat4& world_from_voxel,
-                     const scenario::VolumeFrame& typical) {
+                     const volumes::VolumeFrame& typical) {
   float edge = glm::length(glm::vec3(world_from_voxel[0]));
   for (int axis = 1; axis < 3; ++axis) edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
   return options.extinction * largest_factor(options, typical.density.usual) * edge;
 }
 
-VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                     const scenario::VolumeFrame& typical, double seconds) {
+VolumeInput input_of(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
+                     const volumes::VolumeFrame& typical, double seconds) {
   const grids::BrickVolume& density = volume.frame->density;
   VolumeInput input;
   input.volume = density.volume.get();
   input.world_from_voxel = volume.world_from_density;
   input.colors = volume.frame->colors.get();
   input.transfer = {options.opacity, options.color_map,
-                    (scenario::range_of(options, typical) - density.offset) / density.unit, options.glow,
+                    (volumes::range_of(options, typical) - density.offset) / density.unit, options.glow,
                     options.emission};
   // Values are stored in a unit, which an opacity curve cancels.
   const float unit = options.opacity.empty() ? density.unit : 1;
@@ -59,7 +59,7 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   if (const auto& heat = volume.frame->heat; heat && options.emission > 0)
     // What glows is a multiple of the look's extinction.
     input.heat = {heat->volume.get(), volume.world_from_heat,
-                  scenario::kelvin_of(options, *volume.frame) * heat->unit, heat->high / heat->unit,
+                  volumes::kelvin_of(options, *volume.frame) * heat->unit, heat->high / heat->unit,
                   options.emission / unit};
   if (const auto& preview = volume.preview; preview && preview->density) {
     input.preview = preview->density->volume.get();
@@ -86,7 +86,7 @@ ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::
       glm::translate(glm::dmat4(1), box.low) * glm::scale(glm::dmat4(1), box.high - box.low);
   ParticleInput input;
   input.world_from_uvw =
-      pose * scenario::world_from_file(options) * slices.file_from_box * glm::mat4(box_from_uvw);
+      pose * volumes::world_from_file(options) * slices.file_from_box * glm::mat4(box_from_uvw);
   input.slices = static_cast<std::uint32_t>(slices.volume);
   for (std::size_t mask = 0; mask < options.masks.size(); ++mask)
     input.tints[mask] = scene::glow_at(options.masks[mask], seconds);
@@ -103,7 +103,7 @@ ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::
   return input;
 }
 
-void add_glow(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
+void add_glow(const scene::VolumeOptions& options, const volumes::VolumeAt& volume, double seconds,
               FrameInput& input) {
   // With indirect light, what is scattered leaves by its cells.
   const bool scattered = input.environment.bounces == 0;
@@ -115,8 +115,8 @@ void add_glow(const scene::VolumeOptions& options, const scenario::VolumeAt& vol
 
 }  // namespace
 
-void add_volume(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                const scenario::VolumeFrame& typical, double seconds, FrameInput& input) {
+void add_volume(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
+                const volumes::VolumeFrame& typical, double seconds, FrameInput& input) {
   input.volumes.push_back(input_of(options, volume, typical, seconds));
   add_glow(options, volume, seconds, input);
 }
@@ -129,7 +129,7 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
                  const FrameOptions& frame, FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, frame.wait);
+  std::vector<volumes::VolumeAt> volumes = scenario.volumes->at(options, seconds, frame.wait);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
     const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);

@@ -15,8 +15,8 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
 
 /// Adds one volume as it is at a time [s], and the light of what glows in it. `typical`: that of its
 /// sequence.
-void add_volume(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                const scenario::VolumeFrame& typical, double seconds, FrameInput& input);
+void add_volume(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
+                const volumes::VolumeFrame& typical, double seconds, FrameInput& input);
 
 /// Puts the light of what glows in order: a frame takes a limited number, the brightest.
 void sort_glow(FrameInput& input);

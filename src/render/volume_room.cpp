@@ -6,7 +6,7 @@
 
 namespace brume::render {
 
-scenario::VolumeRoom volume_room(const gpu::Context& context, std::uint64_t memory_bytes) {
+volumes::VolumeRoom volume_room(const gpu::Context& context, std::uint64_t memory_bytes) {
   constexpr std::uint64_t kBrickBytes = sizeof(std::uint16_t) * shared::kTexelsPerBrick;
   constexpr std::uint64_t kLeastBricks = 64, kLeastPages = 1u << 14;
   const int edge = static_cast<int>(context.limits().maxImageDimension3D) / shared::kBrickTexels;
@@ -14,7 +14,7 @@ scenario::VolumeRoom volume_room(const gpu::Context& context, std::uint64_t memo
   if (memory_bytes > 0) bytes = std::min(bytes, memory_bytes);
   const std::uint64_t buffer_bytes = context.limits().maxStorageBufferRange;
 
-  scenario::VolumeRoom room;
+  volumes::VolumeRoom room;
   room.bricks = std::min({bytes / kBrickBytes, passes::most_slots(edge), buffer_bytes / sizeof(glm::ivec3)});
   // Each volume's part of the atlas is rounded up by an eighth, that of a small one by more; a layer may be
   // incomplete.

@@ -30,8 +30,9 @@ void complete_grenade(const scene::Timeline& timeline, scene::Scene& scene) {
 }
 
 /// From a timeline and its loaded scene.
-Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::shared_ptr<Volumes> volumes,
-                          float aspect, const std::filesystem::path& cache_folder) {
+Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
+                          std::shared_ptr<volumes::Volumes> volumes, float aspect,
+                          const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
   complete_grenade(timeline, scene);
   for (const scene::RoleOptions& options : timeline.roles)
@@ -65,18 +66,18 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
 }
 
 /// Where the volumes of a timeline are, for the scene's bounds.
-void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scene::Scene& scene) {
+void place_volumes(const scene::Timeline& timeline, const volumes::Volumes& volumes, scene::Scene& scene) {
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i) {
     const scene::VolumeOptions& options = timeline.volumes[i];
-    scene::Volume place = place_of(options, volumes.extent(i));
+    scene::Volume place = volumes::place_of(options, volumes.extent(i));
     const glm::mat4 pose = scene::pose_of(timeline.carriers, options.carrier, 0);
-    scene.volumes.push_back(
-        {place.name, transformed(pose, place.bounds_world), transformed(pose, place.core_world)});
+    scene.volumes.push_back({place.name, volumes::transformed(pose, place.bounds_world),
+                             volumes::transformed(pose, place.core_world)});
   }
 }
 
 /// Where something else glows or is drawn than one might expect.
-void warn_of_values(const std::filesystem::path& file, const VolumeFrame& first) {
+void warn_of_values(const std::filesystem::path& file, const volumes::VolumeFrame& first) {
   if (!first.heat_note.empty() && (!first.heat || first.heat_is_kelvin))
     log_warning(file.string() + ": " + first.heat_note);
   if (!first.value_note.empty()) log_warning(file.string() + ": " + first.value_note);
@@ -84,8 +85,9 @@ void warn_of_values(const std::filesystem::path& file, const VolumeFrame& first)
 }
 
 /// Where a camera is fitted to the volume, and a part of it lies far outside of the picture.
-void warn_of_strays(const std::filesystem::path& file, const VolumeExtent& extent) {
-  if (const std::string note = stray_note(extent); !note.empty()) log_warning(file.string() + ": " + note);
+void warn_of_strays(const std::filesystem::path& file, const volumes::VolumeExtent& extent) {
+  if (const std::string note = volumes::stray_note(extent); !note.empty())
+    log_warning(file.string() + ": " + note);
 }
 
 /// Whether the simulation accepts it.
@@ -124,14 +126,14 @@ Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewO
   chosen.kelvin = options.kelvin.value_or(chosen.kelvin);
   chosen.opacity = options.opacity;
   chosen.range = options.range;
-  auto volumes = Volumes::load(std::array{chosen});
+  auto volumes = volumes::Volumes::load(std::array{chosen});
   if (!volumes) return volumes.failure();
   warn_of_values(file, (*volumes)->typical_frame(0));
   if (options.kelvin && !(*volumes)->typical_frame(0).heat)
     log_warning("--kelvin: nothing of " + file.string() + " glows");
   scene::Scene scene;
   (*volumes)->measure_sequence(0);
-  const VolumeExtent extent = (*volumes)->extent(0);
+  const volumes::VolumeExtent extent = (*volumes)->extent(0);
   if (!options.camera) warn_of_strays(file, extent);
   scene::Timeline timeline = prepare_volume_view(file, (*volumes)->typical_frame(0), extent, options);
   if ((*volumes)->is_sequence(0))
@@ -194,7 +196,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
   if (!scene) return scene.failure();
   const bool is_fitted = !scene->camera;
   scene::Timeline timeline = prepare_first_view(input, *scene, options);
-  auto volumes = Volumes::load({});
+  auto volumes = volumes::Volumes::load({});
   if (!volumes) return volumes.failure();
   auto scenario =
       assemble(std::move(timeline), std::move(*scene), std::move(*volumes), options.aspect, cache_folder);
@@ -212,7 +214,7 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   auto scene = is_volume ? Result<scene::Scene>(scene::Scene())
                          : scene::load_scene(timeline.scene, !timeline.volumes.empty());
   if (!scene) return scene.failure();
-  auto volumes = Volumes::load(timeline.volumes);
+  auto volumes = volumes::Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
     warn_of_values(timeline.volumes[i].file, (*volumes)->typical_frame(i));

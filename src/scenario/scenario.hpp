@@ -8,10 +8,10 @@
 #include "scenario/lens_openings.hpp"
 #include "scenario/shot_masks.hpp"
 #include "scenario/slice_volumes.hpp"
-#include "scenario/volumes.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
 #include "smoke/mask_atlas.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::scenario {
 
@@ -24,9 +24,9 @@ struct Scenario {
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
-  std::shared_ptr<Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
-  SliceVolumes slices = {};               ///< Of Timeline::decals.
-  LensOpenings lens_openings = {};        ///< Of the camera's keys.
+  std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
+  SliceVolumes slices = {};                               ///< Of Timeline::decals.
+  LensOpenings lens_openings = {};                        ///< Of the camera's keys.
   /// Whether `camera` is none of the scene's file: it frames the scene.
   bool camera_is_fitted = false;
 };

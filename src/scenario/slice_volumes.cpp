@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "grids/files.hpp"
-#include "scenario/decal_volume.hpp"
+#include "volumes/decal_volume.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -16,19 +16,19 @@ Failure failed_at(const std::string& place, const Failure& failure, const std::s
   return {failure.code, (place.empty() ? "" : place + ": ") + file + failure.message};
 }
 
-Result<SampledGrids> load_decal(const scene::DecalOptions& decal) {
+Result<volumes::SampledGrids> load_decal(const scene::DecalOptions& decal) {
   const auto failed = [&](const Failure& failure, const std::string& file) {
     return failed_at(decal.place, failure, file);
   };
   const auto file = grids::load_grid_file(decal.file);
   if (!file) return failed(file.failure(), "");
-  auto loaded = decal_volume(*file, decal.grid);
+  auto loaded = volumes::decal_volume(*file, decal.grid);
   if (!loaded) return failed(loaded.failure(), decal.file.string() + ": ");
   return loaded;
 }
 
 /// The masks of a volume.
-Result<SampledGrids> load_masks_of(const scene::VolumeOptions& volume) {
+Result<volumes::SampledGrids> load_masks_of(const scene::VolumeOptions& volume) {
   if (volume.file.filename().string().find('%') != std::string::npos)
     return failed_at(volume.place, {ErrorCode::bad_input, "particles show one file, not a sequence"}, "");
   const auto file = grids::load_grid_file(volume.file);
@@ -36,11 +36,11 @@ Result<SampledGrids> load_masks_of(const scene::VolumeOptions& volume) {
   std::vector<const Grid*> chosen;
   for (const scene::VolumeMask& mask : volume.masks) {
     // Volumes::load has found it.
-    if (const Grid* grid = find_grid(*file, mask.grid)) chosen.push_back(grid);
+    if (const Grid* grid = volumes::find_grid(*file, mask.grid)) chosen.push_back(grid);
   }
   // What is marched may be shown by particles in a while: as long as it is small.
   constexpr std::uint64_t kSmall = 1u << 22;
-  auto loaded = sample_grids(chosen, volume.particles > 0 ? grids::kMostAtlasTexels : kSmall);
+  auto loaded = volumes::sample_grids(chosen, volume.particles > 0 ? grids::kMostAtlasTexels : kSmall);
   if (!loaded) return failed_at(volume.place, loaded.failure(), volume.file.string() + ": ");
   return loaded;
 }

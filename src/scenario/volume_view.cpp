@@ -31,9 +31,9 @@ float chosen_scale(const std::filesystem::path& path, float extent, const FirstV
 }
 
 /// The mean opacity of all voxels above 0.
-double mean_opacity(const VolumeFrame& frame, const scene::VolumeOptions& options) {
+double mean_opacity(const volumes::VolumeFrame& frame, const scene::VolumeOptions& options) {
   const grids::BrickVolume& density = frame.density;
-  const glm::dvec2 range(range_of(options, frame));
+  const glm::dvec2 range(volumes::range_of(options, frame));
   const auto factor = [&](double value) {
     const double at = std::clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
     return scene::opacity_at(options.opacity, at);
@@ -51,7 +51,7 @@ double mean_opacity(const VolumeFrame& frame, const scene::VolumeOptions& option
 
 /// An optical depth of kViewDepth through its deep parts, but voxels that are not opaque one by one: they
 /// would be lit as a surface is. Values that are far off on their own decide neither.
-double chosen_extinction(const VolumeFrame& frame, const VolumeExtent& extent,
+double chosen_extinction(const volumes::VolumeFrame& frame, const volumes::VolumeExtent& extent,
                          const scene::VolumeOptions& options) {
   constexpr double kLeastDepth = 4, kVoxelDepth = 0.9 * double{shared::kDenseVoxelDepth};
   const glm::dmat3 axes(frame.density.world_from_voxel);
@@ -78,10 +78,10 @@ double radiance_of(const grids::GlowColumn& column, double kelvin, const scene::
 /// That of daylight, or as much less as the brightest of all frames that were measured asks for: its bright
 /// columns, the 95th percentile, are white at most [EV]. What is red is mostly so by one channel, and counts
 /// as more than its luminance.
-float fire_exposure(const VolumeFrame& frame, const VolumeExtent& extent,
+float fire_exposure(const volumes::VolumeFrame& frame, const volumes::VolumeExtent& extent,
                     const scene::VolumeOptions& volume) {
   constexpr double kBright = 0.95, kWhite = 1900, kRed = 1000;  // [K]
-  const double kelvin{kelvin_of(volume, frame)};
+  const double kelvin{volumes::kelvin_of(volume, frame)};
   double brightest = 0;
   for (const std::vector<grids::GlowColumn>& columns : extent.glow) {
     std::vector<double> radiances;
@@ -99,8 +99,8 @@ float fire_exposure(const VolumeFrame& frame, const VolumeExtent& extent,
 
 }  // namespace
 
-scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
-                                    const VolumeExtent& extent, const FirstViewOptions& options) {
+scene::Timeline prepare_volume_view(const std::filesystem::path& path, const volumes::VolumeFrame& frame,
+                                    const volumes::VolumeExtent& extent, const FirstViewOptions& options) {
   scene::Timeline timeline;
   timeline.scene = path;
 
@@ -115,7 +115,7 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   const float largest = std::max({size.x, size.y, size.z});
   volume.scale = chosen_scale(path, largest, options);
   if (frame.z_is_up) volume.rotation.x = -90;
-  const glm::mat4 turned = world_from_file(volume);
+  const glm::mat4 turned = volumes::world_from_file(volume);
   Box<float> box = kEmptyBox;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 high(corner & 1, corner & 2, corner & 4);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "scenario/first_view.hpp"
-#include "scenario/volumes.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::scenario {
 
@@ -21,8 +21,8 @@ namespace brume::scenario {
 ///
 /// Smoke is thrown only where the options say so. `frame` is the typical one of its sequence, of which
 /// `extent` is.
-scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
-                                    const VolumeExtent& extent, const FirstViewOptions& options);
+scene::Timeline prepare_volume_view(const std::filesystem::path& path, const volumes::VolumeFrame& frame,
+                                    const volumes::VolumeExtent& extent, const FirstViewOptions& options);
 constexpr double kViewDepth = 15;
 
 }  // namespace brume::scenario

@@ -42,7 +42,7 @@ class MediaTest : public HostedPair {
   }
   /// Loads what was added.
   void load_volumes() {
-    scenario_.volumes = scenario::Volumes::load(scenario_.timeline.volumes).value_or_throw();
+    scenario_.volumes = volumes::Volumes::load(scenario_.timeline.volumes).value_or_throw();
     for (const scene::VolumeOptions& options : scenario_.timeline.volumes) {
       const std::string file = options.file.string();
       brume_volume_params params = brume_volume_defaults();
@@ -61,7 +61,7 @@ class MediaTest : public HostedPair {
     for (std::size_t i = 0; i < volumes_.size(); ++i) {
       const scene::VolumeOptions& options = scenario_.timeline.volumes[i];
       brume_shown_volume shown = brume_shown_volume_defaults(volumes_[i]);
-      const glm::mat4 world = scenario::world_from_file(options);
+      const glm::mat4 world = volumes::world_from_file(options);
       shown.x_axis = point_of(glm::vec3(world[0]));
       shown.y_axis = point_of(glm::vec3(world[1]));
       shown.z_axis = point_of(glm::vec3(world[2]));

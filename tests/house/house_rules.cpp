@@ -9,22 +9,17 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 31> kFolders{"core",      "palettes",
-                                                    "spheres",   "image",
-                                                    "scene",     "voxel",
-                                                    "vxl",       "volume",
-                                                    "grids",     "trace",
-                                                    "bake",      "sim",
-                                                    "smoke",     "wire",
-                                                    "api",       "scenario",
-                                                    "planning",  "surfaces",
-                                                    "reference", "gpu",
-                                                    "passes",    "render",
-                                                    "host",      "bench",
-                                                    "apps/vdb",  "apps/command_line",
-                                                    "apps/mpi",  "apps/viewer",
-                                                    "apps/cli",  "examples",
-                                                    "python"};
+constexpr std::array<std::string_view, 32> kFolders{"core",     "palettes",    "spheres",
+                                                    "image",    "scene",       "voxel",
+                                                    "vxl",      "volume",      "grids",
+                                                    "trace",    "bake",        "sim",
+                                                    "smoke",    "wire",        "api",
+                                                    "volumes",  "scenario",    "planning",
+                                                    "surfaces", "reference",   "gpu",
+                                                    "passes",   "render",      "host",
+                                                    "bench",    "apps/vdb",    "apps/command_line",
+                                                    "apps/mpi", "apps/viewer", "apps/cli",
+                                                    "examples", "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kRadius = 1.5;  // [m]
 
 /// A ball that is dense and as hot as the options say, 0.125 m a voxel.
-scenario::VolumeAt hot_ball() {
+volumes::VolumeAt hot_ball() {
   grids::CloudSettings settings;
   settings.kind = grids::CloudKind::sphere;
   settings.edge = 32;
@@ -23,11 +23,11 @@ scenario::VolumeAt hot_ball() {
   settings.radius = kRadius;
   settings.edge_width = 0;
   const grids::Grid grid = grids::generate_cloud(settings);
-  auto frame = std::make_shared<scenario::VolumeFrame>();
+  auto frame = std::make_shared<volumes::VolumeFrame>();
   frame->density = std::move(grids::make_brick_volume(grid)).value_or_throw();
   frame->heat = std::move(grids::make_brick_volume(grid)).value_or_throw();
   frame->glow = grids::find_glow(*frame->heat, frame->density);
-  scenario::VolumeAt at;
+  volumes::VolumeAt at;
   at.frame = frame;
   at.world_from_density = at.world_from_heat = glm::mat4(frame->heat->world_from_voxel);
   return at;
@@ -86,7 +86,7 @@ TEST(GlowLights, LoseNothingToScattering) {
 }
 
 TEST(GlowLights, LieInTheBall) {
-  const scenario::VolumeAt ball = hot_ball();
+  const volumes::VolumeAt ball = hot_ball();
   const glm::vec3 middle(0);  // as clouds are made
   for (const shared::Light& light : glow_lights(options_of(1), ball, 0, 1, true)) {
     EXPECT_LT(glm::distance(light.position_world, middle) + light.radius, 1.5f * static_cast<float>(kRadius));
@@ -95,7 +95,7 @@ TEST(GlowLights, LieInTheBall) {
 }
 
 TEST(GlowLights, AreFiniteForAnyTemperature) {
-  const scenario::VolumeAt ball = hot_ball();
+  const volumes::VolumeAt ball = hot_ball();
   for (const float kelvin : {0.0f, 1e-30f, 1.0f, 399.0f, 401.0f, 1e6f, 1e38f})
     for (const float extinction : {1e-30f, 1.0f, 1e12f}) {
       scene::VolumeOptions options = options_of(extinction);
@@ -110,7 +110,7 @@ TEST(GlowLights, AreFiniteForAnyTemperature) {
 }
 
 TEST(GlowLights, AreNoneWhereNothingGlows) {
-  scenario::VolumeAt ball = hot_ball();
+  volumes::VolumeAt ball = hot_ball();
   scene::VolumeOptions dark = options_of(1);
   dark.emission = 0;
   EXPECT_TRUE(glow_lights(dark, ball, 0, 1, true).empty());

@@ -26,12 +26,12 @@ class GlowTest : public VolumeFixture {
     return grids::make_brick_volume(grids::generate_cloud(settings)).value_or_throw();
   }
   /// A ball of smoke of 1 m, and in its middle one of 0.3 m that glows.
-  static scenario::VolumeAt glowing_smoke() {
-    auto frame = std::make_shared<scenario::VolumeFrame>();
+  static volumes::VolumeAt glowing_smoke() {
+    auto frame = std::make_shared<volumes::VolumeFrame>();
     frame->density = ball(1);
     frame->heat = ball(0.3);
     frame->glow = grids::find_glow(*frame->heat, frame->density);
-    scenario::VolumeAt at;
+    volumes::VolumeAt at;
     at.frame = frame;
     at.world_from_density = glm::mat4(frame->density.world_from_voxel);
     at.world_from_heat = glm::mat4(frame->heat->world_from_voxel);
@@ -41,7 +41,7 @@ class GlowTest : public VolumeFixture {
 
 TEST_F(GlowTest, IsAsBrightInDenseSmokeAsItsPathsOfLight) {
   const scene::Scene scene = far_floor();
-  const scenario::VolumeAt smoke = glowing_smoke();
+  const volumes::VolumeAt smoke = glowing_smoke();
   constexpr glm::uvec2 kSize{33, 33};
   for (const float albedo : {0.6f, 0.9f}) {
     scene::VolumeOptions options;

@@ -76,7 +76,7 @@ class TankInLevelTest : public gpu::GpuTest {
 
     scenario::Scenario scenario =
         scenario_of(std::move(scene), std::move(timeline), {{52, 20, 44}, 0.25f, {-6.5f, -0.6f, -4.6f}});
-    scenario.volumes = scenario::Volumes::load(scenario.timeline.volumes).value_or_throw();
+    scenario.volumes = volumes::Volumes::load(scenario.timeline.volumes).value_or_throw();
     auto made = make_studio(context(), runner(), std::move(scenario), kSeconds, kSize);
     made->renderer->set_march_scale(1);
     return made;

@@ -219,7 +219,7 @@ TEST_F(VolumeResolutionTest, AFileLargerThanTheDeviceIsShownCoarser) {
 }
 
 TEST_F(VolumeResolutionTest, TheRoomOfADeviceHoldsWhatAnAtlasOfItTakes) {
-  const scenario::VolumeRoom room = volume_room(context());
+  const volumes::VolumeRoom room = volume_room(context());
   const int most = static_cast<int>(context().limits().maxImageDimension3D) / shared::kBrickTexels;
   for (const std::uint64_t slots : {std::uint64_t{1}, room.bricks / 3, room.bricks, room.bricks * 7 / 6}) {
     const glm::ivec3 atlas = passes::tight_atlas(slots, most);
@@ -234,7 +234,7 @@ TEST_F(VolumeResolutionTest, TheRoomOfADeviceHoldsWhatAnAtlasOfItTakes) {
   EXPECT_THROW(passes::tight_atlas(std::uint64_t{1} << 40, most), Error);
   EXPECT_LE(2000 * room.bricks, context().max_allocation_bytes());
   EXPECT_LE(4 * room.pages, context().limits().maxStorageBufferRange);
-  const scenario::VolumeRoom little = volume_room(context(), 64u << 20);
+  const volumes::VolumeRoom little = volume_room(context(), 64u << 20);
   EXPECT_LE(2000 * little.bricks, 64u << 20);
 }
 

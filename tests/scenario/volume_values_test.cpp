@@ -8,10 +8,10 @@
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/volume_extent.hpp"
 #include "scenario/volume_view.hpp"
-#include "scenario/volumes.hpp"
 #include "tests/scenario/volume_folder.hpp"
+#include "volumes/volume_extent.hpp"
+#include "volumes/volumes.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -23,7 +23,7 @@ TEST_F(VolumeValuesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
   const float high = 1;
   std::memcpy(grid.values.data(), &high, sizeof high);
   scene::VolumeOptions options{save("a.brv", {grid})};
-  const auto frame = [&] { return load_volume_frame(options.file, options).value_or_throw(); };
+  const auto frame = [&] { return volumes::load_volume_frame(options.file, options).value_or_throw(); };
   const std::string note =
       "\"pressure\" has values below 0, down to -0.5, which count as 0: a range from below 0 with an opacity "
       "curve "
@@ -39,7 +39,7 @@ TEST_F(VolumeValuesTest, ValuesBelowZeroAreKeptForACurveThatDrawsThem) {
   EXPECT_EQ(frame()->value_note, "");
   EXPECT_NEAR(frame()->density.low, -0.5f, 1e-3f);
   EXPECT_NEAR(frame()->density.high, 1, 1e-3f);
-  EXPECT_EQ(range_of(options, *frame()), glm::vec2(-1, 1));
+  EXPECT_EQ(volumes::range_of(options, *frame()), glm::vec2(-1, 1));
   // Rounding of a simulation is no value below 0.
   options.opacity.clear();
   const float tiny = -0.005f;
@@ -55,7 +55,7 @@ TEST_F(VolumeValuesTest, HeatReachesBeyondTheDensityWhateverItsVoxels) {
   heat.world_from_index = glm::dmat4(2);
   heat.world_from_index[3] = {0.5, 8.5, 0.5, 1};
   scene::VolumeOptions options{save("a.brv", {cube("density", 1), heat})};
-  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  const auto frame = volumes::load_volume_frame(options.file, options).value_or_throw();
   ASSERT_TRUE(frame->heat);
   EXPECT_LE(frame->bounds.low.y, 0);
   EXPECT_GE(frame->bounds.high.y, 8.5f + 2 * 7.5f);
@@ -66,7 +66,7 @@ TEST_F(VolumeValuesTest, WhatIsTooColdDoesNotGlow) {
   const auto note_of = [&](float value, const std::string& name) {
     scene::VolumeOptions options{save("a.brv", {cube("density", 1), cube("temperature", value)})};
     options.heat = name;
-    const auto frame = load_volume_frame(options.file, options).value_or_throw();
+    const auto frame = volumes::load_volume_frame(options.file, options).value_or_throw();
     EXPECT_EQ(frame->heat.has_value(), frame->heat_note.find("does not") == std::string::npos);
     return frame->heat_note;
   };
@@ -79,7 +79,7 @@ TEST_F(VolumeValuesTest, WhatIsTooColdDoesNotGlow) {
 float exposure_of(const std::filesystem::path& file, bool measured) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = file;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   if (measured) volumes->measure_sequence(0);
   return prepare_volume_view(file, volumes->typical_frame(0), volumes->extent(0), {}).exposure;
 }
@@ -123,7 +123,7 @@ TEST_F(VolumeValuesTest, AllFramesOfASequenceDecideWhetherItIsInKelvin) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "a_%d.brv";
   options[0].frame_rate = 1;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   volumes->measure_sequence(0);
   for (const double seconds : {0.0, 1.0, 0.0}) {
     const auto shown = volumes->at(options, seconds)[0].frame;
@@ -135,7 +135,7 @@ TEST_F(VolumeValuesTest, AllFramesOfASequenceDecideWhetherItIsInKelvin) {
 
 TEST_F(VolumeValuesTest, OfGridsOfOneNameTheNumberChooses) {
   scene::VolumeOptions options{save("a.brv", {cube("fuel", 9), cube("density", 1), cube("density", 2)})};
-  const auto frame = [&] { return load_volume_frame(options.file, options).value_or_throw(); };
+  const auto frame = [&] { return volumes::load_volume_frame(options.file, options).value_or_throw(); };
   const std::vector<std::string> note{
       "2 grids are called \"density\": \"density\" is drawn; name another, such as \"density[1]\", to see "
       "it"};
@@ -148,13 +148,14 @@ TEST_F(VolumeValuesTest, OfGridsOfOneNameTheNumberChooses) {
     EXPECT_TRUE(frame()->grid_notes.empty()) << name;
   }
   options.density = "density[2]";
-  EXPECT_NE(load_volume_frame(options.file, options).failure().message.find("has no grid \"density[2]\""),
-            std::string::npos);
+  EXPECT_NE(
+      volumes::load_volume_frame(options.file, options).failure().message.find("has no grid \"density[2]\""),
+      std::string::npos);
   // What is called so is meant.
   options.density = "density[1]";
   options.file = save("b.brv", {cube("density", 1), cube("density", 2), cube("density[1]", 3)});
   EXPECT_EQ(frame()->density.high, 3);
-  const auto shown = shown_grids(grids::load_grid_file(folder_ / "a.brv").value_or_throw());
+  const auto shown = volumes::shown_grids(grids::load_grid_file(folder_ / "a.brv").value_or_throw());
   EXPECT_EQ(*shown, "\"density\"; " + note[0]);
 }
 
@@ -162,21 +163,22 @@ TEST_F(VolumeValuesTest, TwoOfThreeChannelsAreNamed) {
   scene::VolumeOptions options{save("a.brv", {cube("density", 1), cube("color_r", 1), cube("color_b", 1)})};
   const std::string note =
       "the colour of \"color_r\", \"color_b\" is not drawn, as the file has no \"color_g\"";
-  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  const auto frame = volumes::load_volume_frame(options.file, options).value_or_throw();
   EXPECT_FALSE(frame->colors);
   EXPECT_EQ(frame->grid_notes, std::vector{note});
   options.color = "color";
-  EXPECT_NE(load_volume_frame(options.file, options).failure().message.find(note), std::string::npos);
+  EXPECT_NE(volumes::load_volume_frame(options.file, options).failure().message.find(note),
+            std::string::npos);
   options.color = "none";
-  EXPECT_TRUE(load_volume_frame(options.file, options).value_or_throw()->grid_notes.empty());
+  EXPECT_TRUE(volumes::load_volume_frame(options.file, options).value_or_throw()->grid_notes.empty());
 }
 
 /// What is logged while a frame loads.
 std::vector<std::string> said_of(const scene::VolumeOptions& options,
-                                 std::shared_ptr<const VolumeFrame>& frame) {
+                                 std::shared_ptr<const volumes::VolumeFrame>& frame) {
   std::vector<std::string> said;
   set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
-  frame = load_volume_frame(options.file, options).value_or_throw();
+  frame = volumes::load_volume_frame(options.file, options).value_or_throw();
   set_log_callback({});
   return said;
 }
@@ -193,7 +195,7 @@ TEST_F(VolumeValuesTest, FarIndicesAreExactInEveryGrid) {
   colors.type = grids::ValueType::vec3f;
   colors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
   const std::vector near{cube("density", 1), cube("temperature", 1500), colors};
-  std::shared_ptr<const VolumeFrame> expected, frame;
+  std::shared_ptr<const volumes::VolumeFrame> expected, frame;
   EXPECT_TRUE(said_of({save("a.brv", near)}, expected).empty());
   for (std::size_t grid = 0; grid < near.size(); ++grid) {
     std::vector some = near;
@@ -207,14 +209,14 @@ TEST_F(VolumeValuesTest, FarIndicesAreExactInEveryGrid) {
         (Box<float>{expected->bounds.low - 1.0f, expected->bounds.high + 1.0f}).contains(frame->bounds))
         << grid;
     // Counted from up to 4,096 voxels away: floats have 1/2048 there.
-    const Box<float> seen = extent_of(*frame).seen, usual = extent_of(*expected).seen;
+    const Box<float> seen = volumes::extent_of(*frame).seen, usual = volumes::extent_of(*expected).seen;
     EXPECT_LT(glm::distance(seen.low, usual.low) + glm::distance(seen.high, usual.high), 4e-3f) << grid;
-    const auto place_of_ball = [](const VolumeFrame& of) {
+    const auto place_of_ball = [](const volumes::VolumeFrame& of) {
       return glm::dvec3(of.heat->world_from_voxel * glm::dvec4(of.glow.at(0).middle, 1));
     };
     // Doubles of 1e8 have 1e-8.
     EXPECT_LT(glm::distance(place_of_ball(*frame), place_of_ball(*expected)), 1e-6) << grid;
-    const auto texels = [](const VolumeFrame& of) {
+    const auto texels = [](const volumes::VolumeFrame& of) {
       const glm::ivec3 brick(
           glm::floor(glm::dvec3(glm::inverse(of.density.world_from_voxel) * glm::dvec4(3, 3, 3, 1)) / 8.0));
       const auto all = of.colors->texels<std::uint64_t>(volume::ChannelId{0}, of.colors->slot_at(brick));
@@ -230,7 +232,7 @@ TEST_F(VolumeValuesTest, FarGridsAreRefusedWithALine) {
     grid.bricks[0].origin = {100'000'000, 8, -80'000'000};
     return grid;
   };
-  std::shared_ptr<const VolumeFrame> frame, alone;
+  std::shared_ptr<const volumes::VolumeFrame> frame, alone;
   said_of({save("alone.brv", {cube("density", 1)})}, alone);
   EXPECT_TRUE(
       said_of({save("a.brv", {cube("density", 1), moved(cube("temperature", 1500))})}, frame).empty());
@@ -240,7 +242,7 @@ TEST_F(VolumeValuesTest, FarGridsAreRefusedWithALine) {
   EXPECT_TRUE(frame->glow.empty());
   EXPECT_EQ(frame->density.level, 0);
   EXPECT_EQ(frame->bounds, alone->bounds);
-  EXPECT_EQ(extent_of(*frame).seen, extent_of(*alone).seen);
+  EXPECT_EQ(volumes::extent_of(*frame).seen, volumes::extent_of(*alone).seen);
   // Some of it here and some there: what is here is drawn.
   grids::Grid both = cube("temperature", 1500);
   both.bricks.insert(both.bricks.begin(), moved(both).bricks[0]);
@@ -296,7 +298,8 @@ TEST_F(VolumeValuesTest, AStrayVoxelChangesNoFirstPicture) {
     EXPECT_LT(glm::distance(view.position_world, camera.position_world), 1e-3f);
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said[0].find("0.024 % of its voxels lie far from the rest"), std::string::npos) << said[0];
-    EXPECT_NE(shown_grids({{strays}, {}})->find(said[0].substr(said[0].find("0.024"))), std::string::npos);
+    EXPECT_NE(volumes::shown_grids({{strays}, {}})->find(said[0].substr(said[0].find("0.024"))),
+              std::string::npos);
   }
 }
 
@@ -306,7 +309,7 @@ TEST_F(VolumeValuesTest, ThreeGridsOfChannelsAreColours) {
     std::vector<scene::VolumeOptions> options(1);
     options[0].file = save("a.brv", std::move(grids));
     options[0].color = name;
-    const auto volumes = Volumes::load(options).value_or_throw();
+    const auto volumes = volumes::Volumes::load(options).value_or_throw();
     const auto* const colors = volumes->typical_frame(0).colors.get();
     if (!colors) return glm::vec3(-1);
     const auto texels = colors->texels<std::uint64_t>(volume::ChannelId{0}, colors->slot_at({0, 0, 0}));

@@ -1,4 +1,4 @@
-#include "scenario/volumes.hpp"
+#include "volumes/volumes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
   options[0].file = folder_ / "f_%04d.brv";
   options[0].frame_rate = 10;
   options[0].start = 1;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->files().size(), 3u);
   const auto shown = [&](double seconds) { return volumes->at(options, seconds)[0].frame->density.high; };
   for (const auto& [seconds, frame] :
@@ -44,7 +44,7 @@ TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
   options[0].frame_rate = 10;
   options[0].first = 4;
   options[0].last = 7;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->files().size(), 3u);
   EXPECT_EQ(volumes->typical_frame(0).density.high, 4);
   const auto shown = [&](double seconds) {
@@ -63,9 +63,9 @@ TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
        {std::pair(0.0, 4), {0.1, 5}, {0.3, 6}, {0.4, 6}, {0.5, 5}, {0.6, 4}, {0.7, 5}, {-0.1, 5}})
     EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
   options[0].last = 4;
-  EXPECT_EQ(Volumes::load(options).value_or_throw()->at(options, 0.7)[0].frame->density.high, 4);
+  EXPECT_EQ(volumes::Volumes::load(options).value_or_throw()->at(options, 0.7)[0].frame->density.high, 4);
   options[0].first = options[0].last = 7;
-  EXPECT_EQ(Volumes::load(options).failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(volumes::Volumes::load(options).failure().code, ErrorCode::bad_input);
 }
 
 // Simulations begin with nothing, and end far from where they began.
@@ -87,12 +87,12 @@ TEST_F(VolumesTest, TheTypicalFrameIsTheDeepestOfThoseWithAnything) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "f_#.brv";
   options[0].frame_rate = 1;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->typical_frame(0).density.high, 2) << "the first in which there is anything";
   EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 0);
   volumes->measure_sequence(0);
   EXPECT_EQ(volumes->typical_frame(0).density.high, 3) << "few rays go along the six bricks of the last";
-  const VolumeExtent extent = volumes->extent(0);
+  const volumes::VolumeExtent extent = volumes->extent(0);
   EXPECT_DOUBLE_EQ(extent.depth, 24);
   // Index 0 is the middle of voxel 0, and filtering reaches nearly to the next one: to a hundredth.
   EXPECT_LT(glm::distance(extent.seen.low, glm::vec3(-0.99f)), 1e-5f);
@@ -108,7 +108,7 @@ TEST_F(VolumesTest, ARoundedStartShowsItsFrame) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "f_%d.brv";
   options[0].clip = true;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   for (const double rate : {24.0, 24000 / 1001.0, 60.0})
     for (int start = 0; start < 2000; start += 7) {
       options[0].frame_rate = static_cast<float>(rate);
@@ -126,7 +126,7 @@ TEST_F(VolumesTest, ADamagedFrameShowsTheOneBefore) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "f_%d.brv";
   options[0].frame_rate = 1;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->at(options, 1.5)[0].frame->density.high, 1);
 }
 
@@ -137,11 +137,11 @@ TEST_F(VolumesTest, WithoutWaitingItEndsAtTheSameFrame) {
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "f_%d.brv";
   options[0].frame_rate = 1;
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   for (const double seconds : {0.5, 2.5, 1.5, 3.5, 0.5}) {
     float shown = 0;
     do {
-      shown = volumes->at(options, seconds, VolumeWait::never)[0].frame->density.high;
+      shown = volumes->at(options, seconds, volumes::VolumeWait::never)[0].frame->density.high;
     } while (volumes->is_behind());
     EXPECT_EQ(shown, std::floor(seconds) + 1);
   }
@@ -156,7 +156,7 @@ TEST_F(VolumesTest, AnUnreadableFrameWarnsOnce) {
   options[0].frame_rate = 1;
   std::vector<std::string> warnings;
   set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   for (const double seconds : {1.5, 0.5, 1.5, 2.5, 1.5, 0.5, 1.5}) volumes->at(options, seconds);
   set_log_callback({});
   ASSERT_EQ(warnings.size(), 1u);
@@ -172,14 +172,14 @@ TEST_F(VolumesTest, EndsWhileItLoads) {
   options[0].file = folder_ / "f_%d.brv";
   options[0].frame_rate = 1;
   for (int i = 0; i < 20; ++i) {
-    const auto volumes = Volumes::load(options).value_or_throw();
-    for (int frame = 0; frame <= i; ++frame) volumes->at(options, frame, VolumeWait::never);
+    const auto volumes = volumes::Volumes::load(options).value_or_throw();
+    for (int frame = 0; frame <= i; ++frame) volumes->at(options, frame, volumes::VolumeWait::never);
   }
 }
 
 TEST(FairParts, GiveWhatIsWantedOrAFairPart) {
   const auto parts = [](std::vector<std::uint64_t> wanted, std::uint64_t total) {
-    return fair_parts(wanted, total);
+    return volumes::fair_parts(wanted, total);
   };
   using Parts = std::vector<std::uint64_t>;
   EXPECT_EQ(parts({}, 10), Parts());
@@ -210,15 +210,15 @@ TEST_F(VolumesTest, VolumesThatDoNotFitTogetherAreReducedAlike) {
   options[2].file = save("larger.brv", {cubes(9)});  // 11^3
   std::vector<std::string> warnings;
   set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   volumes->limit({3000, 1u << 20}).value_or_throw();
   EXPECT_TRUE(warnings.empty()) << "all fit";
   volumes->limit({1200, 1u << 20}).value_or_throw();
   set_log_callback({});
   std::uint64_t bricks = 0;
   std::vector<int> levels;
-  for (const VolumeAt& at : volumes->at(options, 0)) {
-    bricks += room_of(*at.frame).bricks;
+  for (const volumes::VolumeAt& at : volumes->at(options, 0)) {
+    bricks += volumes::room_of(*at.frame).bricks;
     levels.push_back(at.frame->density.level);
   }
   EXPECT_LE(bricks, 1200u);
@@ -233,30 +233,30 @@ TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
       save("a.brv", {cube("temperature", 2), cube("fuel", 3), cube("density", 4), cube("flame", 1)});
   scene::VolumeOptions options;
   options.file = path;
-  const auto usual = load_volume_frame(path, options).value_or_throw();
+  const auto usual = volumes::load_volume_frame(path, options).value_or_throw();
   EXPECT_EQ(usual->density.high, 4);
   ASSERT_TRUE(usual->heat);
   EXPECT_EQ(usual->heat->high, 2);
   options.density = "fuel";
-  EXPECT_EQ(load_volume_frame(path, options).value_or_throw()->density.high, 3);
+  EXPECT_EQ(volumes::load_volume_frame(path, options).value_or_throw()->density.high, 3);
   options.density = "densty";
-  const auto wrong = load_volume_frame(path, options);
+  const auto wrong = volumes::load_volume_frame(path, options);
   EXPECT_EQ(wrong.failure().code, ErrorCode::bad_input);
   EXPECT_NE(wrong.failure().message.find("did you mean \"density\""), std::string::npos)
       << wrong.failure().message;
   // No usual name: the first grid of numbers.
   const auto odd = save("b.brv", {cube("cloud_17", 5)});
-  EXPECT_EQ(load_volume_frame(odd, {}).value_or_throw()->density.high, 5);
+  EXPECT_EQ(volumes::load_volume_frame(odd, {}).value_or_throw()->density.high, 5);
   // Whole numbers, too; of vectors only by name.
   grids::Grid whole = cube("labels", 0);
   whole.type = grids::ValueType::int32;
   const std::int32_t seven = 7;
   std::memcpy(whole.values.data(), &seven, sizeof seven);
-  EXPECT_EQ(load_volume_frame(save("c.brv", {whole}), {}).value_or_throw()->density.high, 7);
+  EXPECT_EQ(volumes::load_volume_frame(save("c.brv", {whole}), {}).value_or_throw()->density.high, 7);
   grids::Grid vectors = cube("v", 1);
   vectors.type = grids::ValueType::vec3f;
   vectors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
-  const auto no_numbers = load_volume_frame(save("d.brv", {vectors}), {});
+  const auto no_numbers = volumes::load_volume_frame(save("d.brv", {vectors}), {});
   ASSERT_FALSE(no_numbers);
   EXPECT_NE(no_numbers.failure().message.find("only \"v\" (vec3f"), std::string::npos)
       << no_numbers.failure().message;
@@ -266,7 +266,7 @@ TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
 TEST_F(VolumesTest, HeatGlowsWhereSomethingBurns) {
   const auto heat_of = [&](std::vector<grids::Grid> grids, const scene::VolumeOptions& options = {}) {
     grids.push_back(cube("density", 1));
-    return load_volume_frame(save("a.brv", std::move(grids)), options).value_or_throw();
+    return volumes::load_volume_frame(save("a.brv", std::move(grids)), options).value_or_throw();
   };
   EXPECT_FALSE(heat_of({cube("temperature", 1)})->heat) << "it lifts smoke";
   EXPECT_FALSE(heat_of({cube("temperature", 1), cube("flame", 0)})->heat) << "nothing burns";
@@ -276,12 +276,12 @@ TEST_F(VolumesTest, HeatGlowsWhereSomethingBurns) {
   scene::VolumeOptions options;
   const auto kelvin = heat_of({cube("temperature", 1500)});
   ASSERT_TRUE(kelvin->heat);
-  EXPECT_EQ(kelvin_of(options, *kelvin), 1);
-  EXPECT_EQ(kelvin_of(options, *heat_of({cube("temperature", 1), cube("flame", 0.5f)})), 1000);
+  EXPECT_EQ(volumes::kelvin_of(options, *kelvin), 1);
+  EXPECT_EQ(volumes::kelvin_of(options, *heat_of({cube("temperature", 1), cube("flame", 0.5f)})), 1000);
   // What the options say counts.
   options.kelvin = 1900;
   EXPECT_TRUE(heat_of({cube("temperature", 1)}, options)->heat);
-  EXPECT_EQ(kelvin_of(options, *kelvin), 1900);
+  EXPECT_EQ(volumes::kelvin_of(options, *kelvin), 1900);
   options = {};
   options.heat = "temperature";
   EXPECT_TRUE(heat_of({cube("temperature", 1), cube("flame", 0)}, options)->heat);
@@ -303,13 +303,13 @@ TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
   save("a.brv", {cube("density", 2), cube("fuel", 3), colors});
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "a.brv";
-  const auto volumes = Volumes::load(options).value_or_throw();
+  const auto volumes = volumes::Volumes::load(options).value_or_throw();
   ASSERT_TRUE(volumes->typical_frame(0).colors);
   EXPECT_EQ(volumes->typical_frame(0).colors->slot_count(),
             volumes->typical_frame(0).density.volume->slot_count());
   EXPECT_EQ(volumes->typical_frame(0).color_grids, std::vector<std::string>{"Cd"});
   EXPECT_EQ(volumes->typical_frame(0).number_grids, (std::vector<std::string>{"density", "fuel"}));
-  EXPECT_EQ(range_of(options[0], volumes->typical_frame(0)), glm::vec2(0, 2));
+  EXPECT_EQ(volumes::range_of(options[0], volumes->typical_frame(0)), glm::vec2(0, 2));
   options[0].density = "fuel";
   EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 3);
   // On failure those before remain.
@@ -367,11 +367,11 @@ TEST_F(VolumesTest, CornersSurroundWhatIsDense) {
   scene::VolumeOptions options;
   options.file = save("a.brv", {grid});
   options.position_world = {1, 2, 3};
-  const auto volumes = Volumes::load(std::array{options}).value_or_throw();
-  const std::vector<glm::vec3> corners = corners_of(options, *volumes, 0);
+  const auto volumes = volumes::Volumes::load(std::array{options}).value_or_throw();
+  const std::vector<glm::vec3> corners = volumes::corners_of(options, *volumes, 0);
   Box<float> box = kEmptyBox;
   for (const glm::vec3 p : corners) box = united(box, {p, p});
-  const Box<float> bounds = place_of(options, volumes->extent(0)).bounds_world;
+  const Box<float> bounds = volumes::place_of(options, volumes->extent(0)).bounds_world;
   EXPECT_LT(glm::length(box.low - bounds.low) + glm::length(box.high - bounds.high), 1e-5f);
 }
 
@@ -383,7 +383,7 @@ TEST_F(VolumesTest, AxesPlaceAVolumeByAnyAffineTransform) {
   options.x_axis = {3, 0, 0};
   options.y_axis = {0.5f, 1, 0};
   options.z_axis = {0, 0, -1};
-  const glm::mat4 world = world_from_file(options);
+  const glm::mat4 world = volumes::world_from_file(options);
   // A quarter turn about y: x becomes -z, z becomes x.
   const auto at = [&](float x, float y, float z) { return glm::vec3(world * glm::vec4(x, y, z, 1)); };
   EXPECT_LT(glm::length(at(1, 0, 0) - glm::vec3(1, 2, -3)), 1e-5f);
@@ -391,9 +391,9 @@ TEST_F(VolumesTest, AxesPlaceAVolumeByAnyAffineTransform) {
   EXPECT_LT(glm::length(at(0, 0, 1) - glm::vec3(-1, 2, 3)), 1e-5f);
   options.file = save("a.brv", {cube("density", 1)});
   options.place = "t.toml:5:8";
-  EXPECT_TRUE(Volumes::load(std::array{options}));
+  EXPECT_TRUE(volumes::Volumes::load(std::array{options}));
   options.z_axis = options.x_axis + 2.0f * options.y_axis;
-  const auto flat = Volumes::load(std::array{options});
+  const auto flat = volumes::Volumes::load(std::array{options});
   EXPECT_EQ(flat.failure().code, ErrorCode::bad_input);
   EXPECT_NE(flat.failure().message.find("t.toml:5:8: "), std::string::npos) << flat.failure().message;
 }

@@ -1,4 +1,4 @@
-#include "scenario/volume_frame.hpp"
+#include "volumes/volume_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
-#include "scenario/volume_extent.hpp"
-#include "scenario/volume_grids.hpp"
+#include "volumes/volume_extent.hpp"
+#include "volumes/volume_grids.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -423,4 +423,4 @@ std::shared_ptr<const VolumePreview> make_previews(const VolumeFrame& frame) {
   return preview;
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

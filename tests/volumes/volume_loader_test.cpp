@@ -1,4 +1,4 @@
-#include "scenario/volume_loader.hpp"
+#include "volumes/volume_loader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 using Key = VolumeLoader::Key;
@@ -125,4 +125,4 @@ TEST(VolumeLoader, AMovingTimeShowsEveryFrameOrALaterOne) {
 }
 
 }  // namespace
-}  // namespace brume::scenario
+}  // namespace brume::volumes

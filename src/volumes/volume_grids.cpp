@@ -1,13 +1,13 @@
-#include "scenario/volume_grids.hpp"
+#include "volumes/volume_grids.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/similar.hpp"
 #include "grids/color_bricks.hpp"
-#include "scenario/volume_frame.hpp"
+#include "volumes/volume_frame.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 /// The names that Blender, Houdini and EmberGen give, in order.
@@ -213,4 +213,4 @@ Result<ChosenGrids> choose_grids(GridList grids, const scene::VolumeOptions& opt
   return chosen;
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

@@ -9,7 +9,7 @@
 #include "grids/dense_grid.hpp"
 #include "grids/slice_layout.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 /// Where a mesh is whose occlusion volumes hold: inside of it both are large, outside one of them is small.
 struct Occluder {
@@ -40,4 +40,4 @@ Result<SampledGrids> sample_grids(std::span<const grids::Grid* const> chosen,
 /// for a grid that does not exist.
 Result<SampledGrids> decal_volume(const grids::GridFile& file, const std::string& grid);
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

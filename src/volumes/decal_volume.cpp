@@ -1,4 +1,4 @@
-#include "scenario/decal_volume.hpp"
+#include "volumes/decal_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/similar.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 using grids::Grid;
@@ -74,4 +74,4 @@ Result<SampledGrids> decal_volume(const grids::GridFile& file, const std::string
   return sampled;
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

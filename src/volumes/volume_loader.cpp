@@ -1,4 +1,4 @@
-#include "scenario/volume_loader.hpp"
+#include "volumes/volume_loader.hpp"
 
 #include <algorithm>
 #include <new>
@@ -6,7 +6,7 @@
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 Result<LoadedVolume> guarded(const VolumeLoader::Load& load, const VolumeLoader::Key& key,
@@ -97,4 +97,4 @@ void VolumeLoader::run(std::shared_ptr<LogSink> log, unsigned threads) {
   }
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scenario/volume_extent.hpp"
-#include "scenario/volume_frame.hpp"
-#include "scenario/volume_loader.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
+#include "volumes/volume_extent.hpp"
+#include "volumes/volume_frame.hpp"
+#include "volumes/volume_loader.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 /// A volume at one time.
 struct VolumeAt {
@@ -123,4 +123,4 @@ std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Vol
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

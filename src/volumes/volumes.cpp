@@ -1,4 +1,4 @@
-#include "scenario/volumes.hpp"
+#include "volumes/volumes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -440,4 +440,4 @@ std::vector<fs::path> Volumes::files() const {
   return files;
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/log.hpp"
-#include "scenario/volume_frame.hpp"
+#include "volumes/volume_frame.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 /// A frame of a volume with its previews, if any were made.
 struct LoadedVolume {
@@ -66,4 +66,4 @@ class VolumeLoader {
   std::thread thread_;  ///< From the first wanted key on.
 };
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

@@ -7,9 +7,9 @@
 #include "core/box.hpp"
 #include "core/error.hpp"
 #include "grids/glow.hpp"
-#include "scenario/volume_frame.hpp"
+#include "volumes/volume_frame.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 /// Where a volume can be seen over its frames, in the world of its files, and how deep it is.
 struct VolumeExtent {
@@ -30,4 +30,4 @@ std::string stray_note(const VolumeExtent& extent);
 /// The same of a grid of density.
 Result<std::string> stray_note(const grids::Grid& density);
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

@@ -1,11 +1,11 @@
-#include "scenario/volume_extent.hpp"
+#include "volumes/volume_extent.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "grids/density_extent.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 namespace {
 
 // What is less dense is not seen; what is less hot does not glow: by the fourth power.
@@ -58,4 +58,4 @@ Result<std::string> stray_note(const grids::Grid& density) {
   return stray_note(VolumeExtent{.stray_part = extent.stray_part, .stray_reach = extent.stray_reach});
 }
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

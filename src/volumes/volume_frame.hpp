@@ -16,7 +16,7 @@
 #include "grids/volume_files.hpp"
 #include "scene/timeline.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 /// A part of a mask as a homogeneous ball, in the file's world.
 struct MaskGlow {
@@ -102,4 +102,4 @@ Box<float> transformed(const glm::mat4& matrix, const Box<float>& box);
 /// The previews of grids of more than kPreviewBricks bricks.
 std::shared_ptr<const VolumePreview> make_previews(const VolumeFrame& frame);
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes

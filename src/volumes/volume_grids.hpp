@@ -10,7 +10,7 @@
 #include "grids/grid.hpp"
 #include "scene/timeline.hpp"
 
-namespace brume::scenario {
+namespace brume::volumes {
 
 using GridList = std::span<const grids::Grid* const>;
 
@@ -53,4 +53,4 @@ inline constexpr const char* kChannelName = "color";
 /// grid has, and where nothing can be rendered.
 Result<ChosenGrids> choose_grids(GridList grids, const scene::VolumeOptions& options);
 
-}  // namespace brume::scenario
+}  // namespace brume::volumes
