@@ -238,7 +238,7 @@ void Volumes::start_loader() {
         auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped,
                                        read, source.in_kelvin);
         if (!frame) return frame.failure();
-        auto preview = previews ? scenario::make_previews(**frame) : nullptr;
+        auto preview = previews ? volumes::make_previews(**frame) : nullptr;
         return LoadedVolume{std::move(*frame), std::move(preview)};
       });
 }
@@ -250,7 +250,7 @@ Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOption
       load_volume_frame(sequence.files.at(sequence.typical_number), options, sequence.room, nullptr, read_);
   if (!frame) return frame.failure();
   sequence.in_kelvin = (*frame)->heat_is_kelvin;
-  auto preview = has_previews_ ? scenario::make_previews(**frame) : nullptr;
+  auto preview = has_previews_ ? volumes::make_previews(**frame) : nullptr;
   sequence.typical = sequence.shown = {std::move(*frame), std::move(preview)};
   sequence.shown_number = sequence.typical_number;
   sequence.extent.reset();
@@ -299,7 +299,7 @@ void Volumes::make_previews() {
   has_previews_ = true;
   for (Sequence& sequence : sequences_)
     for (LoadedVolume* loaded : {&sequence.typical, &sequence.shown})
-      if (!loaded->preview) loaded->preview = scenario::make_previews(*loaded->frame);
+      if (!loaded->preview) loaded->preview = volumes::make_previews(*loaded->frame);
   start_loader();
 }
 
