@@ -5,10 +5,62 @@
 #include <cstdint>
 #include <span>
 
-#include "smoke/sight_packet_lanes.hpp"
-#include "smoke/sight_walk.hpp"
+#include "smoke/sight_smoke.hpp"
+#include "smoke/smoke_brick.hpp"
 
 namespace brume::smoke {
+
+inline constexpr std::size_t kPacketLanes = 16;
+
+/// A ray in each lane, within one brick.
+struct PacketLanes {
+  template <typename Number>
+  struct alignas(64) PerLane : std::array<Number, kPacketLanes> {};
+  template <typename Number>
+  using PerAxis = std::array<PerLane<Number>, 3>;
+
+  // Of a ray: constant.
+  PerAxis<float> direction{}, exits_per_cell{};
+  PerLane<float> xy{}, xz{}, yz{};  ///< Products of the direction's axes.
+  PerLane<float> length{};
+  PerAxis<std::int32_t> stride{}, place_stride{};
+
+  // Of its brick.
+  PerAxis<float> at{};  ///< The ray's start, from the low corner.
+  PerLane<const Texel*> texels{};
+  PerLane<const std::uint32_t*> entries{};
+
+  // Of the cell that it enters at t.
+  PerLane<float> t{};
+  PerAxis<float> exits{};  ///< By axis: where the ray leaves the cell.
+  PerAxis<std::int32_t> cell{};
+  PerLane<std::uint32_t> place{};  ///< Of its first texel, and from bit 16 on of its entry.
+
+  PerLane<float> next_hole{};  ///< As SmokeSum has it.
+  std::array<PerLane<float>, 4> total{};
+
+  // Of the last step, in special lanes: the cell that was passed.
+  PerAxis<float> passed_at{};  ///< The ray's start, from its low corner.
+  PerLane<float> passed_from{}, passed_to{};
+  PerLane<std::uint32_t> passed_place{};
+};
+
+/// Lanes, a bit each.
+struct PacketStep {
+  std::uint32_t stopped;  ///< The ray has left its brick, or ended.
+  std::uint32_t special;  ///< The cell passed has surfaces or holes: it is left to be added.
+};
+
+/// Moves every ray to its next cell, and adds the smoke in the cell that it passed.
+using StepPacket = PacketStep (*)(PacketLanes& lanes);
+
+/// By 4 lanes at once, or by 8 where the processor has AVX2: the same bits.
+PacketStep step_packet_4(PacketLanes& lanes);
+#if defined(__x86_64__)
+PacketStep step_packet_8(PacketLanes& lanes);
+#endif
+/// The one for this processor.
+StepPacket fastest_step();
 
 /// The same sums as smoke_on_ray, bit for bit, of many rays: a lane takes the next ray as soon as its last
 /// one has ended.
