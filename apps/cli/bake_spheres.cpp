@@ -41,7 +41,7 @@ struct SpheresBake {
 
 /// The names of a choice, as scenes have them.
 template <typename Choice>
-std::vector<std::string> names_of(std::uint32_t count, const char* (*name_of)(Choice)) {
+std::vector<std::string> choice_names(std::uint32_t count, const char* (*name_of)(Choice)) {
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < count; ++i) names.emplace_back(name_of(Choice{i}));
   return names;
@@ -194,12 +194,12 @@ void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
       .add_option(
           "--arrangement", bake.arrangement,
           "random, largest_first (default), noise (strands and caves) or coral (grows from the floor)")
-      .one_of(names_of(scene::kArrangements, scene::arrangement_name))
+      .one_of(choice_names(scene::kArrangements, scene::arrangement_name))
       .type_name("NAME");
   arguments
       .add_option("--coloring", bake.coloring,
                   "Which of the palette's colours: random (default), by radius, by height, or by noise")
-      .one_of(names_of(scene::kColorings, scene::coloring_name))
+      .one_of(choice_names(scene::kColorings, scene::coloring_name))
       .type_name("NAME");
   arguments
       .add_option("--palette", bake.palette,

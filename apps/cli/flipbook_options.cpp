@@ -19,7 +19,7 @@ constexpr std::array kFlipbookPresets{FlipbookPreset{"unity", true, true},
                                       FlipbookPreset{"unreal", false, false},
                                       FlipbookPreset{"godot", true, false}};
 
-glm::uvec2 parse_grid(const std::string& text) {
+glm::uvec2 parse_tiles(const std::string& text) {
   glm::uvec2 grid(0);
   int read = 0;
   const bool is_plain = text.find_first_not_of("0123456789x") == std::string::npos;
@@ -114,7 +114,7 @@ FlipbookPlan parse_flipbook(const FlipbookOptions& options, glm::uvec2 tile_px,
     throw Error(
         ErrorCode::usage,
         "-o " + output.string() + ": a flipbook is one image, .png or .exr; remove --flipbook for frames");
-  const glm::uvec2 grid = parse_grid(options.grid);
+  const glm::uvec2 grid = parse_tiles(options.grid);
   plan.layout = {grid.x, grid.y, tile_px, options.gutter.value_or(2)};
   if (2 * plan.layout.gutter >= std::min(tile_px.x, tile_px.y))
     throw Error(ErrorCode::usage, "--flipbook-gutter " + std::to_string(plan.layout.gutter) +

@@ -151,20 +151,6 @@ void add_smokes(Summary& summary, const scenario::Scenario& scenario) {
 
 }  // namespace
 
-void add_camera(Summary& summary, const scene::Camera& camera, bool own) {
-  const double degrees = double{camera.vertical_fov} * 180 / std::numbers::pi;
-  char fov[32];
-  std::snprintf(fov, sizeof fov, "%.4g", degrees);
-  summary.add("camera",
-              Json{{"from_file", own},
-                   {"position", point_json(camera.position_world)},
-                   {"target", point_json(camera.target_world)},
-                   {"fov_degrees", degrees}},
-              std::string(own ? "of the file" : "fitted") + ": --camera \"" +
-                  point_text(camera.position_world) + " " + point_text(camera.target_world) + " " + fov +
-                  "\"");
-}
-
 Summary scene_summary(const std::filesystem::path& path, bool lists_objects, Outputs& outputs) {
   scene::Scene scene = scene::load_scene(path).value_or_throw();
   outputs.reads(scene.files);

@@ -8,9 +8,9 @@
 #include "apps/cli/atlas_options.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/volumes.hpp"
-#include "grids/active_values.hpp"
 #include "grids/cut_sides.hpp"
 #include "grids/files.hpp"
+#include "grids/grid.hpp"
 #include "grids/metadata.hpp"
 #include "volumes/volume_frame.hpp"
 

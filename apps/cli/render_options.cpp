@@ -84,7 +84,7 @@ void refuse_idle(const Arguments& arguments, const RenderOptions& options, const
     arguments.refuse("--slice", "requires --view density, light or distance");
 }
 
-std::string view_names() {
+std::string list_views() {
   std::string names;
   for (const std::string_view name : std::span(passes::kDebugViewNames).subspan(1))
     names += (names.empty() ? "" : ", ") + std::string(name);
@@ -159,7 +159,7 @@ void declare_view(const Arguments& arguments, RenderOptions& options) {
                   "turn, counter-clockwise from above")
       .range(-36000.0, 36000.0)
       .type_name("DEGREES");
-  arguments.add_option("--view", options.view, "Debug view: " + view_names())
+  arguments.add_option("--view", options.view, "Debug view: " + list_views())
       .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
       .type_name("NAME");
   arguments

@@ -47,8 +47,8 @@ CLI::Option* text_option(CLI::Option* option) {
                                     (command ? command->get_name() + " " : "") + "--help");
 }
 
-/// All names of a command's options, with dashes.
-std::vector<std::string> option_names(const CLI::App& command) {
+/// The long names of a command's options, with dashes.
+std::vector<std::string> long_option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_group().empty()) continue;
@@ -137,7 +137,7 @@ class WordCheck {
     return name + ": expected a value, " + option.get_type_name();
   }
   std::string nearest(const std::string& name) const {
-    const auto similar = similar_name(name, option_names(command_));
+    const auto similar = similar_name(name, long_option_names(command_));
     return similar ? "; did you mean " + *similar + "?" : "";
   }
 

@@ -57,18 +57,12 @@ bool shows_progress() {
   return !g_console->quiet && ::isatty(STDERR_FILENO) == 1;
 }
 
-std::size_t terminal_width() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
-  return size.ws_col;
-}
-
 // Overwrites the current line; blanks erase the rest of a longer one. The last column stays free: a cursor
 // beyond it would move to the next line.
 void show_line() {
   const std::lock_guard lock(g_console->line_mutex);
   std::size_t& shown = g_console->line_length;
-  const std::size_t width = terminal_width() - 1;
+  const std::size_t width = terminal_width(STDERR_FILENO) - 1;
   std::string line;
   if (const auto job = progress_to_show(kLongJobSeconds)) line = progress_line(*job, width);
   if (line.empty() && shown == 0) return;
@@ -126,6 +120,12 @@ std::string json_text(const Json& object) {
 }
 
 }  // namespace
+
+std::size_t terminal_width(int descriptor) {
+  winsize size{};
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
+  return size.ws_col;
+}
 
 Console::Console() : state_(std::make_unique<State>()) {
   BRUME_ASSERT(!g_console, "two runs at a time");

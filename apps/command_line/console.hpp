@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -71,6 +72,9 @@ void stop_if_interrupted();
 /// Returns to the first caller only, which then reports the end of the command; others wait for the process
 /// to end.
 void claim_end();
+
+/// Characters of a line of the terminal that a descriptor leads to; 80 where it leads to none.
+std::size_t terminal_width(int descriptor);
 
 /// Prints one line, "brume: ...", to standard error, below any progress line.
 void print_failure(const std::string& message);

@@ -1,20 +1,19 @@
 #include "apps/command_line/help.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <sstream>
 
+#include "apps/command_line/console.hpp"
+
 namespace brume::cli {
 namespace {
 
-constexpr std::size_t kColumn = 30, kNarrowest = 60, kDefaultWidth = 80, kWidest = 100;
+constexpr std::size_t kColumn = 30, kNarrowest = 60, kWidest = 100;
 
 std::size_t help_width() {
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
-  return std::clamp<std::size_t>(size.ws_col, kNarrowest, kWidest);
+  return std::clamp(terminal_width(STDOUT_FILENO), kNarrowest, kWidest);
 }
 
 // The words in lines of at most `width` characters, each but the first indented by `indent`.

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "apps/command_line/console.hpp"
-#include "apps/command_line/targets.hpp"
-#include "core/atomic_file.hpp"
+#include "apps/command_line/frame_names.hpp"
 #include "core/file.hpp"
 
 namespace brume::cli {

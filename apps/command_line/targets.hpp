@@ -8,6 +8,7 @@
 #include <optional>
 #include <variant>
 
+#include "apps/command_line/frame_names.hpp"
 #include "apps/command_line/number.hpp"
 #include "apps/command_line/outputs.hpp"
 #include "apps/command_line/unit_key.hpp"
@@ -18,10 +19,6 @@
 namespace brume::cli {
 
 enum class TargetKind { picture, sequence, film };
-
-/// Whether a file name has a frame's number: one %d or %04d. %% stands for %. Throws Error (usage) for any
-/// other % that might have been meant for a number.
-bool is_numbered(const std::string& option, const std::filesystem::path& path);
 
 /// .png or .exr; the same with one %d or %04d in its file name; .mp4; suffixes in any case. Throws Error
 /// (usage) for anything else, and as is_numbered.
@@ -43,12 +40,6 @@ Picture picture_of(image::LayeredImage layers, const LayerForm& form, const imag
 /// Writes a picture in the format of its kind. Throws Error.
 void save_picture(const std::filesystem::path& path, const Picture& picture,
                   const std::optional<image::ImageText>& text = std::nullopt);
-
-/// The name of a picture or film: %% stands for %.
-std::filesystem::path plain_name(const std::filesystem::path& path);
-
-/// "smoke_%04d.png" and 7: "smoke_0007.png"; %% stands for %.
-std::filesystem::path sequence_name(const std::filesystem::path& pattern, std::uint32_t number);
 
 struct FilmSettings {
   glm::uvec2 size_px{0};

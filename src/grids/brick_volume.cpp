@@ -19,7 +19,7 @@ namespace {
 /// Largest values within these bounds are stored as they are.
 constexpr float kLeastHigh = 1.0f / 64, kMostHigh = 1024;
 /// Enough for any grid: indices have 32 bits.
-constexpr int kMostLevels = 29;
+constexpr int kMostHalvings = 29;
 
 glm::ivec3 voxel_at(int voxel) {
   return {voxel & 7, voxel >> 3 & 7, voxel >> 6};
@@ -163,7 +163,7 @@ struct Levels {
   }
   /// Halves until they fit.
   void reduce(const Room& room) {
-    while (!fit(room) && halvings < kMostLevels) {
+    while (!fit(room) && halvings < kMostHalvings) {
       double lost = 0, ignored = 0;
       density = Level(density.numbers.halved(by_power, lost));
       also = Level(also.numbers.halved(by_power, ignored), also.is_filtered);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "grids/grid.hpp"
+#include "grids/grid_numbers.hpp"
 #include "volume/sparse_volume.hpp"
 
 namespace brume::grids {
@@ -17,12 +18,6 @@ namespace brume::grids {
 inline constexpr std::uint32_t kMostVolumeBricks = 1u << 21, kFewestVolumeBricks = 8;
 /// The same for entries of its page table: 128 MiB, and those of 8 nodes far apart.
 inline constexpr std::uint32_t kMostVolumePages = 1u << 25, kFewestVolumePages = 1u << 13;
-
-/// How values below 0 are stored: less `offset`, so that all are above 0; those below `least` count as it.
-/// offset < least. Where a grid has no voxels, it has its background.
-struct ValueShift {
-  float least = 0, offset = 0;
-};
 
 struct BrickVolumeOptions {
   /// Bricks that there is room for, at least kFewestVolumeBricks; a grid of more is averaged over 2^3 voxels,

@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "core/checked.hpp"
-#include "grids/brv_file.hpp"
 #include "grids/bytes.hpp"
 #include "grids/check.hpp"
 #include "grids/metadata.hpp"
@@ -17,10 +16,6 @@ using glm::ivec3;
 
 constexpr std::uint64_t kOriginBytes = 12, kChunkBytes = 12, kTileBytes = kOriginBytes + 1;
 constexpr std::uint8_t kHalf = 1, kActive = 0x80;
-
-Failure damaged(const std::string& what) {
-  return {ErrorCode::bad_input, "a damaged .brv file: " + what};
-}
 
 // Origins in units of bricks, axis after axis, each as the difference to the one before: mostly 0 and 1.
 template <typename Cube>
@@ -89,9 +84,9 @@ Result<void> read_head(ByteReader& in, Grid& grid) {
   const auto type = in.number<std::uint8_t>(), grid_class = in.number<std::uint8_t>(),
              flags = in.number<std::uint8_t>();
   if (type < 1 || type > static_cast<std::uint8_t>(ValueType::vec3i))
-    return damaged("a type that is not one");
+    return damaged_brv("a type that is not one");
   if (grid_class > static_cast<std::uint8_t>(GridClass::staggered) || flags > kHalf)
-    return damaged("a class or flag that is not one");
+    return damaged_brv("a class or flag that is not one");
   grid.type = static_cast<ValueType>(type);
   grid.grid_class = static_cast<GridClass>(grid_class);
   grid.saved_as_half = flags == kHalf;
@@ -112,9 +107,9 @@ Result<Counts> read_counts(ByteReader& in, BrvGrid& of, std::uint64_t& memory, c
   counts.bricks = in.number<std::uint64_t>();
   of.bricks_per_chunk = in.number<std::uint32_t>();
   counts.tiles = in.number<std::uint64_t>();
-  if (!in.ok()) return damaged("it is truncated");
+  if (!in.ok()) return damaged_brv("it is truncated");
   if (of.bricks_per_chunk < 1 || of.bricks_per_chunk > kMaxBricksPerChunk)
-    return damaged(std::to_string(of.bricks_per_chunk) + " bricks per chunk");
+    return damaged_brv(std::to_string(of.bricks_per_chunk) + " bricks per chunk");
   counts.chunks = counts.bricks / of.bricks_per_chunk + (counts.bricks % of.bricks_per_chunk != 0 ? 1 : 0);
   const std::size_t value = bytes_of(of.grid.type);
   const auto bricks = checked_mul(counts.bricks, kOriginBytes),
@@ -122,7 +117,7 @@ Result<Counts> read_counts(ByteReader& in, BrvGrid& of, std::uint64_t& memory, c
              tiles = checked_mul(counts.tiles, kTileBytes + value);
   const auto some = bricks && chunks ? checked_add(*bricks, *chunks) : std::nullopt;
   const auto all = some && tiles ? checked_add(*some, *tiles) : std::nullopt;
-  if (!all || *all > in.remaining()) return damaged("its counts are larger than the file");
+  if (!all || *all > in.remaining()) return damaged_brv("its counts are larger than the file");
   // No overflow: the counts are smaller than the directory.
   memory += counts.bricks * (sizeof(Brick) + kBrickVoxels * value) + counts.tiles * sizeof(Tile);
   if (auto fits = check_memory(memory, limits); !fits) return fits.failure();
@@ -138,7 +133,7 @@ Result<void> read_grid(ByteReader& in, BrvGrid& of, std::uint64_t& memory, std::
 
   // Bricks and where their chunks are.
   grid.bricks.resize(static_cast<std::size_t>(counts->bricks));
-  if (!read_origins(in, grid.bricks)) return damaged("a brick lies outside of index space");
+  if (!read_origins(in, grid.bricks)) return damaged_brv("a brick lies outside of index space");
   of.chunks.resize(static_cast<std::size_t>(counts->chunks));
   for (BrvChunk& chunk : of.chunks) {
     chunk.offset = next_chunk;
@@ -149,20 +144,24 @@ Result<void> read_grid(ByteReader& in, BrvGrid& of, std::uint64_t& memory, std::
 
   // Tiles.
   grid.tiles.resize(static_cast<std::size_t>(counts->tiles));
-  if (!read_origins(in, grid.tiles)) return damaged("a tile lies outside of index space");
+  if (!read_origins(in, grid.tiles)) return damaged_brv("a tile lies outside of index space");
   for (Tile& tile : grid.tiles) {
     const auto code = in.number<std::uint8_t>();
     tile.edge = 1u << (code & 31);
     tile.active = (code & kActive) != 0;
-    if ((code & ~kActive) > 31) return damaged("a tile of an edge that is not one");
+    if ((code & ~kActive) > 31) return damaged_brv("a tile of an edge that is not one");
   }
   for (Tile& tile : grid.tiles) tile.value = read_value(in, grid.type);
-  if (!in.ok()) return damaged("its directory is truncated");
-  if (auto layout = check_layout(grid); !layout) return damaged(layout.failure().message);
+  if (!in.ok()) return damaged_brv("its directory is truncated");
+  if (auto layout = check_layout(grid); !layout) return damaged_brv(layout.failure().message);
   return check_active(grid, limits);
 }
 
 }  // namespace
+
+Failure damaged_brv(const std::string& what) {
+  return {ErrorCode::bad_input, "a damaged .brv file: " + what};
+}
 
 std::size_t raw_brick_bytes(ValueType type) {
   return sizeof(Brick::active) + kBrickVoxels * bytes_of(type);
@@ -187,8 +186,8 @@ Result<BrvDirectory> decode_brv_directory(std::span<const std::byte> bytes, std:
     BrvGrid& grid = directory.grids.emplace_back();
     if (auto read = read_grid(in, grid, memory, next_chunk, limits); !read) return read.failure();
   }
-  if (!in.ok() || in.remaining() != 0) return damaged("its directory is truncated or too long");
-  if (next_chunk != chunks_end) return damaged("its chunks do not fill the space before the directory");
+  if (!in.ok() || in.remaining() != 0) return damaged_brv("its directory is truncated or too long");
+  if (next_chunk != chunks_end) return damaged_brv("its chunks do not fill the space before the directory");
   return directory;
 }
 

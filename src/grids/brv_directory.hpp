@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,6 +13,8 @@
 #include "grids/limits.hpp"
 
 namespace brume::grids {
+
+inline constexpr std::uint32_t kMaxBricksPerChunk = 4096;
 
 /// A run of bricks that is compressed and checked as one.
 struct BrvChunk {
@@ -39,6 +42,9 @@ struct BrvDirectory {
 
 /// Bytes of a brick before compression: its mask and its values.
 std::size_t raw_brick_bytes(ValueType type);
+
+/// The failure of a file that is damaged.
+Failure damaged_brv(const std::string& what);
 
 std::vector<std::byte> encode_brv_directory(const BrvDirectory& directory);
 

@@ -31,10 +31,6 @@ constexpr std::uint64_t kMaxGrowth = 32768;
 constexpr std::uint64_t kDirectoryGrowth = 64, kLeastDirectory = 1 << 20;
 constexpr std::size_t kChunksAtOnce = 64;
 
-Failure damaged(const std::string& what) {
-  return {ErrorCode::bad_input, "a damaged .brv file: " + what};
-}
-
 // Compressed, or as they are where that is no longer.
 Bytes pack(View raw, int level) {
   if (level == 0) return {raw.begin(), raw.end()};
@@ -122,14 +118,14 @@ struct Trailer {
 
 Result<Trailer> read_trailer(View file) {
   if (!begins_with(file, kMagic)) return Failure{ErrorCode::bad_input, "not a .brv file"};
-  if (file.size() < kHeaderBytes + kTrailerBytes) return damaged("it is truncated");
+  if (file.size() < kHeaderBytes + kTrailerBytes) return damaged_brv("it is truncated");
   ByteReader header(file.subspan(kMagic.size(), 8));
   if (const auto version = header.number<std::uint32_t>(); version != kBrvVersion)
     return Failure{ErrorCode::bad_input, "a .brv file of version " + std::to_string(version) + ", not " +
                                              std::to_string(kBrvVersion)};
-  if (header.number<std::uint32_t>() != 0) return damaged("unknown flags");
+  if (header.number<std::uint32_t>() != 0) return damaged_brv("unknown flags");
   const View end = file.last(kTrailerBytes);
-  if (!begins_with(end.last(kEndMagic.size()), kEndMagic)) return damaged("it is truncated");
+  if (!begins_with(end.last(kEndMagic.size()), kEndMagic)) return damaged_brv("it is truncated");
   ByteReader in(end);
   Trailer trailer;
   for (std::uint64_t* field : {&trailer.offset, &trailer.stored_bytes, &trailer.raw_bytes, &trailer.checksum})
@@ -245,20 +241,20 @@ Result<BrvDirectory> open_brv(View file, const GridLimits& limits) {
   const std::uint64_t end = file.size() - kTrailerBytes;
   if (trailer->offset < kHeaderBytes || trailer->offset > end ||
       trailer->stored_bytes != end - trailer->offset)
-    return damaged("its directory lies elsewhere");
+    return damaged_brv("its directory lies elsewhere");
   const View stored = file.subspan(static_cast<std::size_t>(trailer->offset),
                                    static_cast<std::size_t>(trailer->stored_bytes));
   const View place = file.subspan(static_cast<std::size_t>(end), 24);
   if (checksum_of(file.first(kHeaderBytes), stored, place) != trailer->checksum)
-    return damaged("the checksum of its directory is wrong");
+    return damaged_brv("the checksum of its directory is wrong");
 
   // The directory.
   if (!may_unpack(stored.size(), trailer->raw_bytes) ||
       trailer->raw_bytes > std::max(kLeastDirectory, kDirectoryGrowth * file.size()))
-    return damaged("a directory of an impossible length");
+    return damaged_brv("a directory of an impossible length");
   if (auto fits = check_memory(trailer->raw_bytes, limits); !fits) return fits.failure();
   Bytes raw(static_cast<std::size_t>(trailer->raw_bytes));
-  if (!unpack(stored, raw)) return damaged("its directory does not unpack");
+  if (!unpack(stored, raw)) return damaged_brv("its directory does not unpack");
   return decode_brv_directory(raw, kHeaderBytes, trailer->offset, limits);
 }
 
@@ -269,16 +265,16 @@ Result<void> read_brv_chunk(View file, const BrvGrid& of, std::size_t number, st
                std::to_string(number));
   const BrvChunk& chunk = of.chunks[number];
   const View stored = file.subspan(static_cast<std::size_t>(chunk.offset), chunk.stored_bytes);
-  if (hash_bytes(stored) != chunk.checksum) return damaged("the checksum of a chunk is wrong");
+  if (hash_bytes(stored) != chunk.checksum) return damaged_brv("the checksum of a chunk is wrong");
   Bytes raw(masks + values.size());
   if (!may_unpack(stored.size(), raw.size()) || !unpack(stored, raw))
-    return damaged("a chunk does not unpack");
+    return damaged_brv("a chunk does not unpack");
   for (std::size_t i = 0; i < count; ++i)
     std::memcpy(bricks[i].active.data(), &raw[i * sizeof(Brick::active)], sizeof(Brick::active));
   join_bytes(View(raw).subspan(masks), number_bytes(of.grid.type), values);
   if (of.grid.type == ValueType::boolean &&
       std::any_of(values.begin(), values.end(), [](std::byte value) { return value > std::byte{1}; }))
-    return damaged("a boolean is neither 0 nor 1");
+    return damaged_brv("a boolean is neither 0 nor 1");
   return {};
 }
 
@@ -300,7 +296,7 @@ Result<GridFile> decode_brv(View bytes, const GridLimits& limits, const GridChoi
   for (const BrvGrid& grid : directory->grids)
     for (std::size_t i = 0; i < grid.chunks.size(); ++i)
       if (!may_unpack(grid.chunks[i].stored_bytes, grid.brick_count(i) * raw_brick_bytes(grid.grid.type)))
-        return damaged("a chunk of an impossible length");
+        return damaged_brv("a chunk of an impossible length");
 
   GridFile file;
   file.metadata = std::move(directory->metadata);

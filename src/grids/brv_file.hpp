@@ -20,7 +20,6 @@ namespace brume::grids {
 
 /// The version of the format. Files of any other version are refused.
 inline constexpr std::uint32_t kBrvVersion = 1;
-inline constexpr std::uint32_t kMaxBricksPerChunk = 4096;
 
 struct BrvOptions {
   /// Of zstd; 0 stores the bytes as they are, for a pipe.

@@ -6,13 +6,13 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/tasks.hpp"
-#include "grids/active_values.hpp"
+#include "grids/grid.hpp"
 
 namespace brume::grids {
 namespace {
 
 /// Voxels whose centres are off by rounding alone count as they are.
-constexpr double kRounding = 1e-4;
+constexpr double kLeastWeight = 1e-4;
 
 /// To [0, 1]; NaN is 0.
 glm::vec3 limited(glm::dvec3 color) {
@@ -117,14 +117,14 @@ class ChannelColors {
       return value ? std::optional(number_of(grid.type, value)) : std::nullopt;
     }
     const glm::dvec3 p(glm::inverse(grid.world_from_index) * (first_ * glm::dvec4(index, 1)));
-    const glm::dvec3 low = glm::floor(p + kRounding), weight = glm::clamp(p - low, 0.0, 1.0);
+    const glm::dvec3 low = glm::floor(p + kLeastWeight), weight = glm::clamp(p - low, 0.0, 1.0);
     std::optional<double> sum;
     if (!may_hold(low)) return sum;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
       const glm::dvec3 w = glm::mix(1.0 - weight, weight, glm::dvec3(side));
       const double product = w.x * w.y * w.z;
-      if (!(product > kRounding)) continue;
+      if (!(product > kLeastWeight)) continue;
       if (const std::byte* const value = part.at(glm::ivec3(low) + side))
         sum = sum.value_or(0) + product * number_of(grid.type, value);
     }
@@ -154,7 +154,7 @@ class Mean {
 /// The colour at a point of index space.
 template <typename Colors>
 glm::vec3 color_at(Colors& lookup, glm::dvec3 p_index) {
-  const glm::dvec3 low = glm::floor(p_index + kRounding);
+  const glm::dvec3 low = glm::floor(p_index + kLeastWeight);
   if (!may_hold(low)) return glm::vec3(1);
   const glm::vec3 weight(glm::clamp(p_index - low, 0.0, 1.0));
   Mean filtered, around;
@@ -162,7 +162,7 @@ glm::vec3 color_at(Colors& lookup, glm::dvec3 p_index) {
     const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
     const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
     const float product = w.x * w.y * w.z;
-    if (product > static_cast<float>(kRounding)) filtered.add(lookup.at(glm::ivec3(low) + side), product);
+    if (product > static_cast<float>(kLeastWeight)) filtered.add(lookup.at(glm::ivec3(low) + side), product);
   }
   if (!filtered.empty()) return filtered.color();
   for (int n = 0; n < 27; ++n)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grids/active_values.hpp"
+#include "grids/grid.hpp"
 
 namespace brume::grids {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "grids/active_values.hpp"
+#include "grids/grid.hpp"
 
 namespace brume::grids {
 namespace {

@@ -8,7 +8,7 @@
 namespace brume::grids {
 namespace {
 
-constexpr double kRounding = 1e-6;  // [voxels]
+constexpr double kSameVoxel = 1e-6;  // [voxels]: edges nearer than this are one
 
 /// Whether a matrix only scales, by positive numbers, and moves.
 bool is_scale(const glm::dmat4& m) {
@@ -31,7 +31,7 @@ struct Weight {
 /// of which i covers [i, i + 1).
 std::vector<Weight> weights_of(double begin, double end) {
   const double width = end - begin;
-  if (std::abs(width - 1) < kRounding && std::abs(begin - std::round(begin)) < kRounding)
+  if (std::abs(width - 1) < kSameVoxel && std::abs(begin - std::round(begin)) < kSameVoxel)
     return {{static_cast<int>(std::round(begin)), 1}};
   if (width <= 1) {
     const double center = (begin + end) / 2 - 0.5, first = std::floor(center);
@@ -194,8 +194,8 @@ Result<GridBox> box_of(std::span<const Grid* const> grids) {
   }
   if (all.empty()) return Failure{ErrorCode::bad_input, "has no active voxels"};
   // Whole voxels of the first grid.
-  all.low = glm::floor(all.low + 0.5 + kRounding) - 0.5;
-  all.high = glm::ceil(all.high + 0.5 - kRounding) - 0.5;
+  all.low = glm::floor(all.low + 0.5 + kSameVoxel) - 0.5;
+  all.high = glm::ceil(all.high + 0.5 - kSameVoxel) - 0.5;
   const glm::dvec3 size = glm::round(all.high - all.low);
   if (glm::any(glm::greaterThan(size, glm::dvec3(1 << 20))))
     return Failure{ErrorCode::resource_limit, "spans more than 2^20 voxels along an axis"};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "grids/brv_file.hpp"
 #include "grids/raw_file.hpp"

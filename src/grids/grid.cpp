@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "core/error.hpp"
-#include "grids/active_values.hpp"
 
 namespace brume::grids {
 

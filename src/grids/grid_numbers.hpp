@@ -1,5 +1,5 @@
 // The values of a grid as the numbers that are rendered: at the file's resolution without a copy, or halved.
-// Internal to this folder; brick_volume.hpp is the interface.
+// brick_volume.hpp makes bricks of them.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,16 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "grids/brick_volume.hpp"
 #include "grids/grid.hpp"
 #include "volume/sparse_volume.hpp"
 
 namespace brume::grids {
+
+/// How values below 0 are stored: less `offset`, so that all are above 0; those below `least` count as it.
+/// offset < least. Where a grid has no voxels, it has its background.
+struct ValueShift {
+  float least = 0, offset = 0;
+};
 
 using BrickNumbers = std::array<float, kBrickVoxels>;
 

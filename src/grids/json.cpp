@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 1 << 20;
 /// The parser and its destructor are recursive.
-constexpr int kMostLevels = 8;
+constexpr int kMostNesting = 8;
 
 }  // namespace
 
@@ -20,13 +20,17 @@ Result<Json> read_json_object(const std::filesystem::path& path) {
   Json json = Json::parse(
       *text,
       [&](int depth, Json::parse_event_t, Json&) {
-        too_deep = too_deep || depth > kMostLevels;
+        too_deep = too_deep || depth > kMostNesting;
         return !too_deep;
       },
       /*allow_exceptions=*/false);
   if (json.is_discarded() || !json.is_object())
     return Failure{ErrorCode::bad_input, path.string() + ": not a JSON object"};
   return json;
+}
+
+Failure bad_description(const std::filesystem::path& path, const std::string& what) {
+  return {ErrorCode::bad_input, path.string() + ": " + what};
 }
 
 std::optional<std::int64_t> integer_of(const Json& value, std::int64_t low, std::int64_t high) {

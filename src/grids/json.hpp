@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -16,6 +17,9 @@ using Json = nlohmann::ordered_json;
 
 /// Reads a file of one object, of at most 1 MiB and a few levels. Fails with bad_input.
 Result<Json> read_json_object(const std::filesystem::path& path);
+
+/// The failure of a file with such a description.
+Failure bad_description(const std::filesystem::path& path, const std::string& what);
 
 // nullopt: not of this form.
 

@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 using glm::i64vec3;
 using glm::ivec3;
 
-constexpr const char* kFormat = "brume raw volume";
-constexpr int kVersion = 1;
+constexpr const char* kArrayFormat = "brume raw volume";
+constexpr int kArrayVersion = 1;
 constexpr int kFarthest = 1 << 29;  // Of an origin; the end of an array then fits an index.
 constexpr std::array kClasses{"unknown", "level set", "fog volume", "staggered"};
 
 /// Contents of a description.
-struct Description {
+struct ArrayDescription {
   std::string raw, name = "density";
   GridClass grid_class = GridClass::unknown;
   ivec3 size{0}, origin{0};
@@ -33,14 +33,10 @@ struct Description {
   glm::dmat4 world_from_index{1};
 };
 
-Failure bad(const fs::path& json, const std::string& what) {
-  return {ErrorCode::bad_input, json.string() + ": " + what};
-}
-
 // False unless the value is what the key takes.
-bool set_member(Description& to, const std::string& key, const Json& value) {
-  if (key == "format") return value == kFormat;
-  if (key == "version") return value == kVersion;
+bool set_member(ArrayDescription& to, const std::string& key, const Json& value) {
+  if (key == "format") return value == kArrayFormat;
+  if (key == "version") return value == kArrayVersion;
   if (key == "type") return value == "float32";
   if (key == "raw" || key == "name") {
     if (!value.is_string()) return false;
@@ -72,22 +68,22 @@ bool set_member(Description& to, const std::string& key, const Json& value) {
   return false;
 }
 
-Result<Description> read_description(const fs::path& path) {
+Result<ArrayDescription> read_description(const fs::path& path) {
   const auto json = read_json_object(path);
   if (!json) return json.failure();
-  if (!json->contains("format")) return bad(path, "describes no volume: \"format\" is missing");
-  if (const Json& format = json->at("format"); format.is_string() && format != kFormat)
-    return bad(path, "describes no volume, but a file of the format " + format.dump());
-  Description description;
+  if (!json->contains("format")) return bad_description(path, "describes no volume: \"format\" is missing");
+  if (const Json& format = json->at("format"); format.is_string() && format != kArrayFormat)
+    return bad_description(path, "describes no volume, but a file of the format " + format.dump());
+  ArrayDescription description;
   for (const auto& [key, value] : json->items())
     if (!set_member(description, key, value))
-      return bad(path, "\"" + key + "\" is unknown or has a wrong value");
+      return bad_description(path, "\"" + key + "\" is unknown or has a wrong value");
   for (const char* key : {"version", "raw", "size"})
-    if (!json->contains(key)) return bad(path, std::string("\"") + key + "\" is missing");
+    if (!json->contains(key)) return bad_description(path, std::string("\"") + key + "\" is missing");
   return description;
 }
 
-std::size_t index_in(const Description& d, ivec3 at) {
+std::size_t index_in(const ArrayDescription& d, ivec3 at) {
   const glm::u64vec3 p(at), n(d.size);
   return static_cast<std::size_t>(p.x + n.x * (p.y + n.y * p.z));
 }
@@ -103,7 +99,7 @@ bool same_bits(float a, float b) {
 }
 
 // The brick at an index, unless all of its voxels are background.
-void add_brick(Grid& grid, const Description& d, std::span<const std::byte> array, ivec3 origin) {
+void add_brick(Grid& grid, const ArrayDescription& d, std::span<const std::byte> array, ivec3 origin) {
   Brick brick{origin};
   std::array<float, kBrickVoxels> values;
   values.fill(d.background);
@@ -132,7 +128,8 @@ std::optional<std::uint64_t> array_bytes(i64vec3 size) {
 
 // Copies the part of a cube that lies in the array, value by value.
 template <typename ValueAt>
-void paste(std::vector<float>& array, const Description& d, ivec3 origin, int edge, const ValueAt& value_at) {
+void paste(std::vector<float>& array, const ArrayDescription& d, ivec3 origin, int edge,
+           const ValueAt& value_at) {
   const i64vec3 low = i64vec3(origin) - i64vec3(d.origin);
   const i64vec3 from = glm::max(low, i64vec3(0)), to = glm::min(low + i64vec3(edge), i64vec3(d.size));
   for (std::int64_t z = from.z; z < to.z; ++z)
@@ -141,7 +138,7 @@ void paste(std::vector<float>& array, const Description& d, ivec3 origin, int ed
         array[index_in(d, ivec3(x, y, z))] = value_at(ivec3(i64vec3(x, y, z) - low));
 }
 
-std::vector<float> dense(const Grid& grid, const Description& d) {
+std::vector<float> dense(const Grid& grid, const ArrayDescription& d) {
   std::vector<float> array(index_in(d, d.size - 1) + 1, d.background);
   for (const Tile& tile : grid.tiles)
     paste(array, d, tile.origin, static_cast<int>(tile.edge), [&](ivec3) { return float_at(tile.value, 0); });
@@ -152,9 +149,9 @@ std::vector<float> dense(const Grid& grid, const Description& d) {
   return array;
 }
 
-std::string text_of(const Description& d) {
-  const Json json{{"format", kFormat},
-                  {"version", kVersion},
+std::string text_of(const ArrayDescription& d) {
+  const Json json{{"format", kArrayFormat},
+                  {"version", kArrayVersion},
                   {"raw", d.raw},
                   {"type", "float32"},
                   {"name", d.name},
@@ -196,8 +193,8 @@ Result<GridFile> load_raw(const fs::path& json, const GridLimits& limits) {
   const auto array = read_file(raw, limits.bytes);
   if (!array) return array.failure();
   if (array->size() != *length)
-    return bad(raw, "has " + std::to_string(array->size()) + " bytes; " + json.string() + " describes " +
-                        std::to_string(*length));
+    return bad_description(raw, "has " + std::to_string(array->size()) + " bytes; " + json.string() +
+                                    " describes " + std::to_string(*length));
 
   // Bricks.
   GridFile file;
@@ -214,15 +211,17 @@ Result<GridFile> load_raw(const fs::path& json, const GridLimits& limits) {
       if (auto fits = check_memory(memory_of(grid), limits); !fits)
         return Failure{fits.failure().code, json.string() + ": " + fits.failure().message};
     }
-  if (auto valid = check_grid(grid); !valid) return bad(json, valid.failure().message);
+  if (auto valid = check_grid(grid); !valid) return bad_description(json, valid.failure().message);
   return file;
 }
 
 Result<void> save_raw(const fs::path& json, const Grid& grid, const GridLimits& limits) {
   if (grid.type != ValueType::float32)
-    return bad(json, "grid \"" + grid.name + "\" is " + name_of(grid.type) + "; a raw file holds float32");
+    return bad_description(
+        json, "grid \"" + grid.name + "\" is " + name_of(grid.type) + "; a raw file holds float32");
   const Box<double> bounds = active_bounds(grid);
-  if (bounds.low.x > bounds.high.x) return bad(json, "grid \"" + grid.name + "\" has no active voxels");
+  if (bounds.low.x > bounds.high.x)
+    return bad_description(json, "grid \"" + grid.name + "\" has no active voxels");
   const i64vec3 low(bounds.low + 0.5), size = i64vec3(bounds.high + 0.5) - low;
   const auto length = array_bytes(size);
   if (!length || *length > limits.bytes)
@@ -230,7 +229,7 @@ Result<void> save_raw(const fs::path& json, const Grid& grid, const GridLimits& 
                    json.string() + ": the box around the active voxels of grid \"" + grid.name +
                        "\" is larger than the limit of " + std::to_string(limits.bytes >> 20) +
                        " MiB; write a .brv or .vdb file"};
-  Description d;
+  ArrayDescription d;
   const fs::path raw = raw_path_of(json);
   d.raw = raw.filename().string();
   d.name = grid.name;

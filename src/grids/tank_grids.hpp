@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "grids/files.hpp"
 #include "grids/grid.hpp"
 #include "grids/limits.hpp"
 #include "spheres/tank.hpp"

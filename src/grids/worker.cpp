@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.hpp"
 #include "core/child_process.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/atomic_file.hpp"
 #include "core/child_process.hpp"
+#include "core/file.hpp"
 #include "image/formats.hpp"
 
 namespace brume::image {

@@ -2,7 +2,6 @@
 #include <array>
 #include <cstring>
 
-#include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "reference/render.hpp"

@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "core/log.hpp"
+#include "scene/gltf_materials.hpp"
+#include "scene/gltf_meshes.hpp"
 #include "scene/gltf_nodes.hpp"
-#include "scene/gltf_parts.hpp"
 #include "scene/roles.hpp"
 
 namespace brume::scene {

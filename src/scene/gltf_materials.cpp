@@ -1,9 +1,10 @@
+#include "scene/gltf_materials.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/log.hpp"
 #include "scene/color.hpp"
-#include "scene/gltf_parts.hpp"
 #include "scene/roles.hpp"
 
 namespace brume::scene {

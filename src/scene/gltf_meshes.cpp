@@ -1,10 +1,10 @@
+#include "scene/gltf_meshes.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "core/log.hpp"
-#include "scene/gltf_parts.hpp"
 #include "scene/gltf_primitive.hpp"
 #include "scene/mesh_tools.hpp"
 

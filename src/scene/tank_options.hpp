@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/options.hpp"
-#include "scene/tank_scene.hpp"
+#include "spheres/tank.hpp"
 
 namespace brume::scene {
 

@@ -8,6 +8,7 @@
 
 #include "core/hash.hpp"
 #include "core/tasks.hpp"
+#include "sim/fixed_point.hpp"
 
 namespace brume::sim {
 namespace {
@@ -18,11 +19,6 @@ constexpr std::uint64_t kRimNum = 6, kRimDen = 5;
 constexpr std::uint32_t kFullReach = 255 * kRimDen / kRimNum;
 /// Time a voxel takes to open once the front has arrived.
 constexpr std::uint64_t kOpenMilliseconds = 50;
-constexpr std::uint64_t kWhole = 65536;
-
-constexpr std::uint64_t smoothstep(std::uint64_t x) {
-  return (x * x * (3 * kWhole - 2 * x)) >> 32;
-}
 
 /// floor(sqrt(square)) for square < 2^52. Exact: IEEE square roots are correctly rounded.
 std::int64_t floor_sqrt(std::int64_t square) {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/hash.hpp"
-#include "sim/cloud.hpp"
+#include "sim/fill.hpp"
 #include "sim/lattice_noise.hpp"
 
 namespace brume::sim {
@@ -75,12 +75,11 @@ std::vector<std::uint8_t> survival_of(const BlockSet& fill, std::span<const std:
 
 }  // namespace
 
-FillValues fill_values(const CloudOrigin& origin, const BlockSet& fill,
+FillValues fill_values(glm::ivec3 source, std::uint32_t detonation_tick, const BlockSet& fill,
                        std::vector<std::uint32_t> distances) {
-  const glm::ivec3 source = origin.source;
   const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(source.x),
                                            static_cast<std::uint32_t>(source.y),
-                                           static_cast<std::uint32_t>(source.z), origin.detonation_tick};
+                                           static_cast<std::uint32_t>(source.z), detonation_tick};
   const auto seed = static_cast<std::uint32_t>(hash_values(std::span<const std::uint32_t>(seeds)));
   FillValues values;
   values.distances = std::move(distances);

@@ -8,8 +8,6 @@
 
 namespace brume::sim {
 
-struct CloudOrigin;
-
 /// By rank in the fill.
 struct FillValues {
   std::vector<std::uint32_t> distances;  ///< Of the flood.
@@ -18,7 +16,9 @@ struct FillValues {
 };
 constexpr int kLagBits = 10;
 
-FillValues fill_values(const CloudOrigin& origin, const BlockSet& fill, std::vector<std::uint32_t> distances);
+/// Of the fill of a cloud whose grenade detonated at `source`.
+FillValues fill_values(glm::ivec3 source, std::uint32_t detonation_tick, const BlockSet& fill,
+                       std::vector<std::uint32_t> distances);
 
 /// Front distance at which smoke reaches a voxel.
 inline std::uint32_t reach_of(std::uint32_t distance, std::uint8_t lag) {

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "core/progress.hpp"
 

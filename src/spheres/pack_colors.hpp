@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "spheres/pack.hpp"
+#include "spheres/pack_options.hpp"
 
 namespace brume::spheres {
 

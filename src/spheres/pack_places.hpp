@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "spheres/pack.hpp"
 #include "spheres/pack_levels.hpp"
+#include "spheres/pack_options.hpp"
 
 namespace brume::spheres {
 
@@ -41,9 +41,6 @@ class PackPlaces {
 
 /// For the options' arrangement; `spheres` are those that are inserted, which it reads.
 std::unique_ptr<PackPlaces> make_pack_places(const PackOptions& options, const PackLevels& spheres);
-
-/// Coral. See pack_coral.cpp.
-std::unique_ptr<PackPlaces> make_pack_coral(const PackOptions& options, const PackLevels& spheres);
 
 /// A position along an axis of `size` voxels of a sphere inside of it: `fraction` in [0, 1) of what is
 /// possible.

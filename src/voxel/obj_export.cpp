@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string>
 
-#include "core/atomic_file.hpp"
+#include "core/file.hpp"
 
 namespace brume::voxel {
 namespace {

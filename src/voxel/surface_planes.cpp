@@ -22,7 +22,6 @@ constexpr double kSameDirection = 0.9;
 constexpr double kLeastArea = 0.02;
 // A surface within this distance of a voxel counts as touching it: above the rounding error of floats.
 constexpr double kAtVoxel = 1e-3;
-constexpr std::size_t kTrianglesPerTask = 2048;
 constexpr std::int64_t kCellsForThreads = 32768;
 
 // Space of this file: cell space = voxel space - 0.5, so that cell c covers [c, c + 1).
@@ -283,6 +282,7 @@ struct SlabTriangles {
 
   SlabTriangles(std::span<const Triangle> all, const GridLayout& layout, int low_z, int high_z) {
     // The slabs of each triangle.
+    constexpr std::size_t kTrianglesPerTask = 2048;
     const auto slabs = static_cast<std::size_t>(high_z - low_z);
     std::vector<std::pair<int, int>> range(all.size(), {0, -1});
     parallel_for(all.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {

@@ -15,8 +15,6 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-constexpr std::size_t kTrianglesPerTask = 512;
-
 // Writes voxels into a grid; caches the brick of the last one.
 class Pen {
  public:
@@ -284,6 +282,7 @@ Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, floa
 
 Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& layout) {
   if (auto checked = check_frame(layout); !checked) return checked.failure();
+  constexpr std::size_t kTrianglesPerTask = 512;
   const std::size_t tasks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), tasks));
   std::vector<BitGrid> grids(workers, BitGrid(layout));

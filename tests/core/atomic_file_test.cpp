@@ -1,4 +1,3 @@
-#include "core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/atomic_file.hpp"
 #include "core/checked.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"

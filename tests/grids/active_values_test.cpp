@@ -1,4 +1,4 @@
-#include "grids/active_values.hpp"
+#include "grids/grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-// Converts the materials and meshes of a glTF document, each once. Throws brume::Error, which parse_gltf
-// converts to its Result.
+// Converts the materials of a glTF document, each once. Throws brume::Error, which parse_gltf converts to its
+// Result.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
-#include <tuple>
-#include <vector>
+#include <string>
+#include <utility>
 
 #include "scene/gltf_document.hpp"
-#include "scene/gltf_nodes.hpp"
 #include "scene/scene_builder.hpp"
 
 namespace brume::scene {
@@ -49,29 +49,6 @@ class GltfMaterials {
   std::map<std::uint32_t, AlphaSource> alphas_;  // of materials that are not opaque
   std::map<std::pair<int, Wraps>, std::uint32_t> images_;
   bool warned_of_role_ = false;
-};
-
-class GltfMeshes {
- public:
-  GltfMeshes(const GltfDocument& document, GltfMaterials& materials, SceneBuilder& builder);
-
-  struct Part {
-    std::uint32_t mesh = kNone, material = kNone;
-    Role role = Role::wall;  ///< By its material.
-  };
-  /// The triangle primitives of meshes[index], with so much of its morph targets, in their order; in world
-  /// space if they have a skin, else -1.
-  const std::vector<Part>& parts(int index, const std::vector<double>& weights, int skin);
-
- private:
-  Mesh convert(const tinygltf::Primitive& primitive, const GltfMaterials::Converted& material,
-               const std::vector<double>& weights, int skin, const std::string& place);
-
-  const GltfDocument& document_;
-  GltfMaterials& materials_;
-  SceneBuilder& builder_;
-  GltfSkins skins_;
-  std::map<std::tuple<int, int, std::vector<double>>, std::vector<Part>> parts_;
 };
 
 }  // namespace brume::scene
