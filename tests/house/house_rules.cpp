@@ -30,16 +30,6 @@ std::vector<std::string> matches(std::string_view text, const std::regex& patter
   return found;
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 std::size_t indent_of(std::string_view line) {
   return std::min(line.find_first_not_of(' '), line.size());
 }
@@ -69,11 +59,10 @@ std::string_view folder_of(std::string_view path) {
 }
 
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text) {
-  static const std::regex include(R"re(#\s*include\s*"([^"]+)")re");
   std::vector<std::string> found;
-  for (const std::string& path : matches(text, include)) {
+  for (const std::string& path : quoted_includes(text)) {
     const std::string_view other = folder_of(path);
-    if (other.empty()) continue;      // A generated header.
+    if (other.empty()) continue;  // A generated header.
     if (other == "shared") continue;  // The lowest layer: plain structs for C++ and GLSL.
     if (place(other) > place(folder) || place(other) == std::ssize(kFolders)) found.push_back(path);
   }
@@ -94,6 +83,21 @@ std::vector<std::string> unsized_structs(std::string_view text) {
     if (std::find(with_size.begin(), with_size.end(), name) == with_size.end()) found.push_back(name);
   }
   return found;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::vector<std::string> quoted_includes(std::string_view text) {
+  static const std::regex include(R"re(#\s*include\s*"([^"]+)")re");
+  return matches(text, include);
 }
 
 std::size_t line_count(std::string_view text) {

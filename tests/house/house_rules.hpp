@@ -32,6 +32,12 @@ struct Length {
   std::string name;  ///< First line of the function.
 };
 
+/// The lines of a text, without their line breaks.
+std::vector<std::string_view> lines_of(std::string_view text);
+
+/// Paths that a file includes in quotes.
+std::vector<std::string> quoted_includes(std::string_view text);
+
 /// Number of lines; a last line without a line break counts.
 std::size_t line_count(std::string_view text);
 
