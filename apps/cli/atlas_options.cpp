@@ -90,6 +90,7 @@ void declare_atlas_options(const Arguments& arguments, AtlasOptions& options) {
                   "Image to write (.png, .exr); its description is written beside it (.json)")
       .required()
       .type_name("FILE");
+  // How tiles lie in the image.
   arguments
       .add_option("--layout", options.layout,
                   "Tiles: in a strip, near a square, or so many in a row; default: a strip if it is at most "
@@ -100,6 +101,7 @@ void declare_atlas_options(const Arguments& arguments, AtlasOptions& options) {
       .type_name("N");
   arguments.add_flag("--mips", options.mips,
                      "Also write smaller levels, as FILE_mip1 and so on, until tiles cannot be halved");
+  // What a texel holds.
   arguments
       .add_option("--bits", options.bits,
                   "Bits of a channel: 8 or 16 in PNG, 16 or 32 in OpenEXR; default: 8, 16")
@@ -108,6 +110,7 @@ void declare_atlas_options(const Arguments& arguments, AtlasOptions& options) {
       .add_option("--range", options.range,
                   "Values that become 0 and 1 in a PNG; default: 0,1, or all values where they exceed it")
       .type_name("LOW,HIGH");
+  // Which way the volume lies in it.
   arguments
       .add_option("--axes", options.axes,
                   "Directions of columns (right), rows (down) and tiles in the volume, such as \"+x -y +z\"")

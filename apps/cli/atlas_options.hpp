@@ -40,7 +40,8 @@ struct AtlasTarget {
   std::filesystem::path json;
   grids::AtlasDepth depth = grids::AtlasDepth::unorm8;
   grids::SliceLayout layout;
-  std::vector<grids::AtlasRange> ranges;  ///< Of each channel, or one of all; empty: they fit the values.
+  std::vector<grids::AtlasRange>
+      ranges;  ///< Range of each channel, or one for all; empty: they fit the values.
   std::uint32_t levels = 1;
   std::filesystem::path godot_import;  ///< Empty: none.
 };

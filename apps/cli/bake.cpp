@@ -98,6 +98,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
   const Stopwatch watch;
   refuse_idle_options(options, arguments);
   expect_suffix("-o", options.output, {".brv", ".vdb", ".nvdb", ".png"});
+  // Declare all outputs before any work.
   const grids::CloudSettings settings = settings_of(options);
   const bool is_atlas = kind_of(options.output) == FileKind::png;
   std::optional<AtlasTarget> atlas;
@@ -107,6 +108,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
     outputs.writes("-o", options.output, kind_of(options.output));
   outputs.writes("--json", options.json, FileKind::json);
 
+  // Generate and write it.
   grids::Grid grid = generate(options, settings);
   stop_if_interrupted();
   warn_of_what_is_missing(grid, settings);
@@ -119,6 +121,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
     grids::save_grid_file(options.output, file).value_or_throw();
   }
 
+  // Report.
   const double seconds = watch.seconds();
   if (!options.json.empty())
     write_json(options.json, {{"output", options.output},
@@ -146,6 +149,7 @@ std::vector<std::string> device_of(const BakeOptions& options) {
 
 void add_shape_options(const Arguments& arguments, BakeOptions& options) {
   grids::CloudSettings& cloud = options.cloud;
+  // The shape.
   arguments.add_option("--edge", cloud.edge, "Voxels along each side of the cube; default 128")
       .range(1u, grids::kMaxCloudEdge)
       .type_name("N");
@@ -165,6 +169,7 @@ void add_shape_options(const Arguments& arguments, BakeOptions& options) {
       .range(1e-9, 1e9)
       .type_name("M");
   arguments.add_flag("--binary", options.binary, "Density is 1 up to the surface");
+  // The noise of a pyroclastic cloud.
   arguments.add_option("--seed", cloud.seed, "Seed of the noise; default 0")
       .range(0u, 4294967295u)
       .type_name("N");
@@ -227,6 +232,7 @@ Command add_bake(CommandLine& program) {
               {"", "-o", options->output, kind_of(options->output), device_of(*options),
                description_beside(options->output)},
               [&](const Unit& unit, Outputs& outputs) {
+                // Frames of a shape without a seed would all be the same.
                 if (unit.number && options->shape != kShapes.front())
                   arguments.refuse("--frames", "is for the shape pyroclastic: others have no seed");
                 BakeOptions one = *options;

@@ -14,10 +14,10 @@
 
 namespace brume::cli {
 
-/// Of --size, such as "64x64x32": each 1 to 16384; nullopt: an empty text. Throws Error (usage).
+/// Reads --size, such as "64x64x32": each 1 to 16384; nullopt: an empty text. Throws Error (usage).
 std::optional<glm::uvec3> parse_voxels(const std::string& text);
 
-/// Of --box, two corners [m]; nullopt: an empty text. Throws Error (usage).
+/// Reads --box, two corners [m]; nullopt: an empty text. Throws Error (usage).
 std::optional<Box<double>> parse_box(const std::string& text);
 
 /// The triangles of all objects, those that smoke ignores included.

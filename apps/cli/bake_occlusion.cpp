@@ -82,6 +82,7 @@ void save(const OcclusionBake& bake, const Targets& targets, bake::Occlusion occ
 
 void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& outputs) {
   const Stopwatch watch;
+  // Check the options and declare all outputs before any work.
   if (!bake.box.empty()) arguments.refuse("--margin", "--box sets the box; give one of the two");
   expect_suffix("", bake.input, {".glb", ".gltf", ".obj", ".txt"});
   outputs.reads(std::filesystem::path(bake.input));
@@ -89,10 +90,12 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   const Targets targets = targets_of(bake, *parse_voxels(bake.size), outputs);
   outputs.writes("--json", bake.json, FileKind::json);
 
+  // Read the meshes.
   const scene::Scene scene = scene::load_scene(bake.input, false, scene::ImageUse::none).value_or_throw();
   outputs.reads(scene.files);
   stop_if_interrupted();
   const std::vector<voxel::Triangle> triangles = chosen_triangles(scene, bake);
+  // Trace, and warn of a box in which nothing is dark.
   bake.options.size = targets.combined.layout.size;
   bake.options.box = given_box ? *given_box : box_of_mesh(triangles, bake);
   bake::Occlusion occlusion = bake::bake_occlusion(triangles, bake.options).value_or_throw();
@@ -102,6 +105,7 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
     log_warning(bake.input + ": hides nothing from any point of the box");
   save(bake, targets, std::move(occlusion));
 
+  // Report.
   const double seconds = watch.seconds();
   if (!bake.json.empty()) {
     Json json{{"input", bake.input}, {"triangles", triangles.size()}, {"rays", bake.options.rays}};
@@ -118,6 +122,7 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
 }
 
 void add_bake_options(const Arguments& arguments, OcclusionBake& bake) {
+  // What is baked, and the box around it.
   arguments.add_option("--object", bake.objects, "Bake only the objects of this name; repeatable")
       .take_all()
       .type_name("NAME");
@@ -130,12 +135,14 @@ void add_bake_options(const Arguments& arguments, OcclusionBake& bake) {
   arguments
       .add_option("--box", bake.box, "Lowest and highest corner of what is baked [m] instead of --margin")
       .type_name("POINTS");
+  // How it is traced.
   arguments.add_option("--rays", bake.options.rays, "Rays of a texel, up and down each; default 256")
       .range(1u, 1u << 24)
       .type_name("N");
   arguments.add_option("--seed", bake.options.seed, "Seed of the rays; default 0")
       .range(0u, 4294967295u)
       .type_name("N");
+  // How the image combines up and down.
   arguments
       .add_option("--gamma", bake.curve.gamma,
                   "Exponent of the combined occlusion at the middle plane; below 1 darkens; default 1")
@@ -172,6 +179,7 @@ Command add_bake_occlusion(CommandLine& program) {
   declare_units(arguments, bake->units, "numbered files, such as pose_%04d.glb");
   declare_json(arguments, bake->json);
   command.run = [bake, arguments, common = command.common] {
+    // Each unit bakes a copy with its own files.
     expect_suffix("-o", bake->atlas.output, {".png", ".exr"});
     run_units(arguments, bake->units, *common,
               {bake->input,

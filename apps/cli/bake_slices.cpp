@@ -29,7 +29,7 @@ struct SliceOptions {
 
 /// What goes into one channel.
 struct ChannelChoice {
-  std::string name;     ///< Of an object or a grid; empty: all objects.
+  std::string name;     ///< Name of an object or a grid; empty: all objects.
   std::size_t channel;  ///< 0 to 3: R, G, B, A.
 };
 
@@ -110,6 +110,7 @@ struct Baked {
 };
 
 Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
+  // Check the options before the scene is read.
   const auto size = parse_voxels(options.size);
   const auto box = parse_box(options.box);
   const auto choices = parse_channels(options.channels);
@@ -120,6 +121,7 @@ Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
   outputs.reads(scene.files);
   stop_if_interrupted();
 
+  // Measure the coverage of each channel.
   Baked baked{target, {}, {}};
   const std::vector<MeshChannel> channels = mesh_channels(scene, options.input, choices);
   baked.box = box ? *box : box_around(channels, target.layout.size, options.input);
@@ -143,6 +145,7 @@ Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
 std::vector<const grids::Grid*> volume_channels(const grids::GridFile& file, const std::string& name,
                                                 const std::vector<ChannelChoice>& choices) {
   std::vector<const grids::Grid*> channels;
+  // Without a choice: all grids in their order, as far as there are channels.
   if (choices.empty()) {
     for (const grids::Grid& grid : file.grids) channels.push_back(&grid);
     if (channels.empty()) throw Error(ErrorCode::bad_input, name + ": has no grids");
@@ -152,6 +155,7 @@ std::vector<const grids::Grid*> volume_channels(const grids::GridFile& file, con
                                         printable(channels.front()->name) + ":r");
     return channels;
   }
+  // Find the chosen ones, each for its own channel.
   std::vector<std::string> known;
   for (const grids::Grid& grid : file.grids) known.push_back(printable(grid.name));
   channels.resize(choices.size(), nullptr);
@@ -191,7 +195,7 @@ grids::GridBox volume_box(const SliceOptions& options, const std::vector<const g
 /// What all frames of a sequence have in common, so that nothing jumps from one to the next.
 struct SequenceBake {
   std::optional<grids::GridBox> box;      ///< Encloses every frame; empty: each frame has its own.
-  std::vector<grids::AtlasRange> ranges;  ///< Of each channel.
+  std::vector<grids::AtlasRange> ranges;  ///< Range of each channel.
 };
 
 /// The range of all finite values of a grid, widened to contain [0, 1].
@@ -335,6 +339,7 @@ Command add_bake_slices(CommandLine& program) {
       "  brume bake slices room.glb -o room.png --size 64x32x64 --layout square --bits 16");
   auto options = std::make_shared<SliceOptions>();
   const Arguments& arguments = command.arguments;
+  // Inputs and channels.
   arguments
       .add_option("INPUT", options->input,
                   "Closed meshes (.glb, .gltf, .obj, .txt) or a volume (.vdb, .nvdb, .brv, .json)")
@@ -358,6 +363,7 @@ Command add_bake_slices(CommandLine& program) {
       .type_name("POINTS");
   declare_units(arguments, options->units, "numbered files, such as smoke_%04d.vdb");
   declare_json(arguments, options->json);
+  // A sequence has one range of values and one box, so that its frames fit together: measure all of it first.
   command.run = [options, arguments, common = command.common] {
     expect_suffix("-o", options->atlas.output, {".png", ".exr"});
     std::optional<SequenceBake> sequence;

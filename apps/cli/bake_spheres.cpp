@@ -50,7 +50,7 @@ std::vector<std::string> choice_names(std::uint32_t count, const char* (*name_of
 /// "1.5-16", or one number for both. What is no range is left to the check of all options.
 glm::vec2 parse_radius(const std::string& text) {
   if (const auto both = number_of(text)) return glm::vec2(static_cast<float>(*both));
-  // Of several dashes, "1e-3-2", the one between two numbers.
+  // Takes, of several dashes ("1e-3-2"), the one between two numbers.
   for (std::size_t dash = text.find('-', 1); dash != text.npos; dash = text.find('-', dash + 1)) {
     const auto least = number_of(text.substr(0, dash)), largest = number_of(text.substr(dash + 1));
     if (least && largest) return {static_cast<float>(*least), static_cast<float>(*largest)};
@@ -168,6 +168,7 @@ void add_numbers(const Arguments& arguments, spheres::PackOptions& options) {
       {"noise_size", "--noise-size", "Size of the noise's features [voxels]; default 120", "X"},
       {"opacity", "--opacity",
        "Of all spheres; default 1: opaque; below, a medium of which one voxel blocks this much light", "X"}};
+  // Ranges come from the scene's options: one place states them.
   std::size_t added = 0;
   scene::visit_pack_options(options, [&](const scene::OptionInfo& info, auto& member) {
     using Member = std::remove_reference_t<decltype(member)>;
@@ -186,6 +187,7 @@ void add_numbers(const Arguments& arguments, spheres::PackOptions& options) {
 void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
   arguments.add_option("--size", bake.size, "Voxels of the tank; default 600x600x200").type_name("XxYxZ");
   add_numbers(arguments, bake.options);
+  // Where spheres are tried.
   arguments
       .add_option("--radius", bake.radius,
                   "Least and largest radius [voxels]; default 1.5-16, less in a tank that is smaller")
@@ -196,6 +198,7 @@ void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
           "random, largest_first (default), noise (strands and caves) or coral (grows from the floor)")
       .one_of(choice_names(scene::kArrangements, scene::arrangement_name))
       .type_name("NAME");
+  // What colours they take.
   arguments
       .add_option("--coloring", bake.coloring,
                   "Which of the palette's colours: random (default), by radius, by height, or by noise")
@@ -206,6 +209,7 @@ void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
                   "Colours: NAME or FILE (.gpl, .json), and the part that is used; default batlow (see brume "
                   "palettes)")
       .type_name("NAME:A-B");
+  // What decides the result.
   arguments.add_option("--seed", bake.seed, "Seed of places, radii and colours; default 0")
       .range(0u, 4294967295u)
       .type_name("N");

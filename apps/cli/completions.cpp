@@ -199,6 +199,7 @@ std::string bash_completion(const CLI::App& program) {
 }
 
 std::string zsh_completion(const CLI::App& program) {
+  // Commands of one word, and the second words of the others.
   std::string commands, pairs, cases;
   for (const std::string& word : first_words(program)) {
     const auto second = second_words(program, word);
@@ -211,8 +212,10 @@ std::string zsh_completion(const CLI::App& program) {
     pairs += "  if (( CURRENT == 3 )) && [[ $words[2] == " + word +
              " && $words[3] != -* ]]; then\n    compadd " + joined(words) + "\n    return\n  fi\n";
   }
+  // The options and arguments of each command.
   for (const CLI::App* command : commands_of(program))
     cases += "    " + quoted(command->get_name()) + ")\n" + zsh_arguments(*command) + "      ;;\n";
+  // The script: the first word, the second word, then what the command takes.
   return "#compdef brume\n# Completes the commands, options and files of brume in zsh." + std::string(kHead) +
          "_brume() {\n  local -a commands=(\n" + commands + "    'help:Print the help of a command'\n  )\n" +
          "  if (( CURRENT == 2 )); then\n    if [[ $words[2] == -* ]]; then\n      compadd -- " +

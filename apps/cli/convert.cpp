@@ -66,6 +66,7 @@ void save(const fs::path& path, const grids::GridFile& file) {
 
 void convert(const ConvertOptions& options, Outputs& outputs) {
   const Stopwatch watch;
+  // Check the files and declare all outputs before any work.
   expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr", ".spheres"});
   expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
   const fs::path output = options.output;
@@ -74,11 +75,13 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
   if (grids::is_raw_description(output)) outputs.writes("", grids::raw_path_of(output), FileKind::raw);
   outputs.writes("--json", options.json, FileKind::json);
 
+  // Convert.
   grids::GridFile file = load_volumes(options.input, outputs);
   stop_if_interrupted();
   select(file, options.input, options.grids);
   save(output, file);
 
+  // Report.
   const double seconds = watch.seconds();
   std::uint64_t active = 0;
   for (const grids::Grid& grid : file.grids) active += count_active(grid);
@@ -159,6 +162,7 @@ Command add_convert(CommandLine& program) {
   arguments.add_option("--fps", options->fps, "Frames per second of a film; default 24").type_name("F");
   declare_units(arguments, options->units, "numbered files, such as smoke_%04d.vdb");
   declare_json(arguments, options->json);
+  // A film, or units of volumes.
   command.run = [options, arguments, common = command.common] {
     if (scene::lower_extension(options->output) == ".mp4") {
       refuse_idle_for_film(arguments);

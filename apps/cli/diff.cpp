@@ -123,6 +123,7 @@ Command add_diff(CommandLine& program) {
       .required()
       .type_name("");
   arguments.add_option("TEST", options->test, "Image to compare with it").required().type_name("");
+  // What to do with the difference.
   arguments
       .add_option("-o,--output", options->map, "Write the FLIP error map, from black to pale yellow: .png")
       .type_name("FILE");

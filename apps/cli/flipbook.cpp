@@ -20,7 +20,7 @@ namespace {
 using image::LightSide;
 using image::Texels;
 
-// Of the light from each side. As bright as flames, so that half floats keep the difference.
+// Irradiance by the light from each side: as bright as flames, so that half floats keep the difference.
 constexpr float kSideIrradiance = 256;
 
 /// The frames of the tiles, and when they are.

@@ -15,8 +15,8 @@ namespace brume::cli {
 /// What lights the frames: the lights of the scenario, one from a direction, or none.
 struct FlipbookLight {
   enum class Kind { own, one, none } kind = Kind::own;
-  glm::vec3 from_world{0, 1, 0};  ///< Of one: unit, towards it.
-  float irradiance = 0;           ///< Of one.
+  glm::vec3 from_world{0, 1, 0};  ///< Kind::one: unit vector towards it.
+  float irradiance = 0;           ///< Kind::one: on a surface that faces it.
 };
 /// Replaces the lights of a scenario.
 void set_light(const FlipbookLight& light, scenario::Scenario& scenario);

@@ -85,6 +85,7 @@ void declare_flipbook(const Arguments& arguments, FlipbookOptions& options) {
                   "that of a tile (default 256x256)")
       .type_name("CxR");
   arguments
+      // The sheets.
       .add_option(
           "--flipbook-maps", options.maps,
           "Sheets beside the colours: six-way (light from six sides, two images), normals, emission, motion")
@@ -94,6 +95,7 @@ void declare_flipbook(const Arguments& arguments, FlipbookOptions& options) {
                   "Whether colours are multiplied by alpha; default: straight, premultiplied for .exr")
       .one_of({"straight", "premultiplied"})
       .type_name("FORM");
+  // The tiles.
   arguments
       .add_option("--flipbook-gutter", options.gutter,
                   "Empty texels along each side of a tile, within its size; default 2")
@@ -114,6 +116,7 @@ FlipbookPlan parse_flipbook(const FlipbookOptions& options, glm::uvec2 tile_px,
     throw Error(
         ErrorCode::usage,
         "-o " + output.string() + ": a flipbook is one image, .png or .exr; remove --flipbook for frames");
+  // The layout: tiles must be larger than their gutters, and the sheet an image.
   const glm::uvec2 grid = parse_tiles(options.grid);
   plan.layout = {grid.x, grid.y, tile_px, options.gutter.value_or(2)};
   if (2 * plan.layout.gutter >= std::min(tile_px.x, tile_px.y))
@@ -127,6 +130,7 @@ FlipbookPlan parse_flipbook(const FlipbookOptions& options, glm::uvec2 tile_px,
                                       std::to_string(image::kMaxAxis) +
                                       " along each side are possible; give a "
                                       "smaller --size");
+  // The maps, and which way their green points.
   parse_maps(options.maps, plan);
   plan.is_straight = options.alpha.empty() ? !is_exr(plan) : options.alpha == "straight";
   for (const FlipbookPreset& preset : kFlipbookPresets) {

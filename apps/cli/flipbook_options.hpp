@@ -22,7 +22,7 @@ void declare_flipbook(const Arguments& arguments, FlipbookOptions& options);
 /// What the options say, checked.
 struct FlipbookPlan {
   image::FlipbookLayout layout;
-  std::filesystem::path output;  ///< Of the colours; the others are named after it.
+  std::filesystem::path output;  ///< File of the colours; the others are named after it.
   bool is_straight = true;       ///< Whether colours are not multiplied by alpha.
   bool has_six_way = false, has_normals = false, has_emission = false, has_motion = false;
   bool normals_up = true, motion_up = false;  ///< Whether green is the direction up.

@@ -122,6 +122,7 @@ Command add_info(CommandLine& program) {
                              "List the names of a scene's objects, by which timelines move them");
   declare_json(command.arguments, options->json, "the summary");
   command.run = [arguments = command.arguments, options, common = command.common] {
+    // Refuse options of other kinds of files, and declare what is read.
     if (scene::lower_extension(options->input) != ".toml")
       arguments.refuse("--check", "is for timelines and scenes of tanks (.toml)");
     if (!is_scene_file(options->input))
@@ -130,6 +131,7 @@ Command add_info(CommandLine& program) {
     if (scenario::is_tank_input(options->input))
       common->outputs.reads(scenario::files_of_tank_input(options->input));
     common->outputs.writes("--json", options->json, FileKind::json);
+    // The same facts as JSON and as text.
     const Summary summary = summary_of(options->input, options->choices, common->outputs);
     if (!options->json.empty()) {
       Json info{{"file", options->input}};

@@ -12,7 +12,7 @@ namespace {
 /// Horizontal distance from the axis, relative to that from the centre, below which a turn shows nothing.
 constexpr float kLeastReach = 1e-4f;
 
-/// Of boxes around all that is visible before time passes.
+/// Corners of boxes around all that is visible before time passes.
 std::vector<glm::vec3> corners_of(const scenario::Scenario& scenario) {
   std::vector<glm::vec3> corners = scene::level_corners(scenario.scene);
   for (std::size_t i = 0; i < scenario.timeline.volumes.size(); ++i) {

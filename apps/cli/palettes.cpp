@@ -152,6 +152,7 @@ Command add_palettes(CommandLine& program) {
               "  brume palettes --hue 210 --limit 40 -o blue.png");
   auto options = std::make_shared<PaletteOptions>();
   const Arguments& arguments = command.arguments;
+  // Which palettes to list.
   arguments
       .add_option("WORDS", options->words,
                   "Only those with these words in the name or the collection; a .gpl or .json file is "
@@ -165,6 +166,7 @@ Command add_palettes(CommandLine& program) {
           "240 blue")
       .range(0.0, 360.0)
       .type_name("DEGREES");
+  // How to show them.
   arguments.add_option("--limit", options->limit, "List so many at most; default 0: all").type_name("N");
   arguments.add_option("-o,--output", options->sheet, "Write a picture of them (.png)").type_name("FILE");
   declare_json(arguments, options->json, "the list");

@@ -85,6 +85,7 @@ void judge(const QueryOptions& options, bool visible) {
 }
 
 void print_sample(const QueryOptions& options, const scenario::Scenario& scenario, const SightLine& line) {
+  // Ask the simulation at that time.
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   simulation->advance_to(options.time);
   check_ends(simulation->world().grid(), line);
@@ -92,6 +93,7 @@ void print_sample(const QueryOptions& options, const scenario::Scenario& scenari
   const double transmittance = std::exp(-double{sample.optical_depth});
   const float distance = glm::length(line.to_world - line.from_world);
   const bool visible = sample.hidden_by == HiddenBy::nothing;
+  // Report as JSON and as text.
   if (!options.json.empty()) {
     Json first = nullptr;
     if (const auto& wall = sample.wall)
@@ -199,11 +201,11 @@ void report_coverage(const QueryOptions& options, const scenario::Scenario& scen
     print_coverage(coverage, times);
     if (options.shots > 0) print_shots(shots, options.shots);
   }
-  // Of a report: hidden at all.
+  // A report asks whether the target was hidden at all.
   judge(options, coverage.intervals.empty());
 }
 
-/// Of --sense, which has options of its own.
+/// Answers --sense, which has options of its own.
 void query_tank(const Arguments& arguments, const QueryOptions& options, Outputs& outputs) {
   for (const char* option :
        {"--from", "--to", "--time", "--times", "--threshold", "--report", "--shots", "--shots-at",
@@ -258,6 +260,7 @@ Command add_query(CommandLine& program) {
       program, "query", "Tests whether one point is visible from another through the smoke.", kQueryExamples);
   auto options = std::make_shared<QueryOptions>();
   const Arguments arguments = command.arguments;
+  // A sample at one time.
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml), scene, or with --sense tank")
       .required()
       .type_name("");
@@ -270,6 +273,7 @@ Command add_query(CommandLine& program) {
       .range(0.0, 1e6)
       .type_name("T");
   arguments.add_flag("--drawn", options->drawn, "Through smoke as pictures show it, eroded by noise; slower");
+  // A report over time, and shots that would open a line.
   arguments.add_flag("--report", options->report, "List the intervals in which the target is hidden");
   arguments
       .add_option("--times", options->times, "Begin and end of the report [s]; default: the whole timeline")
@@ -290,6 +294,7 @@ Command add_query(CommandLine& program) {
                   "Maximum deviation of these shots from the line [degrees]; default 0")
       .range(0.0, 45.0)
       .type_name("DEG");
+  // What the exit code says, and where the smoke comes from.
   arguments
       .add_option("--expect", options->expect,
                   "Exit code 7 unless the target is visible or hidden: at the time, or in the whole report")

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using spheres::Sensed;
 
-/// Of a JSON document, which lists each; a picture may have more.
+/// A JSON document lists each ray; a picture may have more.
 constexpr std::uint64_t kMostListedRays = 1u << 20, kMostRays = 1u << 26;
 
 FileKind picture_kind(const fs::path& path) {
@@ -57,6 +57,7 @@ void check_place(const spheres::Eye& eye, const spheres::Tank& tank) {
 }
 
 void save_picture(const fs::path& path, const glm::uvec2& size, const std::vector<Sensed>& seen) {
+  // Numbers in layers, as compositors read them.
   if (picture_kind(path) == FileKind::exr) {
     image::LayeredImage picture{size.x, size.y, {}};
     const auto add = [&](const char* name, const auto& value_of) {
@@ -73,6 +74,7 @@ void save_picture(const fs::path& path, const glm::uvec2& size, const std::vecto
     image::save_exr(path, picture).value_or_throw();
     return;
   }
+  // Colours with straight alpha.
   image::Image8 picture{size.x, size.y, {}};
   for (const Sensed& one : seen) {
     const glm::vec3 straight = one.opacity > 0 ? one.color / one.opacity : glm::vec3(0);
@@ -88,7 +90,7 @@ Json point_of(const glm::vec3& p) {
   return Json::list({p.x, p.y, p.z});
 }
 
-/// Of every ray, rows from the top.
+/// Lists every ray, rows from the top.
 void list_rays(Json& report, const std::vector<Sensed>& seen) {
   Json colors = Json::list({}), opacities = Json::list({}), depths = Json::list({});
   for (const Sensed& one : seen) {

@@ -56,6 +56,7 @@ class PictureProgress {
 }  // namespace
 
 void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
+  // When a picture is done.
   arguments
       .add_option("--noise", options.noise,
                   "Relative standard error at which a part of the picture is done, such as 0.02")
@@ -65,6 +66,7 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
       .add_option("--time-limit", options.time_limit, "Time to render each picture of --mode reference [s]")
       .range(0.01, 1e7)
       .type_name("S");
+  // What makes pictures faster or plainer.
   arguments
       .add_option("--max-bounces", options.max_bounces,
                   "Scatterings of a path at most (biased); 1: light that is scattered once")

@@ -60,7 +60,7 @@ class ReferenceFrames {
   Picture draw(double seconds);
   /// How the last frame became colours, or would.
   const image::Display& display() const { return display_; }
-  /// Of all frames so far.
+  /// Statistics of all frames so far.
   Json statistics() const;
 
  private:

@@ -136,7 +136,7 @@ void set_shutter(const RenderOptions& options, Plan& plan, scenario::Scenario& s
   for (scene::CameraKey& key : scenario.timeline.camera) key.camera.shutter = seconds;
 }
 
-/// Those of the path tracer.
+/// Frames of the path tracer.
 class TracedFrames final : public FrameSource {
  public:
   TracedFrames(const RenderOptions& options, const Plan& plan, Loaded& loaded)
@@ -157,7 +157,7 @@ class TracedFrames final : public FrameSource {
   Json statistics() const override { return frames_.statistics(); }
 
  private:
-  // Of what a checkpoint depends on; it knows its limits itself.
+  // The key of what a checkpoint depends on; it knows its limits itself.
   static std::uint64_t key_of(const RenderOptions& options, const Loaded& loaded) {
     RenderOptions without_limits = options;
     without_limits.reference = {};
@@ -190,7 +190,7 @@ void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario
                 " shows neither the aperture nor the shutter of the camera; all is sharp");
 }
 
-/// Those of a device.
+/// Frames of a device.
 class DeviceFrames final : public FrameSource {
  public:
   DeviceFrames(gpu::Context& context, const RenderOptions& options, const Plan& plan, Loaded& loaded)

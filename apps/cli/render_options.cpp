@@ -58,6 +58,7 @@ image::Background parse_background(const RenderOptions& options, const Plan& pla
 // Refuses options that would do nothing.
 void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
   refuse_other_mode(arguments, options, plan);
+  // Options that the kind of output cannot follow.
   if (plan.flipbook) {
     for (const char* option : {"--time", "--temporal", "--light-update-fraction", "--view", "--checkpoint"})
       arguments.refuse(option, "is not for --flipbook");
@@ -76,6 +77,7 @@ void refuse_idle(const Arguments& arguments, const RenderOptions& options, const
   if (plan.kind != TargetKind::sequence)
     for (const char* option : {"--resume", "--shard"})
       arguments.refuse(option, "requires numbered frames, such as -o f_%04d.png");
+  // Options that another option makes idle.
   if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
   if (plan.has_layers) arguments.refuse("--view", "is for .png and .mp4; an .exr file has layers of its own");
   if (plan.layers && !plan.has_layers)
@@ -92,6 +94,7 @@ std::string list_views() {
 }
 
 void declare_quality(const Arguments& arguments, RenderOptions& options) {
+  // What is in the picture.
   arguments
       .add_option(
           "--background", options.background,
@@ -99,6 +102,7 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
           "default: layer for .exr, else in")
       .one_of({"none", "layer", "in"})
       .type_name("FORM");
+  // How smoke and volumes are drawn.
   arguments
       .add_option("--march", options.march,
                   "Smoke resolution: one ray per pixel, per 2x2 or per 4x4; default full")
@@ -112,6 +116,7 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
   arguments.add_flag(
       "--temporal", options.temporal,
       "Smooth the smoke and the edges of a film over its frames; a range draws the 32 before it, too");
+  // How accurate they are.
   arguments
       .add_option("--step", options.step,
                   "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")
@@ -231,6 +236,7 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
 }
 
 void declare_render(const Arguments& arguments, RenderOptions& options) {
+  // Inputs and outputs.
   arguments.add_option("INPUT", options.input, "Timeline (.toml) or scene (.txt, .gltf, .glb, .obj)")
       .required()
       .type_name("");
@@ -241,6 +247,7 @@ void declare_render(const Arguments& arguments, RenderOptions& options) {
       .type_name("FILE");
   arguments.add_option("--timeline", options.timeline, "Timeline to play in the scene INPUT")
       .type_name("FILE");
+  // Which times are drawn.
   arguments.add_option("--time", options.time, "Time of the image [s]; default: the end of the timeline")
       .range(0.0, 3600.0)
       .type_name("S");
@@ -253,6 +260,7 @@ void declare_render(const Arguments& arguments, RenderOptions& options) {
   arguments.add_option("--fps", options.fps, "Frames per second, such as 23.976 or 24000/1001; default 24")
       .take_last()
       .type_name("F");
+  // How they are drawn.
   arguments.add_option("--size", options.size, "Image size [px]; default 1280x720")
       .take_last()
       .type_name("WxH");

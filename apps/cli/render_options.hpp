@@ -44,7 +44,7 @@ struct Plan {
   std::optional<passes::ViewSlice> slice;
   FrameRate rate;
   bool has_layers = false;  ///< Whether frames are written as numbers.
-  /// Of frames that are drawn as numbers, to be written or for their alpha; empty: none is.
+  /// Form of frames that are drawn as numbers, to be written or for their alpha; empty: none is.
   std::optional<LayerForm> layers;
   std::optional<FlipbookPlan> flipbook;  ///< Instead of a picture: of all frames.
 };

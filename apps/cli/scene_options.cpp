@@ -102,6 +102,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
 }
 
 void declare_transfer(const Arguments& arguments, SceneOptions& options) {
+  // How values become colours and opacity.
   std::string names;
   for (const std::string_view name : scene::color_map_names())
     names += (names.empty() ? "" : ", ") + std::string(name);
@@ -115,6 +116,7 @@ void declare_transfer(const Arguments& arguments, SceneOptions& options) {
       .add_option("--range", options.range,
                   "Values that --color-map and --opacity span; default: all of the volume")
       .type_name("LOW,HIGH");
+  // Which grids are drawn.
   arguments
       .add_option(
           "--density", options.density,
@@ -125,6 +127,7 @@ void declare_transfer(const Arguments& arguments, SceneOptions& options) {
           "--heat", options.heat,
           "Grid of a volume that glows, or none; default: the first of the usual names, where it burns")
       .type_name("GRID");
+  // How they glow and play.
   arguments
       .add_option("--kelvin", options.kelvin,
                   "Temperature where that grid is 1; default: 1000, or 1 if its values are kelvin")
@@ -186,12 +189,14 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
 }
 
 void declare_level_options(const Arguments& arguments, SceneOptions& options) {
+  // Smoke and the grid that it fills.
   arguments
       .add_option("--smoke-size", options.smoke_size,
                   "Diameter of the smoke [m]; default: a fifth of the view")
       .range(0.05, 1000.0)
       .type_name("M");
   declare_size_options(arguments, options);
+  // Surroundings and light.
   arguments.add_option("--sun", options.sun, "Azimuth from +z towards +x and elevation of the sun [degrees]")
       .type_name("AZ,EL");
   arguments
@@ -201,6 +206,7 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
                   "a timeline its own")
       .one_of({"auto", "none"})
       .type_name("FORM");
+  // How pictures are exposed.
   arguments
       .add_option("--tone", options.tone,
                   "Tone curve: neutral compresses highlights, standard clips them as Blender does; default: "
@@ -255,6 +261,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.smoke_size = as_float(options.smoke_size);
   parsed.exposure = as_float(options.exposure);
   parsed.bounces = options.bounces;
+  // Texts that name a choice.
   if (!options.tone.empty())
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   parsed.has_ground = options.ground != "none";
@@ -265,6 +272,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.heat = options.heat;
   parsed.kelvin = as_float(options.kelvin);
   parsed.volume_frame_rate = as_float(options.volume_fps);
+  // Checks that concern several options.
   parsed.color_map.name = options.color_map;
   if (const auto fault = scene::fault_of(parsed.color_map))
     throw Error(ErrorCode::usage, "--color-map: " + fault->what);
@@ -272,6 +280,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
     throw Error(ErrorCode::usage,
                 "--smoke none: cannot be combined with another --smoke; remove one of them");
   parsed.has_smoke = options.smokes != std::vector<std::string>{"none"};
+  // Smoke that is there at once, and smoke that is thrown.
   for (const std::string& text : options.smokes) {
     if (!parsed.has_smoke) break;
     const glm::vec3 place = parse_event_point("--smoke", text);

@@ -202,7 +202,7 @@ class VolumeFiles {
   const scenario::Scenario& scenario_;
   std::optional<double> detail_;
   std::optional<scenario::FollowedSmoke> smoke_;
-  std::unique_ptr<scenario::Simulation> simulation_;  // of drawn smoke, with the surfaces of doors
+  std::unique_ptr<scenario::Simulation> simulation_;  // makes drawn smoke, with the surfaces of doors
   std::uint32_t frame_, written_ = 0;
   scenario::SmokeGridOptions grid_options_;
   Outputs& outputs_;
@@ -234,6 +234,7 @@ struct Simulated {
 void report(const SimOptions& options, const Run& run, std::uint32_t rate,
             const std::optional<Simulated>& simulated) {
   const bool compared = !simulated;
+  // As JSON.
   if (!options.json.empty()) {
     Json result{{"ticks", run.hashes.size()},
                 {"ticks_per_second", rate},
@@ -250,6 +251,7 @@ void report(const SimOptions& options, const Run& run, std::uint32_t rate,
     write_json(options.json, result);
   }
   if (options.json == "-") return;
+  // As text: every tick, or the last one.
   const std::size_t last = run.hashes.size() - 1;
   for (std::size_t tick = options.hash ? 0 : last; tick <= last; ++tick)
     print(options.hash ? std::to_string(tick) + " " + hex(run.hashes[tick]) + "\n"
@@ -260,6 +262,7 @@ void report(const SimOptions& options, const Run& run, std::uint32_t rate,
 
 void simulate(const SimOptions& options, Outputs& outputs) {
   Run run;
+  // Load the timeline, and declare all files before any work.
   const scenario::Scenario scenario =
       load_with_options(options.timeline, "", parse_scene_options(options.scene));
   outputs.reads(scenario::files_of(scenario));
@@ -268,6 +271,7 @@ void simulate(const SimOptions& options, Outputs& outputs) {
   VolumeFiles volumes(options, scenario, schedule, outputs);
   const std::vector<sim::Event> events = scenario::events_of(scenario, schedule.rate).value_or_throw();
 
+  // Simulate. A recording holds the level, the events and a checksum of each tick.
   const sim::WorldSettings settings{schedule.rate, scenario.masks.key()};
   wire::Replay replay = wire::replay_of(scenario.voxels.solids(), settings, events);
   sim::World world(scenario.voxels.solids(), settings);
@@ -315,6 +319,7 @@ Command add_sim(CommandLine& program) {
               "  brume sim scenes/demo.toml --volumes end.vdb --detail 0.05");
   auto options = std::make_shared<SimOptions>();
   const Arguments arguments = command.arguments;
+  // What is simulated.
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").type_name("");
   arguments.add_option("--ticks", options->ticks, "Number of ticks to simulate; default: the duration")
       .range(1u, kMaxTicks)
@@ -323,6 +328,7 @@ Command add_sim(CommandLine& program) {
       .range(1u, 1000u)
       .type_name("N");
   declare_size_options(arguments, options->scene);
+  // What is reported and recorded.
   arguments.add_flag("--hash", options->hash, "Print the number and state hash of every tick");
   arguments.add_option("--record", options->record, "Record the level, the events and a checksum per tick")
       .type_name("FILE");
@@ -330,6 +336,7 @@ Command add_sim(CommandLine& program) {
       .add_option("--replay", options->replay,
                   "Simulate a recording and compare; exit code 7 if a tick differs")
       .type_name("FILE");
+  // What is written as volumes.
   arguments
       .add_option("--volumes", options->volumes,
                   "Write the smoke as .vdb, .nvdb or .brv: of each frame with %04d, else of the last tick")

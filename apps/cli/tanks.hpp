@@ -18,7 +18,7 @@ struct TankFacts {
   double fill = 0;                                       ///< Fraction of the tank that is inside of spheres.
   std::size_t opaque = 0;                                ///< Spheres of opacity 255.
   std::uint32_t least_opacity = 0, largest_opacity = 0;  ///< Bytes.
-  Box<double> bounds;                                    ///< Of all spheres [voxels].
+  Box<double> bounds;                                    ///< Box around all spheres [voxels].
 };
 TankFacts facts_of(const spheres::Tank& tank);
 

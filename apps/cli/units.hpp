@@ -42,7 +42,7 @@ struct UnitJob {
   std::string input;          ///< As core/numbered_files.hpp says if the output has a number; empty: none.
   std::string output_option;  ///< "-o", or "OUTPUT" for an argument.
   std::string output;
-  FileKind kind = FileKind::json;        ///< Of the output.
+  FileKind kind = FileKind::json;        ///< Kind of the output.
   std::vector<std::string> device = {};  ///< Names of what computes it.
   std::vector<FileBeside> beside = {};
   bool holds_missing = false;  ///< A missing input is replaced by the one before it, or by the first.

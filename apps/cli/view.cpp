@@ -18,6 +18,7 @@ namespace brume::cli {
 
 viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer::ViewerOptions viewer;
+  // The window and the device.
   viewer.size_px = parse_size("--size", options.size);
   viewer.device = options.device;
   viewer.validation = options.validation;
@@ -27,6 +28,7 @@ viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   const auto levels = viewer::quality_levels();
   for (std::size_t i = 0; i < levels.size(); ++i)
     if (options.quality == levels[i].name) viewer.level = i;
+  // What it shows at first.
   viewer.view = passes::find_debug_view(options.view).value_or(passes::DebugView::none);
   viewer.panels = options.panels;
   viewer.overlay = !options.bare;
@@ -35,6 +37,7 @@ viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer.folder = options.folder;
   viewer.shaders =
       options.shaders.empty() ? find_data_file("shaders").value_or("").string() : options.shaders;
+  // What it does by itself, for tests and films.
   viewer.begin_at = options.time;
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
@@ -144,6 +147,7 @@ void view(const Arguments& arguments, const ViewOptions& options, Outputs& outpu
 
 /// What the window starts with, and what it leaves behind.
 void declare_outputs(const Arguments& arguments, ViewOptions& options) {
+  // Files that the window writes.
   arguments
       .add_option("--folder", options.folder,
                   "Folder for screenshots and recordings; default: current folder")
@@ -156,8 +160,10 @@ void declare_outputs(const Arguments& arguments, ViewOptions& options) {
       .type_name("S");
   arguments.add_option("--screenshot", options.screenshot, "Save an image at the time of --exit-after")
       .type_name("FILE");
+  // How it starts.
   arguments.add_flag("--panels", options.panels, "Start with the panels open");
   arguments.add_flag("--bare", options.bare, "Start without any overlay");
+  // For developers.
   arguments.add_flag("--no-vsync", options.no_vertical_sync, "Do not wait for vertical sync");
   arguments.add_option("--shaders", options.shaders, "Folder of shader sources to watch for changes")
       .type_name("FOLDER");

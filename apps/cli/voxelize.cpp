@@ -69,12 +69,14 @@ std::string why_empty(const scene::Scene& scene) {
 void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   check_options(options);
   const Stopwatch watch;
+  // Declare all files before any work.
   expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
   outputs.reads(std::filesystem::path(options.scene));
   outputs.writes("-o", options.output, FileKind::vxl);
   outputs.writes("--obj", options.obj, FileKind::obj);
   outputs.writes("--json", options.json, FileKind::json);
 
+  // Load the scene, and voxelize it unless the file is up to date.
   scene::Scene scene = scene::load_scene(options.scene, false, scene::ImageUse::roles).value_or_throw();
   if (options.scale) {
     scenario::scale_scene(scene, static_cast<float>(*options.scale));
@@ -89,6 +91,7 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   stop_if_interrupted();
   if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
 
+  // Report.
   const std::uint64_t solid = voxels.grid.count_solid();
   if (solid == 0) log_warning(why_empty(scene));
   const double seconds = watch.seconds();
@@ -135,6 +138,7 @@ Command add_voxelize(CommandLine& program) {
   arguments
       .add_option("-o,--output", options->output, "Voxel file; loaded instead if the scene has not changed")
       .type_name("FILE");
+  // Where the grid lies.
   arguments.add_option("--grid", options->grid, "Grid size in voxels; default: encloses the scene")
       .type_name("XxYxZ");
   arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25")

@@ -62,7 +62,7 @@ class Arguments {
   /// Throws Error (usage), "--fps " + why, if it gives this option although it would do nothing; with a colon
   /// unless `why` is a predicate.
   void refuse(const std::string& option, const std::string& why) const;
-  std::string name() const;  ///< Of the command.
+  std::string name() const;  ///< Name of the command.
 
  private:
   CLI::App* app_ = nullptr;

@@ -28,8 +28,8 @@ namespace brume::cli {
 struct Console::State {
   std::atomic<bool> quiet{false};
   std::atomic<ProgressForm> progress{ProgressForm::line};
-  std::mutex line_mutex;        // of standard error
-  std::size_t line_length = 0;  // of the progress line that the cursor is on; 0: none
+  std::mutex line_mutex;        // guards standard error
+  std::size_t line_length = 0;  // length of the progress line that the cursor is on; 0: none
   std::atomic<bool> ending{false};
   std::string command, json_target;  // set before the command runs
   std::atomic<bool> json_written{false};
@@ -46,7 +46,7 @@ constexpr std::size_t kDefaultWidth = 80;
 constexpr double kLongJobSeconds = 1;
 constexpr std::chrono::milliseconds kJsonInterval(500);
 
-std::atomic<int> g_signal{0};  // of the run; handlers reach nothing else
+std::atomic<int> g_signal{0};  // what the run received; handlers reach nothing else
 Console::State* g_console = nullptr;
 
 extern "C" void on_signal(int signal) {
@@ -131,7 +131,7 @@ Console::Console() : state_(std::make_unique<State>()) {
   BRUME_ASSERT(!g_console, "two runs at a time");
   g_console = state_.get();
   g_signal = 0;
-  std::clearerr(stdout);  // of the faults of another run
+  std::clearerr(stdout);  // another run may have left its faults
 }
 
 Console::~Console() {

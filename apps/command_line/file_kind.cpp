@@ -55,6 +55,7 @@ bool is_timeline(std::string_view start, const std::filesystem::path& file) {
 }  // namespace
 
 const char* name_of(FileKind kind) {
+  // Without a default, so that the compiler names a kind that is missing.
   switch (kind) {
     case FileKind::png:
       return ".png file";

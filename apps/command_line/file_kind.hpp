@@ -26,7 +26,7 @@ enum class FileKind {
   godot_import,
   slice_atlas,  ///< The description of one.
   flipbook,     ///< Likewise.
-  checkpoint,   ///< Of a reference rendering.
+  checkpoint,   ///< A stopped reference rendering.
   unit_key      ///< What a unit of many was made from.
 };
 

@@ -118,7 +118,7 @@ class Outputs {
 
   std::string written_unlocked() const;
 
-  mutable std::mutex mutex_;  ///< Of all below: explain_interruption runs in another thread.
+  mutable std::mutex mutex_;  ///< Guards all below: explain_interruption runs in another thread.
   std::map<FileIdentity, std::filesystem::path> inputs_;
   std::map<FileIdentity, std::string> options_;  ///< Option of each output.
   std::set<FileIdentity> named_twice_;

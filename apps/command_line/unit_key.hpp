@@ -30,8 +30,8 @@ std::string hash_of_files(const std::vector<std::filesystem::path>& files);
 std::string hash_of_texts(const std::vector<std::string>& texts);
 /// A number as a text that no other number has.
 std::string exact_text(double number);
-/// Of the program with all that is embedded in it, such as its shaders, and of its helper brume-vdb. Throws
-/// as hash_of_files.
+/// The hash of the program with all that is embedded in it, such as its shaders, and of its helper brume-vdb.
+/// Throws as hash_of_files.
 std::string program_hash();
 
 /// Prints which units are made again, and why, to standard error: a line for all neighbours of one reason.

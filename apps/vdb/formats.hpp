@@ -15,7 +15,7 @@ namespace brume::vdb {
 /// What is read of a file, grid after grid, so that only one is in memory.
 struct Reader {
   std::function<void(const grids::Grid&)> add;
-  std::function<void(const std::string&)> warn;  ///< Of grids that are skipped.
+  std::function<void(const std::string&)> warn;  ///< Names the grids that are skipped.
 };
 
 /// Throws Error (resource_limit) unless a grid fits into the limits, before its voxels are copied. `used` are

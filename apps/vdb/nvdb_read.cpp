@@ -303,6 +303,7 @@ void read_blind_data(View bytes, const nanovdb::GridData& head, Grid& grid,
                      std::vector<grids::Metadata>& of_file) {
   const auto offset = static_cast<std::uint64_t>(head.mBlindMetadataOffset);
   if (head.mBlindMetadataCount == 0) return;
+  // The list must lie in the grid: files are untrusted.
   if (offset % NANOVDB_DATA_ALIGNMENT != 0 || offset > bytes.size() ||
       head.mBlindMetadataCount > (bytes.size() - offset) / sizeof(nanovdb::GridBlindMetaData))
     throw damaged("its blind data lies outside of the grid");
@@ -313,6 +314,7 @@ void read_blind_data(View bytes, const nanovdb::GridData& head, Grid& grid,
       const auto* text = reinterpret_cast<const char*>(data.data());
       grid.name.assign(text, ::strnlen(text, data.size()));
     }
+    // What brume-vdb itself wrote beside the grid.
     if (std::strncmp(list[i].mName, kExtraName, sizeof list[i].mName) != 0) continue;
     grids::ByteReader in(data);
     const auto grid_class = in.number<std::uint8_t>(), half = in.number<std::uint8_t>();

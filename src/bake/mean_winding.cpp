@@ -175,7 +175,7 @@ class Slabs {
 
   std::size_t rows_;                    // Per slab.
   std::vector<std::size_t> firsts_;     // Per slab, into members_; then its size.
-  std::vector<VoxelCorners> corners_;   // Of all triangles that matter.
+  std::vector<VoxelCorners> corners_;   // Corners of all triangles that matter.
   std::vector<std::uint32_t> members_;  // Into corners_.
 };
 

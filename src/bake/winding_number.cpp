@@ -107,8 +107,8 @@ WindingTree::Node WindingTree::expanded(std::span<const Corners> triangles) {
     node.squares[i] = trace - 3 * second[i][i];
     node.products[i] = -3 * (second[j][k] + second[k][j]);
     const double along = third[i][0] + third[i][1] + third[i][2];
-    for (int of = 0; of < 3; ++of)
-      node.cubes[i][of] = 7.5 * third[i][of] * (of == i ? 1.0 / 3 : 1.0) - 1.5 * along;
+    for (int axis = 0; axis < 3; ++axis)
+      node.cubes[i][axis] = 7.5 * third[i][axis] * (axis == i ? 1.0 / 3 : 1.0) - 1.5 * along;
   }
   return node;
 }
@@ -120,6 +120,7 @@ double WindingTree::winding_number(const dvec3& point) const {
     const dvec3 r = node.centre - point;
     const double squared = glm::dot(r, r);
     if (squared > node.far_squared) {
+      // Far away, the expansion stands for the whole subtree.
       const dvec3 r2 = r * r;
       const double inverse = 1 / squared;
       const double quadrupole =
@@ -129,12 +130,14 @@ double WindingTree::winding_number(const dvec3& point) const {
              (glm::dot(node.dipole, r) + inverse * (quadrupole + inverse * octupole));
       i = node.next;
     } else if (node.count > 0) {
+      // Near triangles count one by one.
       for (std::size_t k = node.first; k < node.first + node.count; ++k) {
         const Corners& t = triangles_[k];
         sum += solid_angle(t.a - point, t.b - point, t.c - point);
       }
       i = node.next;
     } else {
+      // Near groups are opened: their children follow.
       ++i;
     }
   }

@@ -33,12 +33,12 @@ class WindingTree {
   struct Node {
     glm::dvec3 centre{0};
     double far_squared = 0;              // Beyond this distance, squared, the expansion holds.
-    glm::dvec3 dipole{0};                // Of x, y, z.
-    glm::dvec3 squares{0}, products{0};  // The quadrupole, of xx, yy, zz and of yz, zx, xy.
-    glm::dmat3 cubes{0};                 // The octupole: [j][i] of (r_i)^2 r_j,
-    double xyz = 0;                      // and of xyz.
+    glm::dvec3 dipole{0};                // Factors of x, y, z.
+    glm::dvec3 squares{0}, products{0};  // The quadrupole: factors of xx, yy, zz and of yz, zx, xy.
+    glm::dmat3 cubes{0};                 // The octupole: the factor [j][i] of (r_i)^2 r_j,
+    double xyz = 0;                      // and the factor of xyz.
     std::uint32_t next = 0;              // The node after its subtree.
-    std::uint32_t first = 0, count = 0;  // Its triangles, of a leaf; else none.
+    std::uint32_t first = 0, count = 0;  // The triangles of a leaf; none in other nodes.
   };
   struct Corners {
     glm::dvec3 a, b, c;

@@ -20,11 +20,11 @@ inline Float4 splat(float x) {
 inline Float4 to_float(Int4 v) {
   return __builtin_convertvector(v, Float4);
 }
-/// Of values below 2^31.
+/// Converts values below 2^31.
 inline Float4 to_float(Uint4 v) {
   return __builtin_convertvector(reinterpret_cast<Int4>(v), Float4);
 }
-/// Towards zero; of values within the range of Int4.
+/// Rounds values within the range of Int4 towards zero.
 inline Int4 to_int(Float4 v) {
   return __builtin_convertvector(v, Int4);
 }

@@ -16,7 +16,7 @@ double pow(double x, double y);
 struct SineCosine {
   double sine, cosine;
 };
-/// Of an angle in turns, |turns| below 2^31.
+/// Sine and cosine of an angle in turns, |turns| below 2^31.
 SineCosine sine_cosine_of_turns(double turns);
 
 }  // namespace brume::portable

@@ -20,7 +20,8 @@ Jobs& jobs() {
   return *instance;
 }
 
-/// Of the details of all jobs. Not that of the list, which progress_to_show holds while it reads states.
+/// Guards the details of all jobs. The list of jobs has a mutex of its own, which progress_to_show holds
+/// while it reads states.
 std::mutex& detail_mutex() {
   static std::mutex* const instance = new std::mutex;
   return *instance;

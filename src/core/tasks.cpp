@@ -12,7 +12,7 @@ namespace brume {
 namespace {
 
 std::atomic<unsigned> g_thread_count{0};
-thread_local unsigned t_thread_count = 0;  // of ThreadCountScope
+thread_local unsigned t_thread_count = 0;  // set by ThreadCountScope
 
 }  // namespace
 

@@ -125,7 +125,7 @@ float uniform_number(const Level& level, glm::ivec3 brick) {
   }
   for (int z = -1; z <= 8; ++z)
     for (int y = -1; y <= 8; ++y)
-      // Of rows inside of the brick, only the ends.
+      // Rows inside of the brick count with their ends only.
       for (int x = -1; x <= 8; x += y >= 0 && y < 8 && z >= 0 && z < 8 ? 9 : 1) {
         const glm::ivec3 p(x, y, z), side = (p >> 3) + 1, q = p & 7;
         const std::uint32_t from = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
@@ -139,7 +139,7 @@ struct Levels {
   Level density, also;
   bool may_be_uniform = true, by_power = false;
   std::vector<glm::ivec3> bricks;  ///< The sampled ones of both, rising.
-  std::vector<float> uniform;      ///< Of each of them its uniform_number.
+  std::vector<float> uniform;      ///< The uniform_number of each of them.
   int halvings = 0;
   double square_error = 0;
 
@@ -402,14 +402,17 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   const std::uint64_t odd = numbers.odd();
   const float outside = shift ? numbers.background(grid) : 0;
   GridNumbers also(options.also ? *options.also : nothing);
+  // Count bricks from near the values, so that floats hold their places.
   const glm::ivec3 origin = near_origin(numbers);
   numbers.move(-origin);
   also.move(-origin);
+  // Halve the resolution until the bricks fit, and store them.
   Levels levels{
       Level(std::move(numbers)), Level(std::move(also)), options.may_be_uniform, options.glows, {}, {}};
   levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
   BrickVolume out = volume_of(levels, 0, outside,
                               shift ? bounds_of(grid, kBrickEdge * origin, levels.halvings) : kEmptyBox);
+  // Give the statistics back in the file's values and in its world.
   if (shift) {
     out.offset = shift->offset;
     out.low += shift->offset;

@@ -50,8 +50,8 @@ inline constexpr std::size_t kHistogramBins = 256;
 /// from 0; those of one value throughout, apron included, without texels.
 struct BrickVolume {
   std::unique_ptr<volume::SparseVolume> volume;  ///< Voxel space: voxel i covers [i, i + 1).
-  /// Of each slot: the least and the largest value that filtering can give anywhere in its brick, faces
-  /// included, in stored halves. The largest bounds the extinction in it: a majorant.
+  /// The least and the largest value that filtering can give anywhere in the brick of a slot, faces included,
+  /// in stored halves. The largest bounds the extinction in it: a majorant.
   std::vector<ValueRange> ranges;
   glm::dmat4 world_from_voxel{1};  ///< To the file's world.
   float unit = 1;                  ///< Value that the bricks store as 1: a power of two.
@@ -61,14 +61,14 @@ struct BrickVolume {
   /// Percentiles of the values above 0, in halves: the 90th, and the 99.9th, for which single hot
   /// voxels do not count.
   float usual = 0, densest = 0;
-  double sum = 0;  ///< Of all values.
+  double sum = 0;  ///< Sum of all values.
   /// How many values above 0 are in each of kHistogramBins parts of equal length from low to high; empty
   /// without any.
   std::vector<std::uint64_t> histogram;
-  glm::dvec3 mean{0};     ///< Of the values' places, weighted by value [voxel space].
+  glm::dvec3 mean{0};     ///< Mean place of the values, weighted by value [voxel space].
   int level = 0;          ///< Halvings of the resolution: 0 is the file's own.
   std::uint64_t odd = 0;  ///< Voxels and tiles that are NaN, infinite, or far beyond nearly all others.
-  double rms_error = 0;   ///< Of the halvings, over active voxels; 0 at level 0.
+  double rms_error = 0;   ///< Error of the halvings, over active voxels; 0 at level 0.
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,

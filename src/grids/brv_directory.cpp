@@ -57,8 +57,8 @@ Value read_value(ByteReader& in, ValueType type) {
   return value;
 }
 
-void write_grid(ByteWriter& out, const BrvGrid& of) {
-  const Grid& grid = of.grid;
+void write_grid(ByteWriter& out, const BrvGrid& entry) {
+  const Grid& grid = entry.grid;
   out.text(grid.name);
   out.number(static_cast<std::uint8_t>(grid.type));
   out.number(static_cast<std::uint8_t>(grid.grid_class));
@@ -68,11 +68,11 @@ void write_grid(ByteWriter& out, const BrvGrid& of) {
   write_value(out, grid.type, grid.background);
   write_metadata(out, grid.metadata);
   out.number(std::uint64_t{grid.bricks.size()});
-  out.number(of.bricks_per_chunk);
+  out.number(entry.bricks_per_chunk);
   out.number(std::uint64_t{grid.tiles.size()});
   write_origins(out, grid.bricks);
-  for (const BrvChunk& chunk : of.chunks) out.number(chunk.stored_bytes);
-  for (const BrvChunk& chunk : of.chunks) out.number(chunk.checksum);
+  for (const BrvChunk& chunk : entry.chunks) out.number(chunk.stored_bytes);
+  for (const BrvChunk& chunk : entry.chunks) out.number(chunk.checksum);
   write_origins(out, grid.tiles);
   for (const Tile& tile : grid.tiles)
     out.number(static_cast<std::uint8_t>(std::countr_zero(tile.edge) | (tile.active ? kActive : 0)));
@@ -102,16 +102,17 @@ struct Counts {
 };
 
 // What the grid takes, unless it is more than its file holds or the limits allow.
-Result<Counts> read_counts(ByteReader& in, BrvGrid& of, std::uint64_t& memory, const GridLimits& limits) {
+Result<Counts> read_counts(ByteReader& in, BrvGrid& entry, std::uint64_t& memory, const GridLimits& limits) {
   Counts counts;
   counts.bricks = in.number<std::uint64_t>();
-  of.bricks_per_chunk = in.number<std::uint32_t>();
+  entry.bricks_per_chunk = in.number<std::uint32_t>();
   counts.tiles = in.number<std::uint64_t>();
   if (!in.ok()) return damaged_brv("it is truncated");
-  if (of.bricks_per_chunk < 1 || of.bricks_per_chunk > kMaxBricksPerChunk)
-    return damaged_brv(std::to_string(of.bricks_per_chunk) + " bricks per chunk");
-  counts.chunks = counts.bricks / of.bricks_per_chunk + (counts.bricks % of.bricks_per_chunk != 0 ? 1 : 0);
-  const std::size_t value = bytes_of(of.grid.type);
+  if (entry.bricks_per_chunk < 1 || entry.bricks_per_chunk > kMaxBricksPerChunk)
+    return damaged_brv(std::to_string(entry.bricks_per_chunk) + " bricks per chunk");
+  counts.chunks =
+      counts.bricks / entry.bricks_per_chunk + (counts.bricks % entry.bricks_per_chunk != 0 ? 1 : 0);
+  const std::size_t value = bytes_of(entry.grid.type);
   const auto bricks = checked_mul(counts.bricks, kOriginBytes),
              chunks = checked_mul(counts.chunks, kChunkBytes),
              tiles = checked_mul(counts.tiles, kTileBytes + value);
@@ -124,23 +125,23 @@ Result<Counts> read_counts(ByteReader& in, BrvGrid& of, std::uint64_t& memory, c
   return counts;
 }
 
-Result<void> read_grid(ByteReader& in, BrvGrid& of, std::uint64_t& memory, std::uint64_t& next_chunk,
+Result<void> read_grid(ByteReader& in, BrvGrid& entry, std::uint64_t& memory, std::uint64_t& next_chunk,
                        const GridLimits& limits) {
-  Grid& grid = of.grid;
+  Grid& grid = entry.grid;
   if (auto head = read_head(in, grid); !head) return head;
-  const auto counts = read_counts(in, of, memory, limits);
+  const auto counts = read_counts(in, entry, memory, limits);
   if (!counts) return counts.failure();
 
   // Bricks and where their chunks are.
   grid.bricks.resize(static_cast<std::size_t>(counts->bricks));
   if (!read_origins(in, grid.bricks)) return damaged_brv("a brick lies outside of index space");
-  of.chunks.resize(static_cast<std::size_t>(counts->chunks));
-  for (BrvChunk& chunk : of.chunks) {
+  entry.chunks.resize(static_cast<std::size_t>(counts->chunks));
+  for (BrvChunk& chunk : entry.chunks) {
     chunk.offset = next_chunk;
     chunk.stored_bytes = in.number<std::uint32_t>();
     next_chunk += chunk.stored_bytes;
   }
-  for (BrvChunk& chunk : of.chunks) chunk.checksum = in.number<std::uint64_t>();
+  for (BrvChunk& chunk : entry.chunks) chunk.checksum = in.number<std::uint64_t>();
 
   // Tiles.
   grid.tiles.resize(static_cast<std::size_t>(counts->tiles));

@@ -37,7 +37,7 @@ struct BrvGrid {
 
 struct BrvDirectory {
   std::vector<BrvGrid> grids;
-  std::vector<Metadata> metadata;  ///< Of the file.
+  std::vector<Metadata> metadata;  ///< What belongs to the file, not to a grid.
 };
 
 /// Bytes of a brick before compression: its mask and its values.

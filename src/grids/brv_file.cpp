@@ -56,7 +56,7 @@ bool unpack(View stored, std::span<std::byte> raw) {
   return ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size()) == raw.size();
 }
 
-// Of the numbers that a value consists of.
+// Bytes of each of the numbers that a value consists of.
 std::size_t number_bytes(ValueType type) {
   switch (type) {
     case ValueType::float64:
@@ -133,15 +133,15 @@ Result<Trailer> read_trailer(View file) {
   return trailer;
 }
 
-void decode_chunks(View file, BrvGrid& of, std::span<Brick> bricks, std::span<std::byte> values,
+void decode_chunks(View file, BrvGrid& entry, std::span<Brick> bricks, std::span<std::byte> values,
                    const GridLimits& limits, std::optional<Failure>& failure) {
   std::mutex mutex;
-  const std::size_t brick = kBrickVoxels * bytes_of(of.grid.type);
-  Progress job("read", of.chunks.size());
-  parallel_for(of.chunks.size(), 8, [&](std::size_t begin, std::size_t end) {
+  const std::size_t brick = kBrickVoxels * bytes_of(entry.grid.type);
+  Progress job("read", entry.chunks.size());
+  parallel_for(entry.chunks.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !limits.is_stopped(); ++i) {
-      const std::size_t first = of.first_brick(i), count = of.brick_count(i);
-      const auto read = read_brv_chunk(file, of, i, bricks.subspan(first, count),
+      const std::size_t first = entry.first_brick(i), count = entry.brick_count(i);
+      const auto read = read_brv_chunk(file, entry, i, bricks.subspan(first, count),
                                        values.subspan(first * brick, count * brick));
       job.advance();
       if (read) continue;
@@ -167,8 +167,8 @@ Result<void> BrvWriter::add(const Grid& grid) {
                std::to_string(options_.bricks_per_chunk));
   if (auto valid = check_grid(grid); !valid) return valid;
   if (auto begun = begin(); !begun) return begun;
-  BrvGrid& of = directory_.grids.emplace_back();
-  of.bricks_per_chunk = options_.bricks_per_chunk;
+  BrvGrid& entry = directory_.grids.emplace_back();
+  entry.bricks_per_chunk = options_.bricks_per_chunk;
 
   // Compress some chunks at a time over all threads, and write them in order.
   const std::size_t per_chunk = options_.bricks_per_chunk;
@@ -185,14 +185,14 @@ Result<void> BrvWriter::add(const Grid& grid) {
       }
     });
     for (std::size_t i = 0; i < count; ++i) {
-      of.chunks.push_back({written_, static_cast<std::uint32_t>(packed[i].size()), hash_bytes(packed[i])});
+      entry.chunks.push_back({written_, static_cast<std::uint32_t>(packed[i].size()), hash_bytes(packed[i])});
       if (auto done = write(packed[i]); !done) return done;
       job.advance();
     }
   }
 
   // The directory holds the rest.
-  Grid& head = of.grid;
+  Grid& head = entry.grid;
   head.name = grid.name;
   head.type = grid.type;
   head.grid_class = grid.grid_class;
@@ -258,12 +258,12 @@ Result<BrvDirectory> open_brv(View file, const GridLimits& limits) {
   return decode_brv_directory(raw, kHeaderBytes, trailer->offset, limits);
 }
 
-Result<void> read_brv_chunk(View file, const BrvGrid& of, std::size_t number, std::span<Brick> bricks,
+Result<void> read_brv_chunk(View file, const BrvGrid& entry, std::size_t number, std::span<Brick> bricks,
                             std::span<std::byte> values) {
-  const std::size_t count = of.brick_count(number), masks = count * sizeof(Brick::active);
-  BRUME_ASSERT(bricks.size() == count && masks + values.size() == count * raw_brick_bytes(of.grid.type),
+  const std::size_t count = entry.brick_count(number), masks = count * sizeof(Brick::active);
+  BRUME_ASSERT(bricks.size() == count && masks + values.size() == count * raw_brick_bytes(entry.grid.type),
                std::to_string(number));
-  const BrvChunk& chunk = of.chunks[number];
+  const BrvChunk& chunk = entry.chunks[number];
   const View stored = file.subspan(static_cast<std::size_t>(chunk.offset), chunk.stored_bytes);
   if (hash_bytes(stored) != chunk.checksum) return damaged_brv("the checksum of a chunk is wrong");
   Bytes raw(masks + values.size());
@@ -271,8 +271,8 @@ Result<void> read_brv_chunk(View file, const BrvGrid& of, std::size_t number, st
     return damaged_brv("a chunk does not unpack");
   for (std::size_t i = 0; i < count; ++i)
     std::memcpy(bricks[i].active.data(), &raw[i * sizeof(Brick::active)], sizeof(Brick::active));
-  join_bytes(View(raw).subspan(masks), number_bytes(of.grid.type), values);
-  if (of.grid.type == ValueType::boolean &&
+  join_bytes(View(raw).subspan(masks), number_bytes(entry.grid.type), values);
+  if (entry.grid.type == ValueType::boolean &&
       std::any_of(values.begin(), values.end(), [](std::byte value) { return value > std::byte{1}; }))
     return damaged_brv("a boolean is neither 0 nor 1");
   return {};
@@ -300,16 +300,16 @@ Result<GridFile> decode_brv(View bytes, const GridLimits& limits, const GridChoi
 
   GridFile file;
   file.metadata = std::move(directory->metadata);
-  for (BrvGrid& of : directory->grids) {
+  for (BrvGrid& entry : directory->grids) {
     // Chunks are counted by the bricks of the grid, which stay in place.
-    Bytes values(of.grid.bricks.size() * kBrickVoxels * bytes_of(of.grid.type));
+    Bytes values(entry.grid.bricks.size() * kBrickVoxels * bytes_of(entry.grid.type));
     std::optional<Failure> failure;
-    decode_chunks(bytes, of, of.grid.bricks, values, limits, failure);
+    decode_chunks(bytes, entry, entry.grid.bricks, values, limits, failure);
     if (failure) return *failure;
     if (limits.is_stopped()) return Failure{ErrorCode::internal, "stopped"};
-    of.grid.values = std::move(values);
-    if (auto active = check_active(of.grid, limits); !active) return active.failure();
-    file.grids.push_back(std::move(of.grid));
+    entry.grid.values = std::move(values);
+    if (auto active = check_active(entry.grid, limits); !active) return active.failure();
+    file.grids.push_back(std::move(entry.grid));
   }
   return file;
 }

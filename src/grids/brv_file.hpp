@@ -22,10 +22,9 @@ namespace brume::grids {
 inline constexpr std::uint32_t kBrvVersion = 1;
 
 struct BrvOptions {
-  /// Of zstd; 0 stores the bytes as they are, for a pipe.
+  /// Level of zstd; 0 stores the bytes as they are, for a pipe.
   int compression_level = 3;
   /// 1 to kMaxBricksPerChunk. More compress better, fewer are read faster one by one.
-  /// has the figures.
   std::uint32_t bricks_per_chunk = 16;
 };
 

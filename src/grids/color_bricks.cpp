@@ -87,7 +87,7 @@ class VectorColors {
   Lookup lookup_;
 };
 
-/// Those of a grid for each channel, at the voxels of the first.
+/// Colours of a grid for each channel, at the voxels of the first.
 class ChannelColors {
  public:
   explicit ChannelColors(const ColorChannels& channels) : first_(channels.parts[0]->world_from_index) {
@@ -186,6 +186,7 @@ Result<std::unique_ptr<volume::SparseVolume>> bricks_of(const Source& source, co
   const volume::ChannelId channel{0};
   const std::uint32_t slots = volume.volume->slot_count();
   bricks->begin_update();
+  // The same bricks as the density: a sample reads both at one place.
   for (std::uint32_t slot = 0; slot < slots; ++slot) bricks->acquire(volume.volume->brick_of(slot));
   parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
     Colors lookup(source);
@@ -237,8 +238,8 @@ bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density
   const double mean = all.density / std::max(all.voxels, 1.0);
   Sums sums[2];
   each([&](double value, double color) {
-    Sums& of = sums[value > mean];
-    of = {of.density + value, of.color + color, of.voxels + 1};
+    Sums& side = sums[value > mean];
+    side = {side.density + value, side.color + color, side.voxels + 1};
     return true;
   });
   const auto& [low, high] = sums;

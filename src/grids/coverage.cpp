@@ -74,6 +74,7 @@ std::optional<Grid> coverage_of(const Grid& grid, const glm::dmat4& world_from_i
   covered.name = grid.name;
   covered.type = ValueType::boolean;
   covered.world_from_index = world_from_index;
+  // Bricks come in order, so that only the last one can have the next part.
   for (const Part& part : parts) {
     if (covered.bricks.empty() || covered.bricks.back().origin != part.brick) {
       if (covered.bricks.size() == kMostBricks) return std::nullopt;

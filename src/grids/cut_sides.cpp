@@ -62,6 +62,7 @@ Sides cut_sides(const Grid& grid) {
   const double least = 0.1 * densest_of(grid);
   Sides sides{};
   if (!(least > 0)) return sides;
+  // How much each layer of voxels holds, along each axis.
   std::array<Layers, 3> layers;
   for_each_active(grid, [&](const ActiveValue& active) {
     const double value = number_of(grid.type, active.value);
@@ -73,6 +74,7 @@ Sides cut_sides(const Grid& grid) {
         layers[static_cast<std::size_t>(axis)][low[axis] + i] += static_cast<double>(edge) * edge;
   });
   if (layers[0].empty()) return sides;
+  // How much of the first and last layers ends there, and does not fade.
   for_each_active(grid, [&](const ActiveValue& active) {
     const double value = number_of(grid.type, active.value);
     const glm::ivec3 low = active.low;
@@ -88,6 +90,7 @@ Sides cut_sides(const Grid& grid) {
         sides[side + 1] += face;
     }
   });
+  // In relation to the fullest layer.
   for (std::size_t side = 0; side < sides.size(); ++side) {
     const Layers& counts = layers[side / 2];
     double most = 0;

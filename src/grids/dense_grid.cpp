@@ -46,7 +46,7 @@ std::vector<Weight> weights_of(double begin, double end) {
 /// The weights of all voxels of a box along one axis, and the same the other way round.
 struct AxisWeights {
   std::vector<std::vector<Weight>> of_voxel;
-  int first = 0;                               ///< Of `to_voxels`: a voxel of the grid.
+  int first = 0;                               ///< The voxel of the grid at which `to_voxels` begins.
   std::vector<std::vector<Weight>> to_voxels;  ///< Weight::source is a voxel of the box.
 
   /// Voxels of the box that a voxel of the grid counts for.

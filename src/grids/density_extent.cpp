@@ -15,7 +15,7 @@ constexpr double kDeep = 0.95;
 
 struct ColumnBrick {
   glm::ivec3 at{0};
-  double sum = 0;  // of its voxels
+  double sum = 0;  // sum of its voxels
   int count = 0, seen_count = 0;
   Box<float> any = kEmptyBox, seen = kEmptyBox;  // where filtering finds more than 0, and what is seen
   bool strays = false;
@@ -146,6 +146,7 @@ DensityExtent measure_extent(const BrickVolume& density, float seen_fraction) {
   const float least = seen_fraction * density.densest;
   const volume::SparseVolume& volume = *density.volume;
   const auto uniform = volume.uniform_bricks();
+  // Sum up each brick, and drop the empty ones.
   std::vector<ColumnBrick> bricks(volume.slot_count() + uniform.size());
   parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -162,9 +163,11 @@ DensityExtent measure_extent(const BrickVolume& density, float seen_fraction) {
   std::vector<double> depths;
   glm::dvec3 voxel;
   for (int axis = 0; axis < 3; ++axis) voxel[axis] = glm::length(glm::dvec3(density.world_from_voxel[axis]));
+  // Leave out what strays, and enclose the rest.
   find_strays(bricks, voxel, extent);
   std::erase_if(bricks, [](const ColumnBrick& brick) { return brick.strays; });
   for (const ColumnBrick& brick : bricks) extent.seen = united(extent.seen, brick.seen);
+  // The depth of the deepest columns, but for a few.
   for (int axis = 0; axis < 3; ++axis) add_depths(bricks, axis, voxel[axis], depths);
   if (depths.empty()) return extent;
   const auto deep = depths.begin() +

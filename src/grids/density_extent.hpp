@@ -16,7 +16,7 @@ struct DensityExtent {
   Box<float> seen = kEmptyBox;
   /// Around the voxels above 0 that do not stray, as far as filtering reaches [voxel space].
   Box<float> bulk = kEmptyBox;
-  double stray_part = 0;   ///< Of the voxels above 0.
+  double stray_part = 0;   ///< Part of the voxels above 0 that strays.
   double stray_reach = 0;  ///< How far from the bulk they are, at most [the file's world].
   /// The 95th percentile, of all columns of bricks along the axes, of the mean integral of the values along
   /// them, none of which counts as more than `densest` [value times length in the file's world].

@@ -29,7 +29,7 @@ struct CloudSettings {
   double voxel_size = 0.05;  ///< [m], > 0.
   double radius = 1.8;       ///< [m], > 0; of the sphere before its displacement.
   double edge_width = 0.1;   ///< Depth over which density rises from 0 at the surface to 1 [m]; 0: binary.
-  // Of the pyroclastic cloud.
+  // The displacement of the pyroclastic cloud.
   double amplitude = 0.6;     ///< Displacement where |fBm| is 1 [radii], >= 0.
   double frequency = 1.5;     ///< Lattice cells of the first octave per radius, > 0.
   double gain = 0.5;          ///< Weight of an octave relative to the previous one, [0, 1].

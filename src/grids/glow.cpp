@@ -43,7 +43,8 @@ double density_at(const volume::SparseVolume& volume, glm::dvec3 p_voxel) {
   return double{glm::unpackHalf1x16(volume.texels<std::uint16_t>(kChannel, slot)[texel])};
 }
 
-/// Of a brick, whose voxels `value_at` gives by their place in it. The density is that in its middle.
+/// The moments of a brick, whose voxels `value_at` gives by their place in it. Its density is taken in its
+/// middle.
 template <typename ValueAt>
 Moments moments_of(glm::ivec3 brick, const BrickVolume& density, const glm::dmat4& density_from_heat,
                    GlowPower power, ValueAt value_at) {
@@ -74,6 +75,7 @@ std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& densi
   parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i >= volume.slot_count()) {
+        // One value throughout: no texels.
         const volume::UniformBrick& brick = uniform[i - volume.slot_count()];
         const double value{glm::unpackHalf1x16(brick.texel)};
         bricks[i] =
@@ -84,6 +86,7 @@ std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& densi
       if (!volume.in_use(slot)) continue;
       const auto texels = volume.texels<std::uint16_t>(kChannel, slot);
       bricks[i] = moments_of(volume.brick_of(slot), density, density_from_heat, power, [&](glm::ivec3 at) {
+        // Texels have an apron around the voxels of the brick.
         const auto texel = static_cast<std::size_t>(at.x + 1 + 10 * (at.y + 1 + 10 * (at.z + 1)));
         return double{glm::unpackHalf1x16(texels[texel])};
       });

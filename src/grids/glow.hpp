@@ -20,10 +20,10 @@ enum class GlowPower {
 /// A part of a grid that glows as a homogeneous ball. A voxel of value v counts by its power p, v or v^4.
 struct GlowBall {
   glm::dvec3 middle{0};  ///< [voxel space of the grid]
-  double radius = 0;     ///< Of the ball with the same mean distance from the middle, squared [voxels].
-  double power = 0;      ///< Sum of p over its voxels, v in stored units.
-  double value = 0;      ///< Mean of v by p, likewise.
-  double density = 0;    ///< Mean of the density by p, in its stored unit.
+  double radius = 0;   ///< Radius of the ball with the same mean distance from the middle, squared [voxels].
+  double power = 0;    ///< Sum of p over its voxels, v in stored units.
+  double value = 0;    ///< Mean of v by p, likewise.
+  double density = 0;  ///< Mean of the density by p, in its stored unit.
 };
 
 /// At most kMostGlowBalls, of the whole grid together; none where nothing is above 0. A part is divided in

@@ -34,7 +34,7 @@ enum class ValueType : std::uint8_t {
   vec3i = 9,
 };
 
-/// Of one value: 0 (mask) to kMaxValueBytes.
+/// Bytes of one value: 0 (mask) to kMaxValueBytes.
 std::size_t bytes_of(ValueType type);
 inline constexpr std::size_t kMaxValueBytes = 24;
 /// "float32".
@@ -81,7 +81,7 @@ struct Grid {
   bool saved_as_half = false;  ///< Its file stores floats in half precision.
   /// Affine: from index space to the file's world.
   glm::dmat4 world_from_index{1};
-  Value background{};  ///< Of voxels outside of bricks and tiles, all inactive.
+  Value background{};  ///< Value of voxels outside of bricks and tiles, all inactive.
   std::vector<Metadata> metadata;
   std::vector<Brick> bricks;      ///< Rising by z, then y, then x of the origin; none twice.
   std::vector<std::byte> values;  ///< kBrickVoxels values per brick, those of inactive voxels included.
@@ -100,8 +100,8 @@ struct GridFile {
   std::vector<Metadata> metadata;
 };
 
-/// Of the grids of a file, which to read: by position, of grids that have their bricks' origins and tiles
-/// only.
+/// Which grids of a file to read, by position. The grids that are given have only the origins of their
+/// bricks, and their tiles.
 using GridChoice = std::function<Result<std::vector<std::size_t>>(std::span<const Grid* const> grids)>;
 
 /// A value as a number: vectors by their length, masks as 1.
@@ -137,7 +137,7 @@ std::optional<std::size_t> find_brick(const Grid& grid, glm::ivec3 origin);
 
 /// A cube of active voxels that have one value.
 struct ActiveValue {
-  const std::byte* value;  ///< Of the grid's type.
+  const std::byte* value;  ///< A value of the grid's type.
   glm::ivec3 low;          ///< Its voxel of the least coordinates.
   std::uint32_t edge;      ///< [voxels]: 1, or that of a tile.
   std::uint64_t count() const { return std::uint64_t{edge} * edge * edge; }

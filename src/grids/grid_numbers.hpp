@@ -55,18 +55,18 @@ class NumberReader {
   std::optional<ValueShift> shift_;
 };
 
-/// Bricks and cubes of numbers, without those of zeros.
+/// Bricks and cubes of numbers, without any of zeros.
 class GridNumbers {
  public:
-  /// Those of a grid, which must outlive it.
-  /// With a shift, also bricks of the background between them, as far as they are few.
+  /// The numbers of a grid, which must outlive it. With a shift, also bricks of the background between them,
+  /// as far as they are few.
   explicit GridNumbers(const Grid& grid, const std::optional<ValueShift>& shift = {});
 
   /// The stored halves of a volume of one channel, which must outlive it; with `only_presence` 1 throughout
   /// each of its bricks.
   GridNumbers(const volume::SparseVolume& volume, bool only_presence);
 
-  /// Of the voxels of the grid, which must be that of the constructor, beyond its bricks and tiles.
+  /// The number of the voxels beyond bricks and tiles; the grid must be the constructor's.
   float background(const Grid& grid) const { return reader_.at(grid.background.data(), 0); }
 
   /// NumberReader::odd of the grid.
@@ -88,7 +88,7 @@ class GridNumbers {
   /// Cubes become bricks, in their order behind the others. brick_count() of them must fit the memory.
   void expand_cubes();
 
-  // Of bricks, after expand_cubes.
+  // Functions of bricks, after expand_cubes.
   std::size_t size() const { return at_.size(); }
   /// Its coordinate: origin / 8.
   glm::ivec3 brick(std::size_t i) const { return at_[i]; }

@@ -8,8 +8,8 @@ namespace brume::grids {
 
 /// Beyond these a file is refused (resource_limit) before anything of that size is allocated.
 struct GridLimits {
-  std::uint64_t bytes = 1ull << 33;          ///< Of memory_of() all grids.
-  std::uint64_t active_voxels = 1ull << 33;  ///< Of a grid, tiles included.
+  std::uint64_t bytes = 1ull << 33;          ///< Sum of memory_of() all grids.
+  std::uint64_t active_voxels = 1ull << 33;  ///< Active voxels of a grid, tiles included.
   /// Voxels of a tank of spheres; one of more is reduced until it fits (tank_grids).
   std::uint64_t tank_voxels = 1ull << 28;
   double seconds = 600;  ///< Processor time of the child process.

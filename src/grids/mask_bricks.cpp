@@ -29,7 +29,7 @@ class MaskValues {
   }
 
  private:
-  /// Of what half floats hold; NaN is 0.
+  /// A number that half floats hold; NaN is 0.
   float number(const std::byte* value) const {
     const double number = number_of(grid_->type, value);
     return number > 0 ? static_cast<float>(std::min(number, 65504.0)) : 0.0f;
@@ -79,6 +79,7 @@ void fill(Texels texels, Function texel_at) {
 
 Result<Grid> joined_masks(std::span<const Grid* const> masks) {
   const Grid& first = *masks.front();
+  // Masks must share their voxels, so that a brick of one is a brick of all.
   std::vector<glm::ivec3> origins;
   for (const Grid* mask : masks) {
     if (mask->type != ValueType::float32 && mask->type != ValueType::float64)
@@ -96,6 +97,7 @@ Result<Grid> joined_masks(std::span<const Grid* const> masks) {
   std::ranges::sort(origins, goes_before);
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
 
+  // The largest value counts: the joined grid says where anything is masked.
   Grid joined;
   joined.name = "masks";
   joined.grid_class = GridClass::fog_volume;
@@ -122,12 +124,14 @@ std::unique_ptr<volume::SparseVolume> make_mask_bricks(std::span<const Grid* con
                                                        const BrickVolume& volume) {
   BRUME_ASSERT(!masks.empty() && masks.size() <= kMostMaskGrids, std::to_string(masks.size()));
   const glm::dmat4 index_from_voxel = glm::inverse(masks.front()->world_from_index) * volume.world_from_voxel;
+  // Two masks fit into half the bytes of four.
   volume::SparseVolumeInfo info;
   const bool is_pair = masks.size() <= 2;
   info.channels = {{is_pair ? 4u : 8u}};
   auto bricks = std::make_unique<volume::SparseVolume>(info);
   const std::uint32_t slots = volume.volume->slot_count();
   bricks->begin_update();
+  // The same bricks as the density: a sample reads both at one place.
   for (std::uint32_t slot = 0; slot < slots; ++slot) bricks->acquire(volume.volume->brick_of(slot));
   parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<MaskValues> values;

@@ -21,7 +21,8 @@ using glm::ivec3;
 
 constexpr const char* kArrayFormat = "brume raw volume";
 constexpr int kArrayVersion = 1;
-constexpr int kFarthest = 1 << 29;  // Of an origin; the end of an array then fits an index.
+constexpr int kFarthest =
+    1 << 29;  // Farthest coordinate of an origin; the end of an array then fits an index.
 constexpr std::array kClasses{"unknown", "level set", "fog volume", "staggered"};
 
 /// Contents of a description.
@@ -219,6 +220,7 @@ Result<void> save_raw(const fs::path& json, const Grid& grid, const GridLimits& 
   if (grid.type != ValueType::float32)
     return bad_description(
         json, "grid \"" + grid.name + "\" is " + name_of(grid.type) + "; a raw file holds float32");
+  // An array holds the whole box around the active voxels, however few there are.
   const Box<double> bounds = active_bounds(grid);
   if (bounds.low.x > bounds.high.x)
     return bad_description(json, "grid \"" + grid.name + "\" has no active voxels");
@@ -229,6 +231,7 @@ Result<void> save_raw(const fs::path& json, const Grid& grid, const GridLimits& 
                    json.string() + ": the box around the active voxels of grid \"" + grid.name +
                        "\" is larger than the limit of " + std::to_string(limits.bytes >> 20) +
                        " MiB; write a .brv or .vdb file"};
+  // Write the array before its description: a description alone would describe nothing.
   ArrayDescription d;
   const fs::path raw = raw_path_of(json);
   d.raw = raw.filename().string();

@@ -43,7 +43,7 @@ struct SliceAtlas {
   glm::dmat4 world_from_box{1};
   /// One to kMostAtlasChannels, of the layout's size and one box; in R, G, B and A.
   std::vector<DenseGrid> channels;
-  std::vector<AtlasRange> ranges;  ///< Of each channel.
+  std::vector<AtlasRange> ranges;  ///< Range of each channel.
 };
 
 /// The range that holds all values of a grid: [0, 1] where it does, else from the least (at most 0) to the

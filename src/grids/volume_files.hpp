@@ -17,8 +17,8 @@ using GridReader = Result<GridFile> (*)(const std::filesystem::path& path, const
 /// Whether load_volume_file reads a file, by its suffix in any case.
 bool is_volume_file(const std::filesystem::path& path);
 
-/// Of the grids of a file that was read as a whole, those of `choice`, in their order; all without one. Fails
-/// as it does.
+/// The grids of `choice` of a file that was read as a whole, in their order; all without a choice. Fails as
+/// `choice` does.
 Result<GridFile> chosen_of(Result<GridFile> file, const GridChoice& choice);
 
 /// Reads all grids of a .brv, .vdb or .nvdb file, or those of `choice`. Fails as load_grid_file.

@@ -61,7 +61,7 @@ class MemoryIn : public Imf::IStream {
   }
   std::uint64_t tellg() override { return at_; }
   void seekg(std::uint64_t at) override { at_ = at; }
-  /// Of all that was read.
+  /// Where the last byte that was read ends.
   std::uint64_t end() const { return end_; }
 
  private:
@@ -89,7 +89,7 @@ Imf::FrameBuffer slices_of(const LayeredImage& image) {
   return slices;
 }
 
-// Of all values: most damage of a file does not make it unreadable.
+// A hash of all values: most damage of a file does not make it unreadable.
 std::string checksum_of(const LayeredImage& image) {
   std::vector<const Layer*> sorted;
   for (const Layer& layer : image.layers) sorted.push_back(&layer);
@@ -182,7 +182,8 @@ Result<void> save_exr(const std::filesystem::path& path, const LayeredImage& ima
                  layer.name);
     header.channels().insert(layer.name, Imf::Channel(type_of(layer)));
   }
-  // Those of sRGB and Rec. 709, which the format assumes where none are named, and other programs guess.
+  // Name the primaries of sRGB and Rec. 709: the format assumes them where none are named, but other programs
+  // guess.
   Imf::addChromaticities(header, Imf::Chromaticities());
   header.insert(kChecksum, Imf::StringAttribute(checksum_of(image)));
   if (text) header.insert(text->keyword, Imf::StringAttribute(text->text));

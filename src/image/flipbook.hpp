@@ -13,7 +13,7 @@ namespace brume::image {
 /// Where the tiles of a sheet are: in rows from the top left, without space between them.
 struct FlipbookLayout {
   std::uint32_t columns = 8, rows = 8;  ///< Each at least 1.
-  glm::uvec2 tile_px{256};              ///< Of a tile with its gutter; above 2 * gutter.
+  glm::uvec2 tile_px{256};              ///< Size of a tile with its gutter; above 2 * gutter.
   std::uint32_t gutter = 2;             ///< Texels along each side of a tile that hold no picture.
 
   std::uint32_t tiles() const { return columns * rows; }

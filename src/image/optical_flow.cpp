@@ -33,12 +33,12 @@ struct Raster {
   }
 };
 
-constexpr int kLeastEdge = 8;         // Of the coarsest level [texels].
-constexpr int kWarps = 4;             // Of each level.
-constexpr int kSweeps = 40;           // Of the linear system, each time.
+constexpr int kLeastEdge = 8;         // Shortest edge of the coarsest level [texels].
+constexpr int kWarps = 4;             // Warps of each level.
+constexpr int kSweeps = 40;           // Sweeps over the linear system of a warp.
 constexpr float kSmoothness = 1e-2f;  // Weight of differences of neighbours [1 / texel^2].
 constexpr float kMostStep =
-    2;  // By which a warp may change the flow: its linearization holds for less [texels].
+    2;  // Most that a warp changes the flow [texels]: its linearization holds for less.
 
 float brightness(glm::vec4 texel) {
   return std::max(glm::dot(glm::vec3(texel), glm::vec3(0.2126f, 0.7152f, 0.0722f)), 0.0f);

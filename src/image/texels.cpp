@@ -25,7 +25,7 @@ Texels halved(const Texels& from) {
   return half;
 }
 
-// Of each texel the colour of the finest level that knows one.
+// Gives each texel the colour of the finest level that knows one.
 void fill_from_coarser(Texels& texels) {
   if (texels.width == 1 && texels.height == 1) return;
   Texels coarser = halved(texels);

@@ -38,7 +38,7 @@ class Reader {
     return palette;
   }
 
-  /// Of what was read last, from 1.
+  /// The line of what was read last, from 1.
   std::size_t line() const {
     const std::string_view before = text_.substr(0, std::min(last_, text_.size()));
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
@@ -152,6 +152,7 @@ class Reader {
         palette.colors = read_colors();
         has_colors = true;
       } else {
+        // Keys of other programs mean nothing here.
         skip_value(0);
       }
       goes_on = take(',');

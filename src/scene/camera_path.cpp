@@ -35,9 +35,9 @@ class Path {
     Camera camera;
     camera.position_world = vector(&Camera::position_world);
     camera.target_world = vector(&Camera::target_world);
-    const auto number = [&](const auto& of) {
-      return static_cast<float>(
-          hermite(double{of(begin)}, double{of(end)}, speed(span, of), speed(span + 1, of), seconds, s));
+    const auto number = [&](const auto& member) {
+      return static_cast<float>(hermite(double{member(begin)}, double{member(end)}, speed(span, member),
+                                        speed(span + 1, member), seconds, s));
     };
     camera.vertical_fov = number([](const CameraKey& key) { return key.camera.vertical_fov; });
     camera.lens.aperture = number([](const CameraKey& key) { return key.camera.lens.aperture; });
@@ -56,13 +56,13 @@ class Path {
 
   static float focus_of(const CameraKey& key) { return focus_distance(key.camera); }
 
-  /// Of a number of the keys, without overshooting. Zero at both ends of the path, so that the camera starts
-  /// and stops smoothly.
-  template <typename Of>
-  double speed(std::size_t key, const Of& of) const {
+  /// How fast a number of the keys changes at a key, without overshooting. Zero at both ends of the path, so
+  /// that the camera starts and stops smoothly.
+  template <typename Member>
+  double speed(std::size_t key, const Member& member) const {
     if (!is_inner(key)) return 0;
     const CameraKey &a = keys_[key - 1], &b = keys_[key], &c = keys_[key + 1];
-    return monotone_speed({a.time, b.time, c.time}, {of(a), of(b), of(c)});
+    return monotone_speed({a.time, b.time, c.time}, {member(a), member(b), member(c)});
   }
 
   const std::vector<CameraKey>& keys_;

@@ -17,7 +17,7 @@
 namespace brume::scene {
 namespace {
 
-/// Of extras: true, or 1, as which some exporters write it.
+/// Whether an entry of extras is true, or 1, as some exporters write it.
 bool is_true(const tinygltf::Value& extras, const char* key) {
   if (!extras.Has(key)) return false;
   const tinygltf::Value& value = extras.Get(key);
@@ -39,6 +39,7 @@ glm::vec3 forward(const glm::dmat4& world_from_node) {
 std::string ignored_features(const tinygltf::Model& model) {
   constexpr double kMostClearRoughness = 0.3;
   bool unlit = false, frosted = false, faint = false, blended = false;
+  // Find what is drawn otherwise than the file says.
   for (const tinygltf::Material& material : model.materials) {
     unlit = unlit || material.extensions.contains("KHR_materials_unlit");
     const double transmission = transmission_of(material);
@@ -51,6 +52,7 @@ std::string ignored_features(const tinygltf::Model& model) {
   }
   const bool orthographic = std::ranges::any_of(
       model.cameras, [](const tinygltf::Camera& camera) { return camera.type == "orthographic"; });
+  // Name each once.
   std::string text;
   const auto add = [&](bool any, const char* words) {
     if (any) text += (text.empty() ? "" : "; ") + std::string(words);
@@ -87,7 +89,7 @@ class GltfLoader {
   struct Visit {
     int node = 0;
     glm::dmat4 world_from_parent{1};
-    std::optional<Role> role = {};  ///< Of the nearest node that has one.
+    std::optional<Role> role = {};  ///< Role of the nearest node that has one.
     bool is_grenade = false;
   };
 
@@ -183,6 +185,7 @@ class GltfLoader {
     if (extension == node.extensions.end() || !extension->second.Has("attributes")) return {glm::dmat4(1)};
     const std::string here = place + ".extensions.EXT_mesh_gpu_instancing.attributes";
     const tinygltf::Value& attributes = extension->second.Get("attributes");
+    // Lists of numbers, one element for each instance; all have the same length.
     std::optional<std::size_t> count;
     const auto numbers_of = [&](const char* name, int components) {
       if (!attributes.Has(name)) return std::vector<double>();
@@ -198,13 +201,14 @@ class GltfLoader {
     const auto translations = numbers_of("TRANSLATION", 3), rotations = numbers_of("ROTATION", 4),
                scales = numbers_of("SCALE", 3);
     if (!count) return {glm::dmat4(1)};
+    // Elements that are missing leave their part of the transform out.
     std::vector<glm::dmat4> instances;
     for (std::size_t i = 0; i < *count; ++i) {
-      const auto of = [i](const std::vector<double>& numbers, std::size_t components) {
+      const auto element = [i](const std::vector<double>& numbers, std::size_t components) {
         return numbers.empty() ? std::span<const double>()
                                : std::span(numbers).subspan(i * components, components);
       };
-      instances.push_back(composed(of(translations, 3), of(rotations, 4), of(scales, 3)));
+      instances.push_back(composed(element(translations, 3), element(rotations, 4), element(scales, 3)));
     }
     return instances;
   }

@@ -29,7 +29,7 @@ class GltfMaterials {
   Converted material(int index);
   /// What a mesh of a material stops; `index` as of Converted.
   Role role(std::uint32_t index, const Mesh& mesh) const;
-  /// That of `extras`, which may be any value; a warning for the first one of the file that is none.
+  /// The role in `extras`, which may be any value; warns of the first one of the file that is no role.
   std::optional<Role> role_of_extras(const tinygltf::Value& extras, const std::string& place);
 
  private:
@@ -46,7 +46,7 @@ class GltfMaterials {
     std::uint32_t image = kNone;
     double factor = 1, cutoff = 0.5;
   };
-  std::map<std::uint32_t, AlphaSource> alphas_;  // of materials that are not opaque
+  std::map<std::uint32_t, AlphaSource> alphas_;  // by material, of those that are not opaque
   std::map<std::pair<int, Wraps>, std::uint32_t> images_;
   bool warned_of_role_ = false;
 };

@@ -114,10 +114,12 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials:
                          const std::vector<double>& weights, int skin, const std::string& place) {
   const GltfPrimitive primitive(document_, source, place);
   Attributes read = read_attributes(primitive, material.uv_set);
+  // Morph targets come before skins and normals.
   for (std::size_t i = 0; i < std::min(weights.size(), source.targets.size()); ++i)
     if (weights[i] != 0)
       add_target(document_, source.targets[i], weights[i], place + ".targets[" + std::to_string(i) + "]",
                  read);
+  // Check the counts of all attributes against the positions.
   const std::size_t count = read.positions.size() / 3;
   if (count > kMostVertices) document_.fail(place, "has more vertices than a scene may have");
   const auto fits = [count](const std::vector<float>& values, int components) {
@@ -134,6 +136,7 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials:
   for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(vertex_of(read, i, material.image_from_uv));
   mesh.indices = primitive.triangles(count);
   if (skin >= 0) apply_skin(document_, primitive, skins_.pose(skin), place, mesh);
+  // Without normals, faces are flat, as the format demands.
   if (read.normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);

@@ -53,9 +53,9 @@ std::vector<Mesh> part_meshes(const ObjModel& model);
 struct MtlMap {
   std::string file;   ///< Empty: none.
   std::string place;  ///< "file:line".
-  /// Of `-s` and `-o`, for u and v as the file has them, v up.
+  /// From `-s` and `-o`, for u and v as the file has them, v up.
   glm::vec2 scale{1}, offset{0};
-  bool clamps = false;  ///< Of `-clamp on`.
+  bool clamps = false;  ///< From `-clamp on`.
 };
 
 /// A material of an MTL file.

@@ -94,6 +94,7 @@ class MtlParser {
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t", end), rest.size()));
       return word;
     };
+    // Options have any number of values; the rest of the line is the name, which may have spaces.
     while (rest.starts_with('-')) {
       const std::string_view option = take_word();
       if (option == "-imfchan" || option == "-type" || option == "-colorspace") take_word();
@@ -107,6 +108,7 @@ class MtlParser {
         take_word();
       }
     }
+    // Files from Windows.
     map.file = rest;
     std::replace(map.file.begin(), map.file.end(), '\\', '/');
     map.place = reader_.line_place();

@@ -8,7 +8,7 @@
 namespace brume::scene {
 namespace {
 
-constexpr int kRows = 8;  // of places in a triangle: 8 * 9 / 2 = 36
+constexpr int kRows = 8;  // rows of places in a triangle: 8 * 9 / 2 = 36
 constexpr std::uint64_t kFew = 64;
 constexpr double kOpaque = 0.5, kHole = 1.0 / 16;
 

@@ -52,8 +52,8 @@ struct Material {
   std::uint32_t base_color_image = kNone;  ///< sRGB colour, linear alpha. Index into Scene::images.
   std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
   std::uint32_t roughness_image = kNone;   ///< G: roughness, B: metallic; multiply the factors.
-  Role role = Role::wall;                  ///< Of all that it covers, as far as it is not cut out.
-  // Of panes (is_pane):
+  Role role = Role::wall;                  ///< Role of all that it covers, as far as it is not cut out.
+  // Properties of panes (is_pane):
   float opacity = 1;  ///< [0, 1]: the fraction of a pane that has the base colour; the rest is clear.
   float transmission =
       1;  ///< [0, 1]: of that fraction, what lets light through and tints it; the rest scatters.

@@ -34,6 +34,7 @@ class TankReader {
     visit_timeline_options(scene_, OptionReader{root});
     read_tone(root, scene_.tone);
     root.require("tank");
+    // Find all tables before any is read: unknown keys are the first failure.
     const toml::table* const tank = root.table("tank");
     const toml::table* const sky = root.table("sky");
     const toml::table* const fog = root.table("fog");
@@ -43,6 +44,7 @@ class TankReader {
       root.fail("light", "[[light]]: expected at most " + std::to_string(kMostTankLights));
     if (auto done = root.finish(); !done) return done.failure();
 
+    // Read them in order, and stop at the first failure.
     Result<void> outcome;
     const auto then = [&](const toml::table* table, auto read_table) {
       if (table != nullptr && outcome) outcome = read_table(*table);
@@ -83,6 +85,7 @@ class TankReader {
     table.read("radius", radius, kLeastRadius, double{spheres::kMostVoxelsPerAxis});
     table.read("seed", seed, 0, std::int64_t{UINT32_MAX});
     visit_pack_options(pack, OptionReader{table});
+    // The size, and what must fit into it.
     if (size) pack.size = glm::uvec3(*size);
     if (std::uint64_t{pack.size.x} * pack.size.y * pack.size.z > spheres::kMostVoxels)
       table.fail("size", "\"size\": expected at most 2^28 voxels");
@@ -93,6 +96,7 @@ class TankReader {
     if (2 * pack.radius.y > static_cast<float>(std::min({n.x, n.y, n.z})))
       table.fail("radius", "\"radius\": expected spheres that fit into the tank's " + std::to_string(n.x) +
                                " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels");
+    // The number of spheres depends on all of the above.
     if (!table.has("spheres")) pack.count = spheres::default_count(pack);
     pack.seed = seed;
     table.read("palette", scene_.palette);

@@ -34,7 +34,7 @@ struct TankLight {
 };
 constexpr std::size_t kMostTankLights = 16;
 
-/// Of the glass at one time.
+/// The glass at one time.
 struct GlassKey {
   double time = 0;
   glm::vec3 position_world{0};
@@ -45,7 +45,7 @@ struct GlassKey {
 struct TankGlass {
   glm::vec3 position_world{0, 0, 1.5f};
   glm::vec3 radii{0.5f};
-  float index = 1.5f;               ///< Of refraction.
+  float index = 1.5f;               ///< Index of refraction.
   std::vector<GlassKey> keys = {};  ///< Replace position and radii.
 };
 
@@ -75,18 +75,18 @@ struct TankFog {
 };
 
 struct TankScene {
-  std::filesystem::path file;  ///< Of the tank, resolved; empty: it is packed.
+  std::filesystem::path file;  ///< The tank's file, resolved; empty: it is packed.
   spheres::PackOptions pack;   ///< Without its palette.
   std::string palette;         ///< "NAME:0.2-0.6" (palettes/choice.hpp), a file resolved; empty: white.
   std::string palette_space = "oklab";  ///< In which its colours are interpolated (palettes::Space).
   TankView view = TankView::spheres;
-  TankLighting lighting = TankLighting::maps;  ///< Of TankView::voxels.
+  TankLighting lighting = TankLighting::maps;  ///< How TankView::voxels are lit.
   LensPoints lens_points = LensPoints::remap;
   float dither = 1;  ///< Noise of the rounding to 8 bits, in steps of them; 0: bands.
   float duration = 4;
   float exposure = 0;  ///< [EV]
   ToneCurve tone = ToneCurve::neutral;
-  std::uint32_t samples = 64;  ///< Of a picture.
+  std::uint32_t samples = 64;  ///< Samples of a picture.
   std::uint32_t bounces = 2;   ///< Most scattering events of a path.
   std::uint32_t photons = 0;   ///< Paths of light that are traced from the lights through the glass.
   SkyOptions sky;  ///< Zenith and horizon: what is behind the tank. Ambient: what spheres see of it.

@@ -22,7 +22,7 @@ bool is_utf16(std::string_view text) {
 }
 
 std::string utf8_from_utf16(std::string_view text) {
-  const std::size_t high = text.starts_with("\xfe\xff") ? 0 : 1;  // Of the two bytes of a unit.
+  const std::size_t high = text.starts_with("\xfe\xff") ? 0 : 1;  // Index of the high byte of a unit.
   const auto unit = [&](std::size_t at) {
     const auto byte = [&](std::size_t i) {
       return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));

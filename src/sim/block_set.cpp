@@ -24,7 +24,7 @@ std::pair<glm::ivec3, glm::ivec3> bounds_of(std::uint64_t mask) {
           {std::bit_width(xs) - 1, std::bit_width(ys) - 1, (std::bit_width(mask) - 1) / 16}};
 }
 
-/// Those of `among` that a path over faces within `among` connects to `from`.
+/// The voxels of `among` that a path over faces within `among` connects to `from`.
 std::uint64_t spread_in_block(std::uint64_t from, std::uint64_t among) {
   for (;;) {
     const std::uint64_t next =

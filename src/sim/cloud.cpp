@@ -416,7 +416,7 @@ Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
 }
 
 Cloud Cloud::settled() const {
-  // Of the detached smoke only the trapped part remains.
+  // Only the trapped part of the detached smoke remains.
   CloudParts parts;
   parts.origin = parts_.origin;
   parts.fill = parts_.fill;

@@ -138,7 +138,7 @@ class Cloud {
   /// Ticks a voxel takes to change to its new density.
   std::uint32_t flow_ramp() const { return std::max(1u, parts_.origin.settings.bloom_ticks / 4); }
   Front front(std::uint32_t tick) const;
-  /// Of an amount released, voxels trapped, and the distances of a flood.
+  /// The front that an amount released, less the voxels trapped, reaches by the distances of a flood.
   static Front front_of(std::uint64_t out, std::uint32_t trapped_voxels,
                         std::span<const Flood::Count> counts);
 
@@ -150,7 +150,7 @@ class Cloud {
   std::vector<std::uint8_t> base_;    // fill_base and detached_base by rank in voxels(); empty without both
   std::vector<std::uint16_t> delay_;  // the same for fill_delay and detached_delay
   std::uint32_t trapped_ = 0;         // number of detached voxels that stay
-  std::vector<Flood::Count> distance_counts_;  // of the fill
+  std::vector<Flood::Count> distance_counts_;  // how many voxels of the fill have each distance
   std::uint32_t flow_length_ = 0;              // ticks from flow_tick to settle_tick()
   std::uint64_t hash_ = 0;
 };

@@ -75,7 +75,7 @@ struct Blast {
   std::uint32_t tick = 0;
   Position at{0};                     ///< 1/1024 m
   std::uint32_t radius = 5 * 1024;    ///< 1/1024 m, from 1 to kMaxBlastVoxels voxels
-  std::uint32_t speed = 32 * 1024;    ///< of the front, 1/1024 m/s, [1024, 2^24]
+  std::uint32_t speed = 32 * 1024;    ///< speed of the front, 1/1024 m/s, [1024, 2^24]
   std::uint32_t remaining = 5;        ///< remaining fraction of density, of 255, [0, 255]
   std::uint32_t refill_rim_ms = 500;  ///< until the rim is full again, [1, kMaxMilliseconds]
   std::uint32_t refill_middle_ms =

@@ -10,13 +10,13 @@ namespace brume::sim {
 
 /// By rank in the fill.
 struct FillValues {
-  std::vector<std::uint32_t> distances;  ///< Of the flood.
+  std::vector<std::uint32_t> distances;  ///< Length of the flood's path.
   std::vector<std::uint8_t> survival;    ///< Cloud::survival.
   std::vector<std::uint8_t> lag;         ///< Fraction of the distance, / 2^kLagBits, that Cloud::reach adds.
 };
 constexpr int kLagBits = 10;
 
-/// Of the fill of a cloud whose grenade detonated at `source`.
+/// The values for the fill of a cloud whose grenade detonated at `source`.
 FillValues fill_values(glm::ivec3 source, std::uint32_t detonation_tick, const BlockSet& fill,
                        std::vector<std::uint32_t> distances);
 

@@ -28,7 +28,7 @@ inline std::uint32_t value_noise(glm::ivec3 point_256, std::uint32_t seed) {
   std::uint32_t sum = 0;
   for (int i = 0; i < 8; ++i) {
     const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
-    std::uint32_t corner_weight = 1;  // of 2^24
+    std::uint32_t corner_weight = 1;  // in units of 2^-24
     for (int axis = 0; axis < 3; ++axis) corner_weight *= upper[axis] ? weight[axis] : 256 - weight[axis];
     sum += lattice_noise(cell + upper, seed) * (corner_weight >> 8);
   }

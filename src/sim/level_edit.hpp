@@ -15,7 +15,7 @@ namespace brume::sim {
 struct EditBlock {
   glm::i16vec3 at{0};            ///< voxel / 4
   std::uint64_t make_solid = 0;  ///< A wall. Bits as in VoxelBlock.
-  std::uint64_t make_free = 0;   ///< Of everything.
+  std::uint64_t make_free = 0;   ///< Nothing stays in it.
   std::uint64_t make_glass = 0, make_grille = 0;
   bool operator==(const EditBlock&) const = default;
 

@@ -41,7 +41,7 @@ class PlaneWindow {
     first_cell_ = 8 * brick - 1;
     known_.fill(false);
   }
-  /// Of a cell of the brick or next to one.
+  /// The planes of a cell in the brick or next to it.
   std::span<const voxel::Plane> at(glm::ivec3 cell) {
     const glm::ivec3 c = cell - first_cell_;
     const auto i = static_cast<std::size_t>(c.x + 10 * (c.y + 10 * c.z));
@@ -90,7 +90,7 @@ class CellSight {
     std::uint32_t cells;             // bit x + 3 y + 9 z of cell + 1
     std::uint32_t open_cells;        // others that the infinite plane enters
     Neighbourhood64 positive;        // voxels on the positive side
-    std::array<float, 64> distance;  // of each voxel
+    std::array<float, 64> distance;  // from the plane to each voxel
   };
   void read_own_planes(std::span<const voxel::Plane> own);
   void read_neighbour(const voxel::Plane& plane, glm::ivec3 step);
@@ -110,7 +110,7 @@ class CellSight {
   std::array<float, voxel::kMaxPlanes> deviation_;
   bool flat_ = true;  // every plane around continues one of the cell's own
   std::vector<Sheet> sheets_;
-  // Of each side: points spread over it, one bit each, and their middle.
+  // Points spread over each side, one bit each, and their middle.
   std::array<std::uint32_t, 8> samples_{};
   std::array<glm::vec3, 8> middles_;
 };

@@ -73,6 +73,7 @@ bool CloudGrowth::update(const sim::State& state, const SmokeBricks& volume) {
   const auto same = [](const std::shared_ptr<const sim::Cloud>& held, const sim::LiveCloud& live) {
     return held == live.cloud;
   };
+  // Nothing to do while volume and clouds are the same.
   const std::uint64_t id = volume.volume().id();
   if (volume_ == id && generation_ == volume.structure_generation() &&
       std::equal(clouds_.begin(), clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
@@ -80,6 +81,7 @@ bool CloudGrowth::update(const sim::State& state, const SmokeBricks& volume) {
   volume_ = id;
   generation_ = volume.structure_generation();
 
+  // Keep the parts of clouds that are still there; find the new ones.
   std::map<const sim::Cloud*, std::vector<BrickPart>> before;
   before.swap(parts_of_cloud_);
   std::vector<std::shared_ptr<const sim::Cloud>> clouds;
@@ -92,6 +94,7 @@ bool CloudGrowth::update(const sim::State& state, const SmokeBricks& volume) {
     else
       fresh.push_back(live.cloud.get());
   }
+  // Free the parts of clouds that are gone before new ones take parts.
   for (const auto& [cloud, brick_parts] : before)
     for (const BrickPart& brick_part : brick_parts) free_parts_.push_back(brick_part.part);
   for (const sim::Cloud* cloud : fresh)

@@ -40,7 +40,7 @@ class CloudGrowth {
   static bool touches(const SmokeBricks& volume, const sim::Cloud& cloud);
   void list_parts(const SmokeBricks& volume);
 
-  std::vector<std::shared_ptr<const sim::Cloud>> clouds_;  // of the last state
+  std::vector<std::shared_ptr<const sim::Cloud>> clouds_;  // in the last state
   std::map<const sim::Cloud*, std::vector<BrickPart>> parts_of_cloud_;
   std::vector<glm::uvec2> parts_, displacements_;
   std::vector<std::uint32_t> free_parts_, new_parts_;

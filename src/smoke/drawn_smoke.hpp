@@ -44,7 +44,7 @@ class DrawnSmoke {
     glm::vec2 detail{0};
   };
   using BrickDisplacement = std::array<glm::vec3, shared::kTexelsPerBrick>;
-  /// Of the noise in one brick, from its first use on.
+  /// The displacement of the noise in one brick, from its first use on.
   struct LazyDisplacement {
     std::once_flag found;
     std::unique_ptr<BrickDisplacement> texels;

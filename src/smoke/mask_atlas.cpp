@@ -17,7 +17,7 @@ static_assert(kMaxMaskAxis + 2 * kPad == kMaxMaskAtlasAxis);
 
 struct Layout {
   std::uint32_t width = 0, height = 0;
-  std::vector<glm::uvec2> corners;  // of the images, without their padding
+  std::vector<glm::uvec2> corners;  // where the images begin, without their padding
 };
 
 /// Rows of images, the highest first, in an atlas of this width.

@@ -61,9 +61,9 @@ class MaskAtlas {
   /// Rows from the top, width() * height() of them.
   std::span<const std::uint8_t> texels() const { return texels_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(rectangles_.size()); }
-  /// Of a mask below count().
+  /// Where a mask below count() lies.
   const MaskRectangle& rectangle(std::uint32_t mask) const { return rectangles_[mask]; }
-  /// Of an atlas without masks: {0, 0}.
+  /// {0, 0} for an atlas without masks.
   sim::MaskKey key() const { return key_; }
 
   /// The atlas at a point, [0, 1], linear between the centres of texels: as lib/hole_mask.glsl reads it, but

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxImpulses = 64;
 FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory = {});
 
 struct NoiseMotion {
-  FrameVector<shared::CloudMotion> clouds;  ///< Of the state's clouds, in their order.
+  FrameVector<shared::CloudMotion> clouds;  ///< One for each cloud of the state, in their order.
   FrameVector<shared::Impulse> impulses;
 };
 

@@ -30,7 +30,7 @@ struct SmokeNoise {
   NoiseTile tile, detail;
 };
 
-/// Those of kSmokeNoise: made by the first call, and kept. The tile alone takes half the time.
+/// The noise of kSmokeNoise: the first call makes and keeps it. The tile alone takes half the time.
 const NoiseTile& smoke_noise_tile();
 const SmokeNoise& smoke_noise();
 

@@ -69,7 +69,7 @@ struct Line {
 Line line_of(const Segment& segment) {
   return {glm::dvec3(segment.a_world), glm::dvec3(segment.b_world)};
 }
-/// Of a ray, up to a distance.
+/// The part of a ray up to a distance.
 Line line_of(const SensorRay& ray, float distance) {
   const glm::dvec3 a(ray.origin_world), d(ray.direction_world);
   const glm::dvec3 direction = d / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
@@ -133,7 +133,7 @@ std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dv
     const glm::ivec3 low = outer.cell * voxel::kBrickSize;
     shared::Dda d = shared::dda_begin(origin, direction, low, glm::min(low + voxel::kBrickSize, grid.size()),
                                       1, outer.t, outer.t_end);
-    glm::ivec3 crossed = outer.crossed;  // of the first voxel: how the ray came into the brick
+    glm::ivec3 crossed = outer.crossed;  // how the ray came into the first voxel, and so into the brick
     while (d.t < d.t_end) {
       const glm::ivec3 in = d.cell & 7;
       const bool solid = (*brick)[static_cast<unsigned>(in.z)] >> (in.x + 8 * in.y) & 1;

@@ -28,16 +28,16 @@ namespace brume::smoke {
 class DrawnSmoke;
 struct SmokeRay;
 
-/// Largest coordinate of a point [m]: that of a Position.
+/// Largest coordinate of a point [m], as in a Position.
 constexpr float kMaxSightMetres = 16384;
 
 struct SightSettings {
   float extinction = 3;           ///< Where density is 1 (255 steps) [1/m], [0, 10^6].
   glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
-  /// Those of holes_of; must outlive the Sight. Required where a hole is a mask.
+  /// The masks that holes_of was given; must outlive the Sight. Required where a hole is a mask.
   const MaskAtlas* masks = nullptr;
-  /// Optical depths are those of the smoke as it is drawn, a hundred times as slowly; must outlive the Sight,
-  /// be of its volume, and brings holes and time of its own. Null: without its noise.
+  /// The smoke as it is drawn, whose optical depths take a hundred times as long. Must outlive the Sight and
+  /// have the same volume; brings holes and time of its own. Null: smoke without its noise.
   const DrawnSmoke* drawn = nullptr;
 };
 
@@ -62,7 +62,7 @@ struct SensorRay {
 struct SensorSample {
   float distance = 0;                ///< To the first solid voxel, else max_distance [m].
   std::optional<SightWall> surface;  ///< That the ray ends at; none up to max_distance.
-  float optical_depth = 0;           ///< Of the smoke up to there, which transmits exp(-optical_depth).
+  float optical_depth = 0;           ///< Depth of the smoke up to there, which transmits exp(-optical_depth).
   glm::vec3 surface_albedo{0};       ///< Black where there is no surface.
   glm::vec3 smoke_albedo{0};
 };

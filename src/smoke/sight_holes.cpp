@@ -168,7 +168,7 @@ Float4 mask_strength(const MaskView& mask, glm::ivec2 cell, Float4 x, Float4 y, 
   return top + (bottom - top) * fy;
 }
 
-/// Largest distance of a point of the hole from its axis: of a box, that of its corners.
+/// Largest distance of a point of the hole from its axis; a box is widest at its corners.
 float reach_of(const shared::Hole& hole) {
   return hole.shape == shared::kHoleCylinder ? hole.radius : 1.41422f * hole.radius;
 }
@@ -207,7 +207,7 @@ void add_edges(const RayHole& h, float fraction, const RadiusSpan& span, std::ve
 /// The parts of a hole with a linear radius: they end where it has opened wide, and where it begins to close.
 struct RadiusSpans {
   std::array<float, 4> times;
-  std::size_t count = 1;  // of times
+  std::size_t count = 1;  // number of times
 
   explicit RadiusSpans(const RayHole& h) : times{h.begin, h.end, h.end, h.end} {
     if (h.age_step != 0 && !h.steady) {
@@ -237,7 +237,7 @@ bool takes_all(const RayHole& h, float t) {
   return within && !h.closing_at(t);
 }
 
-/// Of a wide open cylinder: its edge begins where the hole does.
+/// Adds the segments of a wide open cylinder: its edge begins where the hole does.
 void add_steady_segments(const RayHole& h, std::uint32_t number, std::vector<HoleSegment>& out) {
   // The part in its core.
   const float core = (1 - shared::kHoleSoftFraction) * h.radius,
@@ -256,7 +256,7 @@ void add_steady_segments(const RayHole& h, std::uint32_t number, std::vector<Hol
   if (end < h.end) append_segment(out, end, h.end, number, false);
 }
 
-/// Of any other hole without a mask: cut at every t at which its strength has a kink.
+/// Adds the segments of any other hole without a mask: cut at every t at which its strength has a kink.
 void add_soft_segments(const RayHole& h, std::uint32_t number, std::vector<float>& breaks,
                        std::vector<HoleSegment>& out) {
   breaks.assign({h.begin, h.end});
@@ -275,7 +275,7 @@ void add_soft_segments(const RayHole& h, std::uint32_t number, std::vector<float
       out.push_back({breaks[i], breaks[i + 1], number, takes_all(h, 0.5f * (breaks[i] + breaks[i + 1]))});
 }
 
-constexpr float kNoChange = std::numeric_limits<float>::infinity();  // of a cursor at its end
+constexpr float kNoChange = std::numeric_limits<float>::infinity();  // a cursor at its end
 
 /// The segments of every hole, and a cursor for each hole that has any.
 void make_segments(HolesOnRay& on_ray) {
@@ -372,7 +372,7 @@ class PieceMaker {
 
   HolesOnRay& out_;
   const HoleSegment* segments_;
-  std::size_t next_ = 0;  // of those that wait
+  std::size_t next_ = 0;  // the first cursor that still waits
   float t_ = -kNoChange;
 };
 

@@ -24,7 +24,7 @@ struct RayHole {
   float x, x_step, y, y_step;  ///< across it: x + x_step (t - nearest).
   float age, age_step;         ///< How long it has been opening: age + age_step t [s].
   float radius, expand, stay_end, fade;
-  MaskView mask;  ///< Of a box whose cross-section is an image.
+  MaskView mask;  ///< Cross-section of a box whose shape is an image.
   bool box;
   bool steady;  ///< Wide open and not yet closing, from begin to end.
 
@@ -37,20 +37,20 @@ struct HoleSegment {
   float begin, end;
   std::uint32_t hole;  ///< In HolesOnRay::holes.
   bool all;            ///< It removes all of the smoke.
-  glm::ivec2 cell{0};  ///< Of its mask.
+  glm::ivec2 cell{0};  ///< Where in its mask it lies.
 };
 
 /// A part of the ray along which no hole's strength has a kink.
 struct HolePiece {
   float begin, end;
   bool gone;                   ///< A hole removes all of the smoke.
-  std::uint32_t first, count;  ///< Of HolesOnRay::members: the holes that remove a part.
+  std::uint32_t first, count;  ///< Range in HolesOnRay::members: the holes that remove a part.
 };
 
 /// The holes that a ray passes through. Reused from ray to ray only for its memory.
 struct HolesOnRay {
   std::vector<RayHole> holes;
-  std::vector<HoleSegment> segments;   ///< Hole by hole, those of one in order of t.
+  std::vector<HoleSegment> segments;   ///< Hole by hole, each in order of t.
   std::vector<HolePiece> pieces;       ///< In order of t; between them no hole is.
   std::vector<std::uint32_t> members;  ///< Numbers of segments.
   /// Memory for what a ray usually meets, at once.
@@ -61,11 +61,11 @@ struct HolesOnRay {
   // While the pieces are made.
   struct Cursor {
     float change;                 ///< Where its segment begins, or ends when inside.
-    std::uint32_t segment, last;  ///< Of one hole; one past the last.
+    std::uint32_t segment, last;  ///< The current segment of a hole; one past its last.
     bool inside, all;             ///< In the segment, which removes all.
     void advance(const HoleSegment* of_rays);
   };
-  std::vector<Cursor> cursors;                 // of the holes that have segments
+  std::vector<Cursor> cursors;                 // one for each hole that has segments
   std::vector<std::uint32_t> waiting, active;  // cursors: all by their first begin; those that have begun
   std::vector<float> breaks;
 };
@@ -96,7 +96,7 @@ class HoleSet {
   std::vector<ActiveHole> holes_;
   std::vector<Group> groups_;
   glm::vec3 reference_{0};
-  float farthest_ = 0;  // of the holes from reference_ [m]
+  float farthest_ = 0;  // largest coordinate of a hole from reference_ [m]
 };
 
 }  // namespace brume::smoke

@@ -19,27 +19,27 @@ struct PacketLanes {
   template <typename Number>
   using PerAxis = std::array<PerLane<Number>, 3>;
 
-  // Of a ray: constant.
+  // What is constant along a ray.
   PerAxis<float> direction{}, exits_per_cell{};
   PerLane<float> xy{}, xz{}, yz{};  ///< Products of the direction's axes.
   PerLane<float> length{};
   PerAxis<std::int32_t> stride{}, place_stride{};
 
-  // Of its brick.
+  // What is constant within its brick.
   PerAxis<float> at{};  ///< The ray's start, from the low corner.
   PerLane<const Texel*> texels{};
   PerLane<const std::uint32_t*> entries{};
 
-  // Of the cell that it enters at t.
+  // The cell that it enters at t.
   PerLane<float> t{};
   PerAxis<float> exits{};  ///< By axis: where the ray leaves the cell.
   PerAxis<std::int32_t> cell{};
-  PerLane<std::uint32_t> place{};  ///< Of its first texel, and from bit 16 on of its entry.
+  PerLane<std::uint32_t> place{};  ///< Number of its first texel, and from bit 16 on of its entry.
 
   PerLane<float> next_hole{};  ///< As SmokeSum has it.
   std::array<PerLane<float>, 4> total{};
 
-  // Of the last step, in special lanes: the cell that was passed.
+  // The cell that the last step passed, in special lanes.
   PerAxis<float> passed_at{};  ///< The ray's start, from its low corner.
   PerLane<float> passed_from{}, passed_to{};
   PerLane<std::uint32_t> passed_place{};
@@ -54,7 +54,7 @@ struct PacketStep {
 /// Moves every ray to its next cell, and adds the smoke in the cell that it passed.
 using StepPacket = PacketStep (*)(PacketLanes& lanes);
 
-/// By 4 lanes at once, or by 8 where the processor has AVX2: the same bits.
+/// Steps 4 lanes at once, or 8 where the processor has AVX2: the same bits.
 PacketStep step_packet_4(PacketLanes& lanes);
 #if defined(__x86_64__)
 PacketStep step_packet_8(PacketLanes& lanes);
@@ -72,7 +72,7 @@ class SmokePacket {
 
   /// Walks until a lane is free, and returns it.
   std::size_t free_lane();
-  /// For those of the lane's next ray.
+  /// Where the caller puts the holes on the next ray of a lane.
   HolesOnRay& holes(std::size_t lane) { return rays_[lane].holes; }
   /// Takes a ray into a free lane.
   void start(std::size_t lane, const SmokeRay& ray, std::size_t number);

@@ -92,6 +92,7 @@ class Walk {
     Float4 exits = bricks_.exits();
     const Int4 per_cell = reinterpret_cast<Int4>(bricks_.exits_per_cell());
     while (t < length_ && bits_of((cell & ~7) != 0) == 0) {
+      // Find where the ray leaves the cell, and move on to the next one.
       const Float4 first = least3(exits);
       const float out = std::min(first[0], length_);
       const Int4 crossed = exits <= first, here = cell;
@@ -102,6 +103,7 @@ class Walk {
       texel += texel_steps_[axes];
       entry += entry_steps_[axes];
       exits += reinterpret_cast<Float4>(per_cell & crossed);
+      // Add the smoke on the part of the ray in the cell that it left.
       if (!(out > t)) continue;
       if (entry_here != 0) {
         sum_.add_boundary(volume_.boundary_cells()[entry_here - 1], bricks_.at - to_float(here), t, out);

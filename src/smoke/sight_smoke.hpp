@@ -43,15 +43,15 @@ static_assert(std::endian::native == std::endian::little, "densities are read fo
 
 inline constexpr float kHuge = 1e30f;
 inline constexpr int kRow = shared::kBrickTexels, kLayer = kRow * kRow;
-inline constexpr int kEntryRow = kRow - 1;  // of the cells of a brick
+inline constexpr int kEntryRow = kRow - 1;  // cells of a brick along an axis
 
 /// Densities [0, 255] of a cell's corners: lane y + 2 z, for the lower and the higher x.
 struct Corners {
   Float4 low_x, high_x;
 };
 
-/// The densities of the texels of a cell, two each: density, free, density, free. `texel` is that of the
-/// cell's lowest corner.
+/// The densities of the texels of a cell, two each: density, free, density, free. `texel` is the cell's
+/// lowest corner.
 struct TexelRows {
   std::uint32_t rows[4];
   explicit TexelRows(const Texel* texel) {
@@ -124,7 +124,7 @@ class SmokeSum {
   const HolesOnRay* holes_ = nullptr;
   Float4 direction_{};
   CellIntegral integral_;
-  std::size_t next_ = 0;     // of the holes' pieces: the first that ends beyond here
+  std::size_t next_ = 0;     // the first of the holes' pieces that ends beyond here
   float next_hole_ = kHuge;  // where it begins
 };
 

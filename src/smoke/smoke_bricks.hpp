@@ -26,7 +26,7 @@ class SmokeBricks {
   /// The bricks: page table, slots, density channel.
   const volume::SparseVolume& volume() const { return bricks_; }
 
-  // Of the boundary cells.
+  // Boundary cells.
   /// kCellsPerBrick entries of a slot: boundary cell + 1, or 0.
   virtual std::span<const std::uint32_t> cells(std::uint32_t slot) const = 0;
   virtual std::span<const shared::BoundaryCell> boundary_cells() const = 0;
@@ -42,7 +42,7 @@ class SmokeBricks {
   /// Whether the last update changed a corner set.
   bool corner_sets_dirty() const { return !dirty_corner_sets().empty(); }
 
-  // Of the sparse volume.
+  // Functions of the sparse volume.
   const shared::VolumeLayout& layout() const { return volume().layout(); }
   const volume::PageTable& pages() const { return volume().pages(); }
   std::uint32_t slot_count() const { return volume().slot_count(); }

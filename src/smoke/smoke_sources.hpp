@@ -25,7 +25,7 @@ struct SmokeSource {
   sim::CloudPhase phase;
   std::vector<std::uint8_t> densities;       ///< By rank, at that phase; empty before the first.
   std::vector<std::uint32_t> slot_of_block;  ///< For each block of its voxels.
-  std::vector<std::uint32_t> slots;          ///< Of all bricks around it, each once.
+  std::vector<std::uint32_t> slots;          ///< All bricks around it, each once.
   TickSpan steady;                           ///< When its phase is known not to change.
 };
 

@@ -155,6 +155,7 @@ std::uint32_t CellBuilder::Work::mean(const CellSurroundings& cell, int corner, 
   if ((from & cell.smoke) == 0) return kMeanBit;
   const glm::ivec3 at = corner_offset(corner) + 1;
   std::uint32_t* list = nullptr;
+  // The same voxels around one corner give one mean, whichever cell asks.
   if (around_corner) {
     const glm::ivec3 voxel = cell.local + corner_offset(corner);
     list = &first_known_[static_cast<std::size_t>(voxel.x + kCorners * (voxel.y + kCorners * voxel.z))];
@@ -164,6 +165,7 @@ std::uint32_t CellBuilder::Work::mean(const CellSurroundings& cell, int corner, 
     known_.push_back({relative, kMeanBit | static_cast<std::uint32_t>(out_->means.size() + 1), *list});
     *list = static_cast<std::uint32_t>(known_.size());
   }
+  // Voxels that smoke never reaches count in the total only.
   SmokeMean mean{static_cast<std::uint32_t>(out_->mean_voxels.size()), 0, 0,
                  static_cast<std::uint16_t>(local_voxel(cell.local))};
   for (; from != 0; from &= from - 1) {

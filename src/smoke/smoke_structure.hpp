@@ -24,14 +24,14 @@ constexpr std::uint32_t kMeanBit = 1u << 31;
 /// A mean of voxels: the sum of weight * density, divided by total, rounded; voxels
 /// that smoke never reaches count in the total only.
 struct SmokeMean {
-  std::uint32_t first;  ///< Of its voxels and weights.
+  std::uint32_t first;  ///< Where its voxels and weights begin.
   std::uint16_t count, total;
   std::uint16_t cell;  ///< The first cell, by local index, that has it: all it takes from is around that.
 };
 /// A corner set that smoke can reach.
 struct CornerSource {
   std::array<std::uint32_t, 8> corners;
-  std::uint32_t first_set;  ///< Of its cell, in the brick.
+  std::uint32_t first_set;  ///< First corner set of its cell, in the brick.
   std::uint16_t cell;       ///< Local index of its cell.
   std::uint8_t sides;       ///< Bit q: the cell's set q has these corners.
 };
@@ -46,7 +46,7 @@ struct BrickCells {
   std::vector<CornerSource> sources;
   std::uint32_t set_count = 0;
 
-  std::vector<std::uint8_t> mean_values{0};  ///< Of means[i] at i + 1; 0 at 0: no smoke.
+  std::vector<std::uint8_t> mean_values{0};  ///< The value of means[i] at i + 1; 0 at 0: no smoke.
   volume::IndexRange cell_range, set_range;  ///< In WallCells::boundary_cells and corner_sets.
 };
 

@@ -108,7 +108,7 @@ class SmokeVolume final : public SmokeBricks {
   voxel::GridLayout grid_layout_;
   const voxel::BitGrid* grid_ = nullptr;  // while updating
   SmokeSources sources_;
-  std::shared_ptr<const sim::EditBlocks> edits_;  // of the last state
+  std::shared_ptr<const sim::EditBlocks> edits_;  // in the last state
   std::vector<Box<float>> cloud_bounds_;
 
   volume::SparseVolume volume_;

@@ -63,9 +63,9 @@ class WallCells {
   struct Brick {
     std::unique_ptr<CellTable> cells;  // null: all 0
     std::unique_ptr<BrickCells> home;  // null: no boundary cell
-    // Of the update.
+    // What the update has done.
     bool touched = false, cells_changed = false, home_changed = false;
-    volume::IndexRange sets_changed;  // of home->set_range, counted in the brick
+    volume::IndexRange sets_changed;  // part of home->set_range, counted in the brick
     BrickBits stale{};                // boundary cells whose corner sets are
   };
 

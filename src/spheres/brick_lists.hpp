@@ -13,7 +13,7 @@ namespace brume::spheres {
 /// Bricks of kSphereBrick^3 voxels, x fastest, those at the high sides cut off by the tank.
 struct BrickLists {
   glm::ivec3 bricks{0};                     ///< Along each axis.
-  std::vector<shared::SphereBrick> ranges;  ///< Of `spheres`, per brick.
+  std::vector<shared::SphereBrick> ranges;  ///< Range in `spheres` of each brick.
   std::vector<std::uint32_t> spheres;       ///< Indices of spheres, ascending within each brick.
 
   std::size_t index(const glm::ivec3& brick) const {

@@ -22,7 +22,7 @@ constexpr std::uint32_t kMostSubdivisions = 3;
 constexpr std::size_t kChunk = 1 << 20;  // bytes written at a time
 
 struct Icosphere {
-  std::vector<glm::dvec3> vertices;  // of length 1
+  std::vector<glm::dvec3> vertices;  // unit vectors
   std::vector<glm::uvec3> triangles;
 };
 

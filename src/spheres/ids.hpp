@@ -19,16 +19,16 @@ namespace brume::spheres {
 class VoxelIds {
  public:
   VoxelIds() = default;
-  /// Of a tank of `size` with `spheres` spheres, not initialized.
+  /// Room for the ids of a tank of `size` with `spheres` spheres, not initialized.
   VoxelIds(const glm::uvec3& size, std::size_t spheres);
 
   const glm::uvec3& size() const { return size_; }
   /// Two for at most shared::kMostShortIds spheres (shared::pack_short_ids), else four.
   std::size_t words_per_voxel() const { return words_per_voxel_; }
-  /// As a device reads them: of voxel (0, 0, 0) first, x fastest.
+  /// The ids as a device reads them: voxel (0, 0, 0) first, x fastest.
   std::span<const std::uint32_t> words() const { return {words_.get(), count_}; }
   std::span<std::uint32_t> words() { return {words_.get(), count_}; }
-  /// Of a voxel inside of the tank.
+  /// The ids at a voxel inside of the tank.
   glm::uvec4 at(const glm::ivec3& voxel) const;
   void set(const glm::ivec3& voxel, const glm::uvec4& ids);
 
@@ -40,7 +40,7 @@ class VoxelIds {
 
   glm::uvec3 size_{0};
   std::size_t words_per_voxel_ = 2;
-  std::size_t count_ = 0;  // of words
+  std::size_t count_ = 0;  // number of words
   // An array, since a vector would write all of it twice, at first on one core.
   std::unique_ptr<std::uint32_t[]> words_;
 };

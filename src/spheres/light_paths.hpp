@@ -30,22 +30,22 @@ struct LightPathScene {
 bool same_light(const LightPathScene& a, const LightPathScene& b);
 
 struct LightPathOptions {
-  std::uint32_t count = 1u << 20;  ///< Of paths that are aimed at the glass, at most kMostPhotons.
+  std::uint32_t count = 1u << 20;  ///< Paths that are aimed at the glass, at most kMostPhotons.
   std::uint64_t seed = 0;
-  float radius = 0;  ///< Of the gathering [voxels]; 0: in proportion to the distances between photons.
+  float radius = 0;  ///< Radius of the gathering [voxels]; 0: in proportion to the distances between photons.
 };
 
 /// Where light that has met the glass first meets spheres.
 struct LightPaths {
   std::vector<shared::Photon> photons;  ///< By the hash of their cell.
-  std::vector<std::uint32_t> cells;     ///< Where those of each hash begin, and one more entry.
+  std::vector<std::uint32_t> cells;     ///< Where the photons of each hash begin, and one more entry.
   shared::PhotonGrid grid{0, 0};
 
   /// Irradiance at a point of an opaque sphere (`extinction` 0), or fluence at a point of a medium. By the
   /// sphere's index. Blurred over the radius; exact in the mean where light is parallel and nothing shades
   /// it.
   glm::vec3 gather(const glm::vec3& at, std::uint32_t sphere, const Sphere& ball, float extinction) const;
-  /// Of all photons.
+  /// The sum over all photons.
   glm::dvec3 flux() const;
 };
 

@@ -136,7 +136,7 @@ class Packing {
     });
   }
 
-  /// Of those that found room, the numbers in this round of those that an earlier one is in the way of.
+  /// Which of the spheres that found room overlap an earlier sphere of this round, by their numbers in it.
   std::vector<bool> refused_by_round(std::uint32_t first) const {
     // All pairs that overlap.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // later, earlier
@@ -162,14 +162,14 @@ class Packing {
   }
 
   void commit() {
-    // Those that fit, as if there were no others.
+    // Insert what fits, as if there were no others.
     const std::uint32_t first = spheres_.count();
     for (std::size_t i = 0; i < active_; ++i)
       if (round_[i].radius > 0) spheres_.push({round_[i].place.center, round_[i].radius});
     const std::vector<bool> refused = refused_by_round(first);
     while (spheres_.count() > first) spheres_.pop();
 
-    // Those that stay, and what to try again.
+    // Keep what stays, and what is to be tried again.
     std::size_t number = 0, kept = 0;
     for (std::size_t i = 0; i < round_.size(); ++i) {
       Candidate& candidate = round_[i];
@@ -213,7 +213,7 @@ class Packing {
   std::unique_ptr<PackPlaces> places_;
   Progress progress_;
   std::vector<Candidate> round_;  ///< What is tried, in the order of slots.
-  std::size_t active_ = 0;        ///< Of `round_`, those that this round tries.
+  std::size_t active_ = 0;        ///< How many of `round_` this round tries.
   std::uint32_t next_slot_ = 0, added_ = 0, vain_ = 0;
   std::atomic<bool> is_stopped_{false};
   bool is_full_ = false;

@@ -11,7 +11,7 @@ namespace brume::spheres {
 namespace {
 
 constexpr std::uint64_t kColorStream = 17, kColorNoiseStream = 18;
-/// Of the palette, to both sides: neighbours of the same radius or height differ a little.
+/// Part of the palette to both sides: neighbours of the same radius or height differ a little.
 constexpr double kSpread = 0.08;
 /// Most gradient noise lies within +- this.
 constexpr double kNoiseRange = 0.55;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint32_t kNoNode = UINT32_MAX;
 
-// Of squared distances: more than all roundings of the comparison, so that spheres that pass do not overlap
-// in exact arithmetic either.
+// Factor of squared distances: further from 1 than all roundings of the comparison, so that spheres that pass
+// do not overlap in exact arithmetic either.
 constexpr double kSafe = 1 - 0x1p-40;
 
 double squared_distance(const glm::dvec3& a, const glm::vec3& b) {

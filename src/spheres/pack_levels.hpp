@@ -38,7 +38,7 @@ class PackLevels {
   };
   struct Level {
     double largest;  ///< Radius.
-    double edge;     ///< Of a cell.
+    double edge;     ///< Edge of a cell.
     glm::ivec3 cells;
     std::vector<std::uint32_t> heads;  ///< Last sphere inserted into each cell, or kNone.
     std::uint32_t count = 0;

@@ -30,24 +30,23 @@ enum class Coloring : std::uint32_t {
 struct PackOptions {
   glm::uvec3 size{600, 600, 200};  ///< As Tank::size.
   float voxel = 0.0025f;           ///< As Tank::voxel.
-  std::uint32_t count = 65535;     ///< Of spheres, at most kMostSpheres.
+  std::uint32_t count = 65535;     ///< Number of spheres, at most kMostSpheres.
   glm::vec2 radius{1.5f, 16};      ///< Least and largest [voxels]; 0 < x <= y, 2 * y <= each axis of `size`.
   float distribution = 3;          ///< Number of spheres ~ radius^-distribution, in [0, 8].
   Arrangement arrangement = Arrangement::largest_first;
   float noise_size = 120;  ///< Size of the features of noise [voxels], in [1, 65536].
   Coloring coloring = Coloring::random;
-  float opacity = 1;  ///< Of all spheres, [0, 1]; 1: opaque (Color).
+  float opacity = 1;  ///< Opacity of all spheres, [0, 1]; 1: opaque (Color).
   std::uint64_t seed = 0;
   /// Colours from the low to the high end of the palette's range (Color without opacity). Empty: white.
   std::vector<Color> palette;
 };
 
-/// The radii of spheres of a tank that says nothing of them: those of PackOptions, less in a small tank so
-/// that they fit.
+/// Radii of spheres where a tank gives none: as in PackOptions, less in a small tank so that they fit.
 glm::vec2 default_radius(const glm::uvec3& size);
 
-/// The number of spheres of a tank that says nothing of it: that of PackOptions, but at most as many as fill
-/// a third of the tank, and at least 1. From `size`, `radius` and `distribution`, which are in range.
+/// Number of spheres where a tank gives none: as in PackOptions, but at most as many as fill a third of the
+/// tank, and at least 1. From `size`, `radius` and `distribution`, which are in range.
 std::uint32_t default_count(const PackOptions& options);
 
 /// Fails with usage for options out of range; the message begins with the member's name.

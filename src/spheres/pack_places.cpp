@@ -71,7 +71,8 @@ class HighNoise final : public AnyPlace {
   }
 
  private:
-  static constexpr double kFirst = 0.2, kMost = 0.65;  // of the tank's volume: at the start and at the end
+  static constexpr double kFirst = 0.2,
+                          kMost = 0.65;  // part of the tank's volume at the start and at the end
   static constexpr double kSteps = 32, kDetail = 0.35;
   glm::dvec3 feature_of(const glm::vec3& at) const { return glm::dvec3(at) / double{options_.noise_size}; }
   double coarse(const glm::dvec3& at) const { return gradient_noise(seed_, at); }
@@ -98,13 +99,14 @@ constexpr unsigned kMostRefusals = 12;    // after which a tip ends
 /// Seeds have room for trunks between them: this many largest radii along both axes of the floor.
 constexpr double kSeedSpacing = 9;
 
-/// Of the tries at tips; the others start a twig at any sphere, mostly at the large ones, which come first.
+/// Part of the tries that are at tips; the others start a twig at any sphere, mostly at the large ones, which
+/// come first.
 constexpr double kAtTips = 0.6, kTwigPower = 3;
 
-/// Of the spheres, those that end a branch or twig.
+/// Part of the spheres that end a branch or twig.
 constexpr double kEnding = 0.12;
 
-/// Of the spheres, those that two grow from.
+/// Part of the spheres that two grow from.
 constexpr double kBranching = 0.22;
 
 glm::dvec3 random_direction(PackRandom& random) {
@@ -200,7 +202,7 @@ class Coral final : public PackPlaces {
   const PackOptions& options_;
   const PackLevels& spheres_;
   std::uint32_t seeds_ = 1;
-  std::vector<Growth> growth_;       ///< Of each sphere.
+  std::vector<Growth> growth_;       ///< How each sphere grew.
   std::vector<std::uint32_t> tips_;  ///< Spheres that grow.
   bool dirty_ = false;               ///< Whether some of them have ended.
 };

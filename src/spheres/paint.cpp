@@ -17,7 +17,7 @@ constexpr int kTileY = 32, kTileZ = 8;
 constexpr std::size_t kListGrain = 8192;  // spheres of a task
 
 struct TileGrid {
-  glm::ivec3 size;  // of the tank
+  glm::ivec3 size;  // size of the tank
   int y = 0, z = 0;
 
   explicit TileGrid(const glm::uvec3& tank_size)
@@ -40,7 +40,7 @@ struct TileGrid {
 
 // The spheres that may reach each tile, in any order.
 struct TileLists {
-  std::vector<std::uint32_t> firsts;  // of each tile in `spheres`, and the end
+  std::vector<std::uint32_t> firsts;  // where each tile begins in `spheres`, and the end
   std::vector<std::uint32_t> spheres;
 
   TileLists(const Tank& tank, const TileGrid& tiles) {
@@ -66,7 +66,7 @@ struct TileLists {
 // Voxels in memory, x fastest.
 struct VoxelBox {
   glm::ivec3 low, high;
-  Color* voxels;                   // of `low`
+  Color* voxels;                   // the voxel at `low`
   std::size_t row = 0, slice = 0;  // from one y and one z to the next
 
   Color* at(const glm::ivec3& voxel) const {

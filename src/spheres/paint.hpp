@@ -20,11 +20,11 @@ std::vector<Color> paint(const Tank& tank);
 struct PaintedBricks {
   glm::ivec3 bricks{0};  ///< Along each axis.
   std::vector<std::uint32_t>
-      slots;                  ///< Of each brick, x fastest, in `colors`; kNoSlot: no sphere touches it.
+      slots;                  ///< Place of each brick, x fastest, in `colors`; kNoSlot: no sphere touches it.
   std::vector<Color> colors;  ///< kSphereBrick^3 of each slot, x fastest.
 
   static constexpr std::uint32_t kNoSlot = UINT32_MAX;
-  /// Of a voxel of the tank.
+  /// The colour of a voxel of the tank.
   Color at(const glm::ivec3& voxel) const {
     constexpr int kEdge = shared::kSphereBrick;
     const glm::ivec3 brick = voxel / kEdge, in = voxel % kEdge;

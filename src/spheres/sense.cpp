@@ -16,7 +16,7 @@ constexpr std::size_t kRayGrain = 256;  // rays of a task
 Sensed sense_ray(const TankView& view, const glm::vec3& position_world, const glm::vec3& direction) {
   const double voxel = view.tank.voxel;
   const glm::vec3 origin(glm::dvec3(position_world) / voxel + 0.5 * glm::dvec3(view.tank.size));
-  const double length = glm::length(glm::dvec3(direction));  // of t = 1 [voxels]
+  const double length = glm::length(glm::dvec3(direction));  // what t = 1 is long [voxels]
   constexpr double kHalf = 0.6931471805599453;               // optical depth that takes half
   double depth = 0;                                          // optical depth so far
   double half_at = std::numeric_limits<double>::infinity();  // t

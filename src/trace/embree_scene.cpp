@@ -7,7 +7,7 @@ void EmbreeScene::note_error(void* self, RTCError error, const char*) {
 }
 
 Failure EmbreeScene::failure() const {
-  // Of a device that was not made, Embree keeps the error itself.
+  // Embree itself keeps the error of a device that was not made.
   switch (const RTCError error = device_ ? error_.load() : rtcGetDeviceError(nullptr)) {
     case RTC_ERROR_OUT_OF_MEMORY:
       return {ErrorCode::resource_limit, job_ + ": not enough memory for " + large_};

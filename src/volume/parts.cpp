@@ -34,6 +34,7 @@ Result<Parts> Parts::divide(const SparseVolume& volume, std::uint32_t count) {
 bool Parts::split(std::uint32_t number, std::span<glm::ivec3> bricks) {
   const Node node = nodes_[number];
   if (node.count == 1) return !bricks.empty();
+  // Longest axes first: cuts across them make the most compact parts.
   Box<int> box{bricks.front(), bricks.front() + 1};
   for (const glm::ivec3 brick : bricks) box = united(box, {brick, brick + 1});
   const glm::ivec3 size = box.high - box.low;
@@ -43,6 +44,7 @@ bool Parts::split(std::uint32_t number, std::span<glm::ivec3> bricks) {
   const std::uint32_t left = node.count / 2, right = node.count - left;
   const std::uint64_t wanted = bricks.size() * left / node.count;
   for (const int axis : axes) {
+    // The plane with the most even numbers of bricks that leaves enough for each side.
     std::vector<std::uint64_t> layers(static_cast<std::size_t>(size[axis]));
     for (const glm::ivec3 brick : bricks) ++layers[static_cast<std::size_t>(brick[axis] - box.low[axis])];
     std::uint64_t below = 0, best_below = 0;
@@ -55,6 +57,7 @@ bool Parts::split(std::uint32_t number, std::span<glm::ivec3> bricks) {
       best_below = below;
     }
     if (best == box.low[axis]) continue;
+    // Divide there. Where a side cannot be divided on, undo it and try the next axis.
     const auto middle =
         std::partition(bricks.begin(), bricks.end(), [&](glm::ivec3 brick) { return brick[axis] < best; });
     const auto count_below = static_cast<std::size_t>(middle - bricks.begin());

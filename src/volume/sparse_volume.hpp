@@ -41,7 +41,7 @@ struct SparseVolumeInfo {
   float voxel_size = 1;       ///< [m]
   std::vector<ChannelFormat> channels;
   std::uint32_t max_bricks = kMaxAtlasSlots;  ///< In [1, kMaxAtlasSlots].
-  glm::ivec3 atlas_bricks{0};                 ///< Of the atlas from the start: 0, or as of grown_atlas.
+  glm::ivec3 atlas_bricks{0};  ///< Size of the atlas from the start: 0, or as grown_atlas gives it.
 };
 
 /// A brick whose texels, apron included, are all this half float.
@@ -195,7 +195,7 @@ class SparseVolume {
   std::vector<Box<float>> extent_;  ///< Boxes of what this is a part of; empty: of nothing.
   PageTable pages_;
   std::vector<Slot> slots_;
-  std::set<std::uint32_t> free_slots_;  // those of slots_ that no brick has
+  std::set<std::uint32_t> free_slots_;  // slots that no brick has
   std::vector<Channel> channels_;
   std::vector<UniformBrick> uniform_bricks_;
   SlotSet dirty_bricks_;

@@ -209,7 +209,7 @@ void Level::paint(const Box<int>& voxels) {
   }
 }
 
-/// Of all grids.
+/// Fills the boxes of all grids.
 void Level::fill_boxes(const Box<int>& voxels, bool solid) {
   fill_box(grid_, voxels, solid);
   if (roles_.sight) fill_box(*roles_.sight, voxels, solid);

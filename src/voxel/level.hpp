@@ -25,7 +25,7 @@ struct LevelChange {
   Box<int> voxels, cells;
   BitGrid before;               ///< The content of `voxels` before the change; free elsewhere.
   SurfacePlanes planes;         ///< The planes of `cells` after the change; none elsewhere.
-  RoleGrids roles_before = {};  ///< Of `voxels`, as `before`.
+  RoleGrids roles_before = {};  ///< The roles in `voxels`, as `before`.
 };
 
 /// What a level is made of.

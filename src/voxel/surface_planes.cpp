@@ -307,7 +307,7 @@ struct SlabTriangles {
       for (int z = range[i].first; z <= range[i].second; ++z)
         triangles[next[static_cast<std::size_t>(z - low_z)]++] = static_cast<std::uint32_t>(i);
   }
-  std::span<const std::uint32_t> of(std::size_t slab) const {
+  std::span<const std::uint32_t> in_slab(std::size_t slab) const {
     return std::span(triangles).subspan(first[slab], first[slab + 1] - first[slab]);
   }
 };
@@ -343,7 +343,7 @@ SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const
     parallel_for(slabs.size(), grain, [&](std::size_t begin, std::size_t end) {
       SlabBuilder builder(triangles, grid, cells, cleared);
       for (std::size_t i = begin; i < end; ++i)
-        slabs[i] = builder.build(slab_triangles.of(i), cells.low.z + static_cast<int>(i));
+        slabs[i] = builder.build(slab_triangles.in_slab(i), cells.low.z + static_cast<int>(i));
       job.advance(end - begin);
     });
   }

@@ -206,6 +206,7 @@ std::vector<std::byte> encode(const Contents& contents, std::uint64_t key) {
   const GridLayout& layout = contents.grid.layout();
   const auto bricks = numbered_bricks(contents.grid);
   auto payload = encode_payload(bricks, contents.planes);
+  // Panes and grilles are where grids of what stops sight or bodies differ from the grid of smoke.
   const Solids solids(contents.grid, contents.roles);
   const BitGrid glass = without(solids.smoke, solids.sight), grilles = without(solids.bodies, solids.smoke);
   const auto glass_bricks = numbered_bricks(glass), grille_bricks = numbered_bricks(grilles);
@@ -213,6 +214,7 @@ std::vector<std::byte> encode(const Contents& contents, std::uint64_t key) {
   append_bricks(payload, grille_bricks);
   const RoleCounts roles{static_cast<std::uint32_t>(glass_bricks.size()),
                          static_cast<std::uint32_t>(grille_bricks.size())};
+  // Files without them keep the older version, which older programs read.
   const std::uint32_t version = roles.glass + roles.grilles > 0 ? kRolesVersion : kVersion;
   const std::size_t head = head_bytes(version);
   Header header{kMagic,
@@ -226,6 +228,7 @@ std::vector<std::byte> encode(const Contents& contents, std::uint64_t key) {
                 static_cast<std::uint32_t>(contents.planes.cell_count()),
                 contents.planes.plane_count(),
                 0};
+  // Compress behind the head, then fill it in.
   std::vector<std::byte> bytes(head + ZSTD_compressBound(payload.size()));
   const std::size_t compressed = ZSTD_compress(bytes.data() + head, bytes.size() - head, payload.data(),
                                                payload.size(), kCompressionLevel);
@@ -235,6 +238,7 @@ std::vector<std::byte> encode(const Contents& contents, std::uint64_t key) {
   std::memcpy(bytes.data(), &header, sizeof header);
   if (head > sizeof header) std::memcpy(bytes.data() + sizeof header, &roles, sizeof roles);
   bytes.resize(head + compressed);
+  // The checksum covers all before it.
   const std::uint64_t checksum = hash_bytes(bytes);
   append(bytes, std::span(&checksum, 1));
   return bytes;

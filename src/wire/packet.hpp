@@ -17,8 +17,8 @@
 
 namespace brume::wire {
 
-/// Of packets, event logs and replays, and of the rules that states follow: programs of other versions would
-/// not agree.
+/// Version of packets, event logs and replays, and of the rules that states follow: programs of other
+/// versions would not agree.
 constexpr std::uint8_t kVersion = 3;
 
 /// Largest tick that can be sent: about a year at 64 ticks per second.

@@ -101,7 +101,7 @@ std::uint64_t Encoder::number(NumberModel& model, std::uint64_t number) {
 }
 
 std::vector<std::byte> Encoder::finish() {
-  // Of all values that decode correctly, choose the one with the most trailing zeros.
+  // Choose, among all values that decode correctly, the one with the most trailing zeros.
   const std::uint64_t last = low_ + range_ - 1;
   for (int zeros = 32; zeros >= 0; zeros -= 8) {
     const std::uint64_t value = last >> zeros << zeros;

@@ -22,7 +22,7 @@ struct Replay {
   sim::WorldSettings settings;
   std::vector<sim::Event> events;
   std::vector<std::uint32_t> checksums;  ///< checksum_of the states of tick 0, 1, 2, ...
-  voxel::RoleGrids roles = {};           ///< Of the level.
+  voxel::RoleGrids roles = {};           ///< What the level's voxels stop.
 };
 
 /// A replay of this world from its first tick, still without checksums.

@@ -36,7 +36,7 @@ class Sender {
  private:
   SenderSettings settings_;
   std::deque<sim::State> history_;   // sorted by tick
-  std::vector<std::byte> keyframe_;  // of the last state; empty: not created yet
+  std::vector<std::byte> keyframe_;  // the last state's; empty: not created yet
 };
 
 }  // namespace brume::wire
