@@ -185,13 +185,13 @@ void save_atlas(const AtlasTarget& target, std::vector<grids::DenseGrid> channel
   write_file_atomic(target.godot_import, godot_import_text(target, image)).value_or_throw();
 }
 
-std::string text_of(const grids::SliceLayout& layout) {
+std::string to_text(const grids::SliceLayout& layout) {
   const glm::uvec2 image = layout.image_size(), tile = layout.tile();
   const auto size = [](glm::uvec2 s) { return std::to_string(s.x) + "x" + std::to_string(s.y); };
   return size(image) + " texels: " + std::to_string(layout.tiles()) + " tiles of " + size(tile);
 }
 
-Json json_of(const AtlasTarget& target) {
+Json to_json(const AtlasTarget& target) {
   const grids::SliceLayout& layout = target.layout;
   const glm::uvec2 image = layout.image_size(), tile = layout.tile();
   return {{"output", target.json.string()},

@@ -55,8 +55,8 @@ void save_atlas(const AtlasTarget& target, std::vector<grids::DenseGrid> channel
                 const glm::dmat4& world_from_box = glm::dmat4(1));
 
 /// "2048x64 texels: 32 tiles of 64x64".
-std::string text_of(const grids::SliceLayout& layout);
+std::string to_text(const grids::SliceLayout& layout);
 /// The same for --json.
-Json json_of(const AtlasTarget& target);
+Json to_json(const AtlasTarget& target);
 
 }  // namespace brume::cli

@@ -46,7 +46,7 @@ void refuse_idle_options(const BakeOptions& options, const Arguments& arguments)
 
 // The displacement of a pyroclastic cloud rarely exceeds its amplitude: a quarter of the cube leaves room for
 // it.
-grids::CloudSettings settings_of(const BakeOptions& options) {
+grids::CloudSettings make_settings(const BakeOptions& options) {
   grids::CloudSettings cloud = options.cloud;
   const auto shape = std::find(kShapes.begin(), kShapes.end(), options.shape) - kShapes.begin();
   cloud.kind = static_cast<grids::CloudKind>(shape);
@@ -99,7 +99,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
   refuse_idle_options(options, arguments);
   expect_suffix("-o", options.output, {".brv", ".vdb", ".nvdb", ".png"});
   // Declare all outputs before any work.
-  const grids::CloudSettings settings = settings_of(options);
+  const grids::CloudSettings settings = make_settings(options);
   const bool is_atlas = kind_of(options.output) == FileKind::png;
   std::optional<AtlasTarget> atlas;
   if (is_atlas)

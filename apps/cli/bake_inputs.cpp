@@ -21,7 +21,7 @@ std::optional<glm::uvec3> parse_voxels(const std::string& text) {
 
 std::optional<Box<double>> parse_box(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  const auto points = points_of(text);
+  const auto points = parse_points(text);
   if (points.size() != 2)
     throw Error(ErrorCode::usage, "--box '" + text + "': expected two corners, such as \"-1,0,-1 1,2,1\"");
   const Box<double> box{glm::dvec3(parse_point("--box", points[0])),
@@ -67,7 +67,7 @@ Box<double> bounds_of(std::span<const voxel::Triangle> triangles) {
   return bounds;
 }
 
-Json json_of(const Box<double>& box) {
+Json to_json(const Box<double>& box) {
   const auto point = [](const glm::dvec3& p) { return Json::list({p.x, p.y, p.z}); };
   return {{"low", point(box.low)}, {"high", point(box.high)}};
 }

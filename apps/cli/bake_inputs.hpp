@@ -32,6 +32,6 @@ std::vector<voxel::Triangle> triangles_of_object(const scene::Scene& scene, cons
 Box<double> bounds_of(std::span<const voxel::Triangle> triangles);
 
 /// {"low": [x, y, z], "high": [x, y, z]}
-Json json_of(const Box<double>& box);
+Json to_json(const Box<double>& box);
 
 }  // namespace brume::cli

@@ -57,7 +57,7 @@ struct Targets {
   std::optional<AtlasTarget> up, down;
 };
 
-Targets targets_of(const OcclusionBake& bake, glm::uvec3 size, Outputs& outputs) {
+Targets make_targets(const OcclusionBake& bake, glm::uvec3 size, Outputs& outputs) {
   const auto target = [&](const std::string& suffix) {
     AtlasOptions options = bake.atlas;
     std::filesystem::path path = options.output;
@@ -87,7 +87,7 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   expect_suffix("", bake.input, {".glb", ".gltf", ".obj", ".txt"});
   outputs.reads(std::filesystem::path(bake.input));
   const auto given_box = parse_box(bake.box);
-  const Targets targets = targets_of(bake, *parse_voxels(bake.size), outputs);
+  const Targets targets = make_targets(bake, *parse_voxels(bake.size), outputs);
   outputs.writes("--json", bake.json, FileKind::json);
 
   // Read the meshes.
@@ -109,8 +109,8 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   const double seconds = watch.seconds();
   if (!bake.json.empty()) {
     Json json{{"input", bake.input}, {"triangles", triangles.size()}, {"rays", bake.options.rays}};
-    json.update(json_of(targets.combined));
-    json.set("box", json_of(bake.options.box));
+    json.update(to_json(targets.combined));
+    json.set("box", to_json(bake.options.box));
     json.set("milliseconds", 1000 * seconds);
     write_json(bake.json, json);
   }
@@ -118,7 +118,7 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   char text[80];
   std::snprintf(text, sizeof text, " of %zu triangles, %u rays each way, in %.3g s\n", triangles.size(),
                 bake.options.rays, seconds);
-  print(text_of(targets.combined.layout) + text);
+  print(to_text(targets.combined.layout) + text);
 }
 
 void add_bake_options(const Arguments& arguments, OcclusionBake& bake) {

@@ -268,12 +268,12 @@ SequenceBake measure_sequence(const SliceOptions& options) {
   return all;
 }
 
-std::vector<std::string> texts_of(const SequenceBake& sequence) {
+std::vector<std::string> to_texts(const SequenceBake& sequence) {
   std::vector<std::string> texts;
   for (const grids::AtlasRange& range : sequence.ranges)
     texts.push_back(Json(range.low).text() + " " + Json(range.high).text());
   if (sequence.box) {
-    texts.push_back(json_of(sequence.box->box).text());
+    texts.push_back(to_json(sequence.box->box).text());
     for (int axis = 0; axis < 3; ++axis) texts.push_back(std::to_string(sequence.box->size[axis]));
   }
   return texts;
@@ -316,16 +316,16 @@ void bake_slices(const SliceOptions& options, const SequenceBake* sequence, Outp
   const double seconds = watch.seconds();
   if (!options.json.empty()) {
     Json json{{"input", options.input}};
-    json.update(json_of(baked.target));
+    json.update(to_json(baked.target));
     json.set("channels", baked.channels);
-    json.set("box", json_of(baked.box));
+    json.set("box", to_json(baked.box));
     json.set("milliseconds", 1000 * seconds);
     write_json(options.json, json);
   }
   if (options.json == "-") return;
   char text[40];
   std::snprintf(text, sizeof text, ", in %.3g s\n", seconds);
-  print(text_of(baked.target.layout) + text);
+  print(to_text(baked.target.layout) + text);
 }
 
 }  // namespace
@@ -379,7 +379,7 @@ Command add_bake_slices(CommandLine& program) {
                .device = {},
                .beside = {kAtlasDescription},
                .holds_missing = true,
-               .depends_on = sequence ? texts_of(*sequence) : std::vector<std::string>()},
+               .depends_on = sequence ? to_texts(*sequence) : std::vector<std::string>()},
               [&](const Unit& unit, Outputs& outputs) {
                 SliceOptions one = *options;
                 one.input = unit.input;

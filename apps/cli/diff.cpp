@@ -66,7 +66,7 @@ std::optional<std::string> failure_of(const DiffOptions& options, const Comparis
   return std::nullopt;
 }
 
-Json json_of(const DiffOptions& options, const image::Image8& picture, const Comparison& c) {
+Json to_json(const DiffOptions& options, const image::Image8& picture, const Comparison& c) {
   // The PSNR of equal images is infinite, which JSON cannot express.
   return {{"reference", options.reference},
           {"test", options.test},
@@ -81,7 +81,7 @@ Json json_of(const DiffOptions& options, const image::Image8& picture, const Com
           {"passed", !failure_of(options, c)}};
 }
 
-std::string text_of(const Comparison& c) {
+std::string to_text(const Comparison& c) {
   return "max    " + number(c.colours.max) + " of 255\nmean   " + number(c.colours.mean) + "\nrmse   " +
          number(c.colours.rmse) + "\nalpha  " + number(c.alpha_max) + " maximum\npsnr   " + number(c.psnr) +
          " dB\nssim   " + number(c.ssim) + "\nflip   " + number(c.flip) + "\n";
@@ -103,8 +103,8 @@ void diff(const DiffOptions& options, Outputs& outputs) {
   stop_if_interrupted();
   if (!options.map.empty())
     image::save_png(options.map, image::heat_map(comparison.flip_map)).value_or_throw();
-  if (!options.json.empty()) write_json(options.json, json_of(options, reference, comparison));
-  if (options.json != "-") print(text_of(comparison));
+  if (!options.json.empty()) write_json(options.json, to_json(options, reference, comparison));
+  if (options.json != "-") print(to_text(comparison));
   if (const auto failure = failure_of(options, comparison))
     throw Error(ErrorCode::comparison_failed, *failure);
 }

@@ -47,7 +47,7 @@ std::vector<TileTime> times_of(const FlipbookJob& job) {
 Texels drawn(FrameSource& frames, const TileTime& at, std::uint32_t gutter) {
   stop_if_interrupted();
   return image::with_gutter(
-      image::texels_of(std::get<image::LayeredImage>(frames.draw(at.seconds, at.frame))), gutter);
+      image::to_texels(std::get<image::LayeredImage>(frames.draw(at.seconds, at.frame))), gutter);
 }
 
 /// Where something is seen of a picture: from the low to the high corner, in parts of it from -1 to 1, x
@@ -194,7 +194,7 @@ Json size_json(glm::uvec2 size) {
 }
 
 /// How large the sprite of a tile is where the camera looks [m].
-Json sprite_of(const FlipbookJob& job) {
+Json make_sprite(const FlipbookJob& job) {
   const image::FlipbookLayout& layout = job.plan.layout;
   const double distance = glm::distance(job.camera.position_world, job.camera.target_world);
   const double metre = 2 * distance * std::tan(0.5 * double{job.camera.vertical_fov}) / layout.picture_px().y;
@@ -224,7 +224,7 @@ Json description_of(const FlipbookJob& job, const std::vector<TileTime>& times) 
           {"frames", frames},
           {"seconds", seconds},
           {"tiles_per_second", last > 0 ? (plan.layout.tiles() - 1) / last : 0.0},
-          {"sprite_size", sprite_of(job)}};
+          {"sprite_size", make_sprite(job)}};
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ void save_colors(const FlipbookPlan& plan, const FlipbookSheets& sheets) {
   colors = plan.is_straight ? image::displayed_straight(colors, sheets.display)
                             : image::displayed(colors, sheets.display);
   if (plan.is_straight) fill_tiles(plan.layout, colors);
-  image::save_png(plan.output, image::colors_of(colors)).value_or_throw();
+  image::save_png(plan.output, image::to_colors(colors)).value_or_throw();
 }
 
 /// Three sides of light as R, G and B.
@@ -148,7 +148,7 @@ void save_emission(const FlipbookPlan& plan, const FlipbookSheets& sheets) {
   if (is_exr(plan))
     save_numbers(file, map);
   else
-    image::save_png(file, image::colors_of(map)).value_or_throw();
+    image::save_png(file, image::to_colors(map)).value_or_throw();
 }
 
 double save_motion(const FlipbookPlan& plan, const FlipbookSheets& sheets) {

@@ -83,7 +83,7 @@ struct Choices {
   bool check = false, objects = false;
 };
 
-Summary summary_of(const std::filesystem::path& path, const Choices& choices, Outputs& outputs) {
+Summary summarize(const std::filesystem::path& path, const Choices& choices, Outputs& outputs) {
   expect_suffix("", path,
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
                  ".png", ".exr", ".jpg", ".jpeg", ".webp", ".spheres"});
@@ -132,7 +132,7 @@ Command add_info(CommandLine& program) {
       common->outputs.reads(scenario::files_of_tank_input(options->input));
     common->outputs.writes("--json", options->json, FileKind::json);
     // The same facts as JSON and as text.
-    const Summary summary = summary_of(options->input, options->choices, common->outputs);
+    const Summary summary = summarize(options->input, options->choices, common->outputs);
     if (!options->json.empty()) {
       Json info{{"file", options->input}};
       info.update(summary.json());

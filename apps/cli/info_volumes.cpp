@@ -112,7 +112,7 @@ Box<double> in_world(const Grid& grid, const Box<double>& box) {
 
 Json metadata_json(const std::vector<grids::Metadata>& metadata) {
   Json json = Json::object();
-  for (const grids::Metadata& entry : metadata) json.set(entry.name, text_of(entry));
+  for (const grids::Metadata& entry : metadata) json.set(entry.name, to_text(entry));
   return json;
 }
 
@@ -191,7 +191,7 @@ Json add_grid(Summary& summary, const Grid& grid) {
   // Without the statistics of the file, which the lines above give.
   for (const grids::Metadata& entry : grid.metadata)
     if (entry.name.rfind("file_", 0) != 0)
-      summary.add_line("  " + printable(entry.name), printable(text_of(entry)));
+      summary.add_line("  " + printable(entry.name), printable(to_text(entry)));
   summary.add_line("  memory", format("%.1f MiB", static_cast<double>(memory_of(grid)) / (1 << 20)));
 
   // As JSON.
@@ -224,11 +224,11 @@ Summary volume_summary(const std::filesystem::path& path, Outputs& outputs) {
   const grids::GridFile file = load_volumes(path, outputs);
   Summary summary("volumes");
   if (const auto layout = atlas_layout(path)) {
-    summary.add("slices", text_of(*layout) + " in " + std::to_string(layout->rows()) +
+    summary.add("slices", to_text(*layout) + " in " + std::to_string(layout->rows()) +
                               (layout->rows() == 1 ? " row" : " rows") + ", padding " +
                               std::to_string(layout->padding));
-    summary.add("axes", grids::text_of(layout->axes),
-                grids::text_of(layout->axes) + " (right, down, next tile)");
+    summary.add("axes", grids::to_text(layout->axes),
+                grids::to_text(layout->axes) + " (right, down, next tile)");
   }
   Json list = Json::list({});
   for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));

@@ -55,7 +55,7 @@ bool has_colors() {
          std::string_view(terminal) != "dumb";
 }
 
-std::string swatch_of(const palettes::Palette& palette) {
+std::string make_swatch(const palettes::Palette& palette) {
   const palettes::Space space =
       palette.kind == palettes::Kind::qualitative ? palettes::Space::nearest : palettes::Space::oklab;
   std::string text;
@@ -74,10 +74,10 @@ std::string line_of(const palettes::Palette& palette, bool colored) {
   std::snprintf(text, sizeof text, "%-36s %5zu  ", name.c_str(), palette.colors.size());
   std::string line = text + printable(palette.collection);
   line.erase(line.find_last_not_of(' ') + 1);
-  return (colored ? swatch_of(palette) : "") + line + "\n";
+  return (colored ? make_swatch(palette) : "") + line + "\n";
 }
 
-Json json_of(const palettes::Palette& palette) {
+Json to_json(const palettes::Palette& palette) {
   Json colors = Json::list({});
   for (const glm::u8vec3& c : palette.colors) {
     char text[8];
@@ -134,7 +134,7 @@ void list_palettes(const PaletteOptions& options, Outputs& outputs) {
     image::save_png(options.sheet, palette_sheet(all, found).value_or_throw()).value_or_throw();
   if (!options.json.empty()) {
     Json list = Json::list({});
-    for (const std::uint32_t i : found) list.push_back(json_of(all[i]));
+    for (const std::uint32_t i : found) list.push_back(to_json(all[i]));
     write_json(options.json, {{"found", count}, {"palettes", list}});
   }
   if (options.json == "-") return;

@@ -5,6 +5,7 @@
 #include "apps/cli/coverage.hpp"
 #include "apps/cli/query_sense.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/cli/summary.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/parse.hpp"
@@ -25,10 +26,6 @@ struct QueryOptions {
   unsigned shots = 0;
   bool report = false, drawn = false;
 };
-
-Json point(glm::vec3 p) {
-  return Json::list({p.x, p.y, p.z});
-}
 
 std::string number(const char* format, double value) {
   char text[64];
@@ -102,8 +99,8 @@ void print_sample(const QueryOptions& options, const scenario::Scenario& scenari
     write_json(options.json, {{"timeline", options.timeline},
                               {"time", options.time},
                               {"tick", simulation->world().tick()},
-                              {"from", point(line.from_world)},
-                              {"to", point(line.to_world)},
+                              {"from", point_json(line.from_world)},
+                              {"to", point_json(line.to_world)},
                               {"threshold", line.threshold},
                               {"extinction", scenario.timeline.smoke.extinction},
                               {"drawn", line.drawn},
@@ -188,8 +185,8 @@ void report_coverage(const QueryOptions& options, const scenario::Scenario& scen
   if (!options.json.empty()) {
     Json report{{"timeline", options.timeline},
                 {"times", Json::list({times.begin, times.end})},
-                {"from", point(line.from_world)},
-                {"to", point(line.to_world)},
+                {"from", point_json(line.from_world)},
+                {"to", point_json(line.to_world)},
                 {"threshold", line.threshold},
                 {"extinction", scenario.timeline.smoke.extinction},
                 {"drawn", line.drawn}};

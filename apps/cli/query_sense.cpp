@@ -8,6 +8,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/summary.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/parse.hpp"
@@ -86,15 +87,11 @@ void save_picture(const fs::path& path, const glm::uvec2& size, const std::vecto
   image::save_png(path, picture).value_or_throw();
 }
 
-Json point_of(const glm::vec3& p) {
-  return Json::list({p.x, p.y, p.z});
-}
-
 /// Lists every ray, rows from the top.
 void list_rays(Json& report, const std::vector<Sensed>& seen) {
   Json colors = Json::list({}), opacities = Json::list({}), depths = Json::list({});
   for (const Sensed& one : seen) {
-    colors.push_back(point_of(one.color));
+    colors.push_back(point_json(one.color));
     opacities.push_back(one.opacity);
     depths.push_back(std::isfinite(one.depth) ? Json(one.depth) : Json(nullptr));
   }
@@ -165,8 +162,8 @@ void sense_tank(const SenseOptions& options, Outputs& outputs) {
   if (!options.output.empty()) save_picture(options.output, eye.size, seen);
   if (!options.json.empty()) {
     Json report{{"tank", options.input},
-                {"from", point_of(eye.position_world)},
-                {"to", point_of(eye.target_world)},
+                {"from", point_json(eye.position_world)},
+                {"to", point_json(eye.target_world)},
                 {"size", Json::list({eye.size.x, eye.size.y})},
                 {"rays_per_second", static_cast<double>(seen.size()) / seconds}};
     if (!options.output.empty()) report.set("output", options.output);

@@ -85,7 +85,7 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
       .type_name("FILE");
 }
 
-std::vector<std::string> texts_of(const ReferenceOptions& options) {
+std::vector<std::string> to_texts(const ReferenceOptions& options) {
   const auto text = [](const auto& number) {
     return number ? exact_text(static_cast<double>(*number)) : std::string();
   };
@@ -207,7 +207,7 @@ Picture ReferenceFrames::draw(double seconds) {
   seconds_ += watch.seconds();
   cpu_seconds_ += watch.cpu_seconds();
   display_ = {frame.view.exposure, static_cast<std::uint32_t>(frame.view.tone)};
-  if (settings_.layers) return picture_of(render.layers(), *settings_.layers, display_);
+  if (settings_.layers) return to_picture(render.layers(), *settings_.layers, display_);
   return reference::picture_of(render, settings_.size_px, frame.view);
 }
 

@@ -25,7 +25,7 @@ struct ReferenceOptions {
 void declare_reference(const Arguments& arguments, ReferenceOptions& options);
 
 /// All that the options say about the pictures, for a key of what depends on them.
-std::vector<std::string> texts_of(const ReferenceOptions& options);
+std::vector<std::string> to_texts(const ReferenceOptions& options);
 
 /// Adds samples to a picture until the limits of the options, with progress. Saves and continues the
 /// checkpoint, whose key is `key`. `samples` comes from the render's settings; `spent` is the part of

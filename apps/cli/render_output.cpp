@@ -61,7 +61,7 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
   if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
 
   std::vector<std::string> settings{size, march, camera, view, slice, fps, raycast, mode, background};
-  for (const auto& more : {texts_of(scene_options), texts_of(reference)})
+  for (const auto& more : {to_texts(scene_options), to_texts(reference)})
     settings.insert(settings.end(), more.begin(), more.end());
   for (const double number : {double{step}, double{light_update_fraction}, double{resolve_error_scale},
                               orbit.value_or(0), shutter.value_or(-1)})
@@ -75,7 +75,7 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
 }
 
 std::uint64_t checkpoint_key(const UnitKey& key) {
-  const std::string text = text_of(key, 0);
+  const std::string text = to_text(key, 0);
   return hash_bytes(std::as_bytes(std::span(text)));
 }
 

@@ -24,7 +24,7 @@ std::optional<float> as_float(const std::optional<double>& value) {
 
 /// "FROM TO": two points.
 scene::SmokeEvent parse_throw(const std::string& text) {
-  const auto points = points_of(text);
+  const auto points = parse_points(text);
   if (points.size() != 2)
     throw Error(ErrorCode::usage, "--throw '" + text + "': expected two points, such as \"0,1.7,8 0,0,-2\"");
   return {0, parse_event_point("--throw", points[0]), parse_event_point("--throw", points[1])};
@@ -235,7 +235,7 @@ void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes)
       .type_name("MIB");
 }
 
-std::vector<std::string> texts_of(const SceneOptions& options) {
+std::vector<std::string> to_texts(const SceneOptions& options) {
   std::vector<std::string> texts = options.smokes;
   texts.push_back("throws");
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());

@@ -31,7 +31,7 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options);
 void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes);
 
 /// All that the options say, for a key of what depends on them.
-std::vector<std::string> texts_of(const SceneOptions& options);
+std::vector<std::string> to_texts(const SceneOptions& options);
 
 /// Checks the options' values. Throws Error (usage).
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options);

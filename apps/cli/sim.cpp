@@ -115,7 +115,7 @@ void extend_to_frames(const SimOptions& options, const scene::Timeline& timeline
   schedule.ticks = last + 1;
 }
 
-Schedule schedule_of(const SimOptions& options, const scene::Timeline& timeline) {
+Schedule make_schedule(const SimOptions& options, const scene::Timeline& timeline) {
   Schedule schedule;
   schedule.rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
   schedule.frame_rate = parse_rate("--fps", options.fps);
@@ -267,13 +267,13 @@ void simulate(const SimOptions& options, Outputs& outputs) {
       load_with_options(options.timeline, "", parse_scene_options(options.scene));
   outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
-  const Schedule schedule = schedule_of(options, scenario.timeline);
+  const Schedule schedule = make_schedule(options, scenario.timeline);
   VolumeFiles volumes(options, scenario, schedule, outputs);
   const std::vector<sim::Event> events = scenario::events_of(scenario, schedule.rate).value_or_throw();
 
   // Simulate. A recording holds the level, the events and a checksum of each tick.
   const sim::WorldSettings settings{schedule.rate, scenario.masks.key()};
-  wire::Replay replay = wire::replay_of(scenario.voxels.solids(), settings, events);
+  wire::Replay replay = wire::make_replay(scenario.voxels.solids(), settings, events);
   sim::World world(scenario.voxels.solids(), settings);
   world.append(events).value_or_throw();
   const Json smokes = report_timeline(scenario, scenario::report_smokes(scenario, world));

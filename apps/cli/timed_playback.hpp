@@ -20,7 +20,7 @@ class TimedPlayback {
     return timed([&]() -> Picture {
       if (!form) return playback_.draw(seconds, frame_index);
       image::LayeredImage layers = playback_.draw_layers(seconds, frame_index);
-      return picture_of(std::move(layers), *form, playback_.display());
+      return to_picture(std::move(layers), *form, playback_.display());
     });
   }
   Json statistics() const {

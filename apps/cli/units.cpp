@@ -36,7 +36,7 @@ std::string line_of(const char* kind, const fs::path& file, const std::string& n
 }
 
 void save_key(const Unit& unit, const UnitKey& key, const Outputs& outputs) {
-  std::string text = std::string(kKeyMagic) + "\n" + text_of(key, *unit.number) + "\n";
+  std::string text = std::string(kKeyMagic) + "\n" + to_text(key, *unit.number) + "\n";
   for (const fs::path& file : outputs.files_read()) text += line_of("input", file, file.string());
   for (const fs::path& file : outputs.files_written())
     if (file != key_path(unit.output)) text += line_of("output", file, file.filename().string());

@@ -10,13 +10,13 @@
 namespace brume::cli {
 namespace {
 
-std::string text_of(double value) {
+std::string to_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.10g", value);
   return text;
 }
 
-std::optional<double> decimal_of(std::string_view text) {
+std::optional<double> to_decimal(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('+') || text.empty()) return std::nullopt;
   double value = 0;
@@ -29,8 +29,8 @@ std::optional<double> decimal_of(std::string_view text) {
 
 std::optional<double> number_of(std::string_view text) {
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return decimal_of(text);
-  const auto above = decimal_of(text.substr(0, slash)), below = decimal_of(text.substr(slash + 1));
+  if (slash == std::string_view::npos) return to_decimal(text);
+  const auto above = to_decimal(text.substr(0, slash)), below = to_decimal(text.substr(slash + 1));
   if (!above || !below || !std::isfinite(*above / *below)) return std::nullopt;
   return *above / *below;
 }
@@ -41,8 +41,8 @@ std::optional<double> checked_number(std::string_view text, const NumberRange& r
   if (kind && *value >= range.low && *value <= range.high) return value;
   fault = range.whole ? "expected a whole number" : "expected a number";
   const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
-  if (low && high) fault += " from " + text_of(range.low) + " to " + text_of(range.high);
-  if (low && !high) fault += " of at least " + text_of(range.low);
+  if (low && high) fault += " from " + to_text(range.low) + " to " + to_text(range.high);
+  if (low && !high) fault += " of at least " + to_text(range.low);
   fault += ", found '" + std::string(text) + "'";
   return std::nullopt;
 }

@@ -79,7 +79,7 @@ glm::ivec3 parse_grid(const std::string& option, const std::string& text) {
   refuse(option, text, "voxels along x, y and z, such as 120x20x120");
 }
 
-std::vector<std::string> points_of(const std::string& text) {
+std::vector<std::string> parse_points(const std::string& text) {
   std::vector<std::string> points;
   bool joined = false;  // The next word belongs to the last point.
   std::istringstream words(text);
@@ -99,7 +99,7 @@ std::vector<std::string> points_of(const std::string& text) {
 
 std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
   std::string joined;
-  for (const std::string& part : points_of(text)) joined += (joined.empty() ? "" : " ") + part;
+  for (const std::string& part : parse_points(text)) joined += (joined.empty() ? "" : " ") + part;
   std::vector<double> values;
   for (const std::string_view part : split(joined, ',')) {
     const auto value = number_of(part);
@@ -123,7 +123,7 @@ glm::vec3 parse_event_point(const std::string& option, const std::string& text) 
 
 scene::Camera parse_camera(const std::string& option, const std::string& text) {
   constexpr double kDefaultFov = 60;
-  const auto parts = points_of(text);
+  const auto parts = parse_points(text);
   if (parts.size() == 2 || parts.size() == 3) {
     const auto position = point(parts[0]), target = point(parts[1]);
     const auto degrees = parts.size() == 3 ? number_of(parts[2]) : kDefaultFov;

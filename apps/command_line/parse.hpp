@@ -25,7 +25,7 @@ std::optional<std::vector<double>> parse_numbers(const std::string& text, std::s
 
 /// The texts of a list of points and numbers with blanks between them: "0,1,5", "0,1, 0" and "60" of
 /// "0,1,5  0,1, 0 60". A comma after a point does not count.
-std::vector<std::string> points_of(const std::string& text);
+std::vector<std::string> parse_points(const std::string& text);
 
 /// "-30,0,2.5": three finite numbers.
 glm::vec3 parse_point(const std::string& option, const std::string& text);

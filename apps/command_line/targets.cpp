@@ -22,7 +22,7 @@ namespace brume::cli {
 namespace {
 
 image::ImageText frame_text(const UnitKey& key, std::uint32_t frame) {
-  return {kFrameKeyword, text_of(key, frame)};
+  return {kFrameKeyword, to_text(key, frame)};
 }
 
 // Its text of a key; nothing: it has none or is no image.
@@ -69,10 +69,10 @@ std::string reason_of(const SequenceSettings& settings, std::uint32_t frame) {
 
 }  // namespace
 
-Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display) {
+Picture to_picture(image::LayeredImage layers, const LayerForm& form, const image::Display& display) {
   image::set_background(layers, form.background);
   if (form.as_layers) return layers;
-  return image::colors_of(image::displayed_straight(image::texels_of(layers), display));
+  return image::to_colors(image::displayed_straight(image::to_texels(layers), display));
 }
 
 TargetKind target_kind(const std::filesystem::path& path) {

@@ -35,7 +35,7 @@ struct LayerForm {
   bool as_layers = false;  ///< Numbers; otherwise colours with alpha, as Background::none leaves them.
   image::Background background = image::Background::layer;
 };
-Picture picture_of(image::LayeredImage layers, const LayerForm& form, const image::Display& display);
+Picture to_picture(image::LayeredImage layers, const LayerForm& form, const image::Display& display);
 
 /// Writes a picture in the format of its kind. Throws Error.
 void save_picture(const std::filesystem::path& path, const Picture& picture,
@@ -64,7 +64,7 @@ struct SequenceSettings {
   bool is_shard = false;              ///< Others write the frames before and after these.
 };
 
-/// The text of a frame that carries its key (text_of), in a PNG or an OpenEXR file.
+/// The text of a frame that carries its key (to_text), in a PNG or an OpenEXR file.
 inline constexpr const char* kFrameKeyword = "Brume frame";
 
 /// Draws the frames and writes each as a file, with progress. A frame carries its key. With `resume` those of

@@ -26,7 +26,7 @@ std::array<Part, 4> parts_of(const UnitKey& key) {
 
 }  // namespace
 
-std::string text_of(const UnitKey& key, std::uint32_t unit) {
+std::string to_text(const UnitKey& key, std::uint32_t unit) {
   std::string text = std::to_string(unit);
   for (const auto& [name, hash] : parts_of(key))
     if (!hash->empty()) text += std::string(" ") + name + ":" + *hash;
@@ -34,7 +34,7 @@ std::string text_of(const UnitKey& key, std::uint32_t unit) {
 }
 
 std::string difference(const std::string& text, const UnitKey& key, std::uint32_t unit) {
-  if (text == text_of(key, unit)) return "";
+  if (text == to_text(key, unit)) return "";
   std::istringstream words(text);
   std::string number, word;
   words >> number;

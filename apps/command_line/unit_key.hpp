@@ -18,7 +18,7 @@ struct UnitKey {
 };
 
 /// "12 inputs:HEX settings:HEX device:HEX program:HEX".
-std::string text_of(const UnitKey& key, std::uint32_t unit);
+std::string to_text(const UnitKey& key, std::uint32_t unit);
 
 /// How the text that an output carries differs from that of this unit: "of other settings"; empty: not at
 /// all.

@@ -90,7 +90,7 @@ std::vector<std::uint64_t> offsets_of_packed_leaves(View grid, std::uint64_t off
 }
 
 template <typename T>
-Value value_of(const T& from) {
+Value to_value(const T& from) {
   // As bytes: a boolean of a damaged file may be any number.
   Value value{};
   std::memcpy(value.data(), &from, sizeof from);
@@ -115,7 +115,7 @@ class TreeReader {
       : bytes_(bytes), grid_(grid), tree_(tree_of(bytes)), root_(root_of(bytes)) {}
 
   void read(const grids::GridLimits& limits, std::uint64_t& used) {
-    if constexpr (!kMask) grid_.background = value_of(root_.mBackground);
+    if constexpr (!kMask) grid_.background = to_value(root_.mBackground);
     read_nodes();
     check_checksum();
     const std::size_t brick_bytes = kBrickVoxels * grids::bytes_of(grid_.type);
@@ -167,7 +167,7 @@ class TreeReader {
 
   template <typename T>
   void add_tile(ivec3 origin, int edge, bool active, const T& from) {
-    const Value value = kMask ? Value{} : value_of(from);
+    const Value value = kMask ? Value{} : to_value(from);
     if (active) active_ += std::uint64_t(edge) * std::uint64_t(edge) * std::uint64_t(edge);
     if (active || value != grid_.background)
       grid_.tiles.push_back({origin, static_cast<std::uint32_t>(edge), active, value});
@@ -328,7 +328,7 @@ void read_blind_data(View bytes, const nanovdb::GridData& head, Grid& grid,
   }
 }
 
-GridClass class_of(nanovdb::GridClass grid_class) {
+GridClass to_class(nanovdb::GridClass grid_class) {
   switch (grid_class) {
     case nanovdb::GridClass::LevelSet:
       return GridClass::level_set;
@@ -367,7 +367,7 @@ void read_grid(View bytes, const grids::GridLimits& limits, const Reader& reader
 
   // Its fields.
   grid.type = kind->type;
-  grid.grid_class = class_of(head.mGridClass);
+  grid.grid_class = to_class(head.mGridClass);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       grid.world_from_index[column][row] = head.mMap.mMatD[3 * row + column];

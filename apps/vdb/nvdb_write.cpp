@@ -73,7 +73,7 @@ T from_bytes(const std::byte* bytes) {
 }
 
 // NanoVDB restricts classes to types; the class itself is in the extra data.
-nanovdb::GridClass class_of(const Grid& grid) {
+nanovdb::GridClass to_class(const Grid& grid) {
   const bool is_real = grid.type == ValueType::float32 || grid.type == ValueType::float64;
   const bool is_vector = grid.type == ValueType::vec3f || grid.type == ValueType::vec3d;
   if (grid.type == ValueType::mask) return nanovdb::GridClass::Topology;
@@ -173,7 +173,7 @@ class TreeWriter {
     head.mMap.set(m, inverse, 1.0);
     head.mWorldBBox = nanovdb::BBox<nanovdb::Vec3R>();
     for (int i = 0; i < 3; ++i) head.mVoxelSize[i] = glm::length(glm::dvec3(m[i]));
-    head.mGridClass = class_of(grid_);
+    head.mGridClass = to_class(grid_);
     head.mGridType = type_;
     head.mBlindMetadataOffset = static_cast<std::int64_t>(blind_at_);
     head.mBlindMetadataCount = blind_count();
@@ -185,7 +185,7 @@ class TreeWriter {
     else
       return from_bytes<T>(grid_.background.data());
   }
-  T value_of(const Tile& tile) const {
+  T to_value(const Tile& tile) const {
     if constexpr (kMask)
       return tile.active;
     else
@@ -253,17 +253,17 @@ class TreeWriter {
   void fill_tile(const Tile& tile) {
     if (tile.edge == kUpperEdge) {
       const nanovdb::Coord at(tile.origin.x, tile.origin.y, tile.origin.z);
-      return root()->tile(root_number(tile.origin))->setValue(at, tile.active, value_of(tile));
+      return root()->tile(root_number(tile.origin))->setValue(at, tile.active, to_value(tile));
     }
     if (tile.edge == kLowerEdge) {
       Upper* node = upper(number_of(uppers_, align_down(tile.origin, kUpperEdge)));
       const std::uint32_t n = upper_entry(tile.origin);
-      node->setValue(n, value_of(tile));
+      node->setValue(n, to_value(tile));
       node->mValueMask.set(n, tile.active);
     } else {
       Lower* node = lower(number_of(lowers_, align_down(tile.origin, kLowerEdge)));
       const std::uint32_t n = lower_entry(tile.origin);
-      node->setValue(n, value_of(tile));
+      node->setValue(n, to_value(tile));
       node->mValueMask.set(n, tile.active);
     }
   }

@@ -36,16 +36,16 @@ std::size_t leaf_voxel(std::size_t voxel) {
   return voxel % 8 * 64 + voxel / 8 % 8 * 8 + voxel / 64;
 }
 
-glm::ivec3 vector_of(const openvdb::Coord& at) {
+glm::ivec3 to_vector(const openvdb::Coord& at) {
   return {at.x(), at.y(), at.z()};
 }
 
-openvdb::Coord coord_of(glm::ivec3 at) {
+openvdb::Coord to_coord(glm::ivec3 at) {
   return {at.x, at.y, at.z};
 }
 
 template <typename T>
-Value value_of(const T& value) {
+Value to_value(const T& value) {
   Value bytes{};
   static_assert(sizeof value <= sizeof bytes);
   std::memcpy(bytes.data(), &value, sizeof value);
@@ -61,7 +61,7 @@ T from_bytes(const std::byte* bytes) {
 
 // Metadata.
 
-std::vector<Metadata> metadata_of(const openvdb::MetaMap& map) {
+std::vector<Metadata> to_metadata(const openvdb::MetaMap& map) {
   std::vector<Metadata> list;
   for (auto at = map.beginMeta(); at != map.endMeta(); ++at) {
     std::ostringstream out;
@@ -92,7 +92,7 @@ void put_metadata(openvdb::MetaMap& map, const std::vector<Metadata>& list) {
   }
 }
 
-GridClass class_of(const openvdb::GridBase& grid) {
+GridClass to_class(const openvdb::GridBase& grid) {
   switch (grid.getGridClass()) {
     case openvdb::GRID_LEVEL_SET:
       return GridClass::level_set;
@@ -105,7 +105,7 @@ GridClass class_of(const openvdb::GridBase& grid) {
   }
 }
 
-openvdb::GridClass class_of(GridClass grid_class) {
+openvdb::GridClass to_class(GridClass grid_class) {
   constexpr std::array kClasses{openvdb::GRID_UNKNOWN, openvdb::GRID_LEVEL_SET, openvdb::GRID_FOG_VOLUME,
                                 openvdb::GRID_STAGGERED};
   return kClasses.at(static_cast<std::size_t>(grid_class));
@@ -113,13 +113,13 @@ openvdb::GridClass class_of(GridClass grid_class) {
 
 void read_head(const openvdb::GridBase& from, Grid& grid) {
   grid.name = from.getName();
-  grid.grid_class = class_of(from);
+  grid.grid_class = to_class(from);
   grid.saved_as_half = from.saveFloatAsHalf();
   // Row vectors there, column vectors here: row i of theirs is column i of ours.
   const openvdb::Mat4d matrix = from.transform().baseMap()->getAffineMap()->getMat4();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) grid.world_from_index[i][j] = matrix(i, j);
-  grid.metadata = metadata_of(from);
+  grid.metadata = to_metadata(from);
   std::erase_if(grid.metadata, [&](const Metadata& entry) {
     return entry.name == kDelayedLoad || (entry.name == kName && entry.type == "string") ||
            (entry.name == kClass && grid.grid_class != GridClass::unknown) ||
@@ -145,7 +145,7 @@ void write_head(const Grid& grid, openvdb::GridBase& to) {
   to.setTransform(openvdb::math::Transform::Ptr(new openvdb::math::Transform(map_of(grid.world_from_index))));
   put_metadata(to, grid.metadata);
   to.setName(grid.name);
-  if (grid.grid_class != GridClass::unknown) to.setGridClass(class_of(grid.grid_class));
+  if (grid.grid_class != GridClass::unknown) to.setGridClass(to_class(grid.grid_class));
   if (grid.saved_as_half) to.setSaveFloatAsHalf(true);
 }
 
@@ -155,7 +155,7 @@ template <typename Leaf>
 void read_leaf(const Leaf& leaf, Brick& brick, std::byte* values) {
   using T = typename Leaf::ValueType;
   constexpr bool kMask = std::is_same_v<typename Leaf::BuildType, openvdb::ValueMask>;
-  brick.origin = vector_of(leaf.origin());
+  brick.origin = to_vector(leaf.origin());
   for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
     const auto at = static_cast<openvdb::Index>(leaf_voxel(voxel));
     if (leaf.isValueOn(at)) brick.active[voxel / 64] |= std::uint64_t{1} << (voxel % 64);
@@ -181,9 +181,9 @@ void write_leaf(const Brick& brick, const std::byte* values, Leaf& leaf) {
 template <typename Node>
 void read_tiles(const Node& node, std::uint32_t edge, bool is_mask, Grid& grid) {
   for (auto at = node.cbeginValueAll(); at; ++at) {
-    const Value value = is_mask ? Value{} : value_of(*at);
+    const Value value = is_mask ? Value{} : to_value(*at);
     if (!at.isValueOn() && value == grid.background) continue;
-    grid.tiles.push_back({vector_of(at.getCoord()), edge, at.isValueOn(), value});
+    grid.tiles.push_back({to_vector(at.getCoord()), edge, at.isValueOn(), value});
   }
 }
 
@@ -196,7 +196,7 @@ Grid read_grid(const openvdb::GridBase& base, ValueType type, const grids::GridL
   Grid grid;
   grid.type = type;
   read_head(from, grid);
-  if (!is_mask) grid.background = value_of(root.background());
+  if (!is_mask) grid.background = to_value(root.background());
 
   // Tiles, counting the leaves.
   std::vector<const typename GridT::TreeType::LeafNodeType*> leaves;
@@ -216,7 +216,7 @@ Grid read_grid(const openvdb::GridBase& base, ValueType type, const grids::GridL
   // Leaves.
   const auto in_order = [](glm::ivec3 a, glm::ivec3 b) { return grids::goes_before(a, b); };
   std::sort(leaves.begin(), leaves.end(), [&](const auto* a, const auto* b) {
-    return in_order(vector_of(a->origin()), vector_of(b->origin()));
+    return in_order(to_vector(a->origin()), to_vector(b->origin()));
   });
   std::sort(grid.tiles.begin(), grid.tiles.end(),
             [&](const Tile& a, const Tile& b) { return in_order(a.origin, b.origin); });
@@ -242,11 +242,11 @@ openvdb::GridBase::Ptr write_grid(const Grid& grid) {
   for (const Tile& tile : grid.tiles) {
     const openvdb::Index level = tile.edge == 8 ? 1 : tile.edge == 128 ? 2 : 3;
     T value = is_mask ? T(tile.active) : from_bytes<T>(tile.value.data());
-    tree.addTile(level, coord_of(tile.origin), value, tile.active);
+    tree.addTile(level, to_coord(tile.origin), value, tile.active);
   }
   const std::size_t brick_bytes = kBrickVoxels * grids::bytes_of(grid.type);
   for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    auto leaf = std::make_unique<Leaf>(coord_of(grid.bricks[i].origin), background, false);
+    auto leaf = std::make_unique<Leaf>(to_coord(grid.bricks[i].origin), background, false);
     write_leaf(grid.bricks[i], grid.values.data() + i * brick_bytes, *leaf);
     tree.addLeaf(leaf.release());
   }
@@ -322,7 +322,7 @@ std::vector<Metadata> read_vdb(const std::string& path, const grids::GridLimits&
     const openvdb::GridBase::Ptr grid = file.readGrid(*name);
     reader.add(kind->read(*grid, kind->type, limits, used));
   }
-  return metadata_of(*file.getMetadata());
+  return to_metadata(*file.getMetadata());
 }
 
 void write_vdb(const grids::GridFile& file, int output) {

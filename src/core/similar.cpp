@@ -20,7 +20,7 @@ bool is_word_letter(char c) {
 }
 
 /// The words of at least three letters.
-std::vector<std::string> words_of(std::string_view text) {
+std::vector<std::string> split_words(std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
@@ -33,7 +33,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 /// The known names that contain most of the words of a name, in order.
 std::vector<std::string> names_of_same_words(std::string_view name, std::span<const std::string> known) {
-  const std::vector<std::string> words = words_of(name);
+  const std::vector<std::string> words = split_words(name);
   std::size_t most = 1;
   std::vector<std::string> found;
   for (const std::string& candidate : known) {

@@ -175,7 +175,7 @@ struct Levels {
 };
 
 /// As glm::packHalf1x16, which is slow, of a value >= 0.
-std::uint16_t half_of(float value) {
+std::uint16_t to_half(float value) {
   constexpr float kLeastNormal = 6.103515625e-5f, kMostNormal = 65504;
   if (!(value >= kLeastNormal && value <= kMostNormal)) return glm::packHalf1x16(value);
   // Rounds the mantissa to 10 bits, and changes the bias of the exponent from 127 to 15.
@@ -185,12 +185,12 @@ std::uint16_t half_of(float value) {
 /// The texels of a brick with its apron.
 void fill_texels(const Level& level, float per_value, float outside, glm::ivec3 brick,
                  std::span<std::uint16_t> texels) {
-  if (outside > 0) std::ranges::fill(texels, half_of(per_value * outside));
+  if (outside > 0) std::ranges::fill(texels, to_half(per_value * outside));
   std::array<std::uint32_t, 27> around{};
   for (int n = 0; n < 27; ++n) around[static_cast<std::size_t>(n)] = level.index.at(neighbour(brick, n));
   const auto set = [&](std::size_t texel, std::uint32_t from, std::size_t voxel) {
     if (from != volume::PageTable::kNoSlot)  // else the texel is outside
-      texels[texel] = half_of(per_value * level.numbers.at(from, voxel));
+      texels[texel] = to_half(per_value * level.numbers.at(from, voxel));
   };
   for (int z = -1; z <= 8; ++z)
     for (int y = -1; y <= 8; ++y) {
@@ -270,7 +270,7 @@ void find_percentiles(const GridNumbers& numbers, BrickVolume& out) {
     for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
       const float value = numbers.at(i, voxel);
       if (value <= 0) continue;
-      ++counts[half_of(value / out.unit)];
+      ++counts[to_half(value / out.unit)];
       ++all;
     }
   const auto percentile = [&](double fraction) {
@@ -315,7 +315,7 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& ou
 
 /// What a level looks like in a unit (0: the one that suits it) and in bounds (empty: its own). Without its
 /// place. `outside`: of the voxels beyond its numbers.
-BrickVolume volume_of(const Levels& levels, float unit, float outside, const Box<float>& bounds) {
+BrickVolume make_volume(const Levels& levels, float unit, float outside, const Box<float>& bounds) {
   BrickVolume out;
   out.outside = outside;
   const Measures all = measure(levels.density.numbers);
@@ -410,8 +410,8 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   Levels levels{
       Level(std::move(numbers)), Level(std::move(also)), options.may_be_uniform, options.glows, {}, {}};
   levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
-  BrickVolume out = volume_of(levels, 0, outside,
-                              shift ? bounds_of(grid, kBrickEdge * origin, levels.halvings) : kEmptyBox);
+  BrickVolume out = make_volume(levels, 0, outside,
+                                shift ? bounds_of(grid, kBrickEdge * origin, levels.halvings) : kEmptyBox);
   // Give the statistics back in the file's values and in its world.
   if (shift) {
     out.offset = shift->offset;
@@ -440,8 +440,8 @@ BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool
   levels.reduce({max_bricks, kMostVolumePages, max_bricks});
   const shared::VolumeLayout& layout = fine.volume->layout();
   const auto per_voxel = static_cast<float>(std::exp2(-levels.halvings));
-  BrickVolume out = volume_of(levels, 1, fine.outside / fine.unit,
-                              {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});
+  BrickVolume out = make_volume(levels, 1, fine.outside / fine.unit,
+                                {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});
   out.unit = fine.unit;
   out.offset = fine.offset;
   out.outside = fine.outside;

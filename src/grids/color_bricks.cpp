@@ -172,8 +172,8 @@ glm::vec3 color_at(Colors& lookup, glm::dvec3 p_index) {
 
 /// The colours at the centres of a volume's voxels, in the same bricks and slots. `grid` holds the transform.
 template <typename Colors, typename Source>
-Result<std::unique_ptr<volume::SparseVolume>> bricks_of(const Source& source, const Grid& grid,
-                                                        const BrickVolume& volume) {
+Result<std::unique_ptr<volume::SparseVolume>> make_bricks(const Source& source, const Grid& grid,
+                                                          const BrickVolume& volume) {
   const glm::dmat4 index_from_voxel = glm::inverse(grid.world_from_index) * volume.world_from_voxel;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
@@ -259,7 +259,7 @@ Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colo
   if (!is_color_grid(colors))
     return Failure{ErrorCode::bad_input, "grid " + colors.name + ": holds values of " + name_of(colors.type) +
                                              "; expected colours, which are vec3f or vec3d"};
-  return bricks_of<VectorColors>(colors, colors, volume);
+  return make_bricks<VectorColors>(colors, colors, volume);
 }
 
 Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChannels& channels,
@@ -269,7 +269,7 @@ Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChann
       for (int row = 0; row < 4; ++row)
         if (!std::isfinite(glm::inverse(part->world_from_index)[column][row]))
           return Failure{ErrorCode::bad_input, "grid " + part->name + ": its transform has no inverse"};
-  return bricks_of<ChannelColors>(channels, *channels.parts[0], volume);
+  return make_bricks<ChannelColors>(channels, *channels.parts[0], volume);
 }
 
 }  // namespace brume::grids

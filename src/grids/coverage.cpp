@@ -63,7 +63,7 @@ Box<double> transformed(const glm::dmat4& matrix, const Box<double>& box) {
 
 }  // namespace
 
-std::optional<Grid> coverage_of(const Grid& grid, const glm::dmat4& world_from_index) {
+std::optional<Grid> make_coverage(const Grid& grid, const glm::dmat4& world_from_index) {
   const glm::dmat4 index_from_grid = glm::inverse(world_from_index) * grid.world_from_index;
   std::vector<Part> parts;
   for (const Box<double>& box : boxes_of(grid))

@@ -29,7 +29,7 @@ struct Weight {
 
 /// Where the value of a voxel comes from along one axis. [begin, end): what it covers, in voxels of the grid,
 /// of which i covers [i, i + 1).
-std::vector<Weight> weights_of(double begin, double end) {
+std::vector<Weight> make_weights(double begin, double end) {
   const double width = end - begin;
   if (std::abs(width - 1) < kSameVoxel && std::abs(begin - std::round(begin)) < kSameVoxel)
     return {{static_cast<int>(std::round(begin)), 1}};
@@ -72,7 +72,7 @@ AxisWeights axis_weights(double first, double per_voxel, std::uint32_t count) {
   AxisWeights axis;
   int low = INT32_MAX, high = INT32_MIN;
   for (std::uint32_t i = 0; i < count; ++i) {
-    axis.of_voxel.push_back(weights_of(first + i * per_voxel, first + (i + 1) * per_voxel));
+    axis.of_voxel.push_back(make_weights(first + i * per_voxel, first + (i + 1) * per_voxel));
     low = std::min(low, axis.of_voxel.back().front().source);
     high = std::max(high, axis.of_voxel.back().back().source);
   }

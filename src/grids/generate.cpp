@@ -17,7 +17,7 @@ struct Shell {
   double end = 0;    ///< From here on it is 0 [m].
 };
 
-Shell shell_of(const CloudSettings& settings) {
+Shell make_shell(const CloudSettings& settings) {
   // What rounding to float may move a surface by is far below this fraction.
   constexpr double kSlack = 1e-4;
   const double r = settings.radius;
@@ -128,7 +128,7 @@ Grid generate_cloud(const CloudSettings& settings, const CloudEvaluator& evaluat
   const double first = -0.5 * (static_cast<double>(settings.edge) - 1) * settings.voxel_size;
   grid.world_from_index[3] = glm::dvec4(first, first, first, 1);
 
-  const Shell shell = shell_of(settings);
+  const Shell shell = make_shell(settings);
   const int edge = static_cast<int>(settings.edge);
   Progress job("generate", (settings.edge + kBrickEdge - 1) / kBrickEdge);
   for (int z = 0; z < edge; z += kBrickEdge, job.advance()) append_layer(grid, settings, shell, z, evaluate);

@@ -67,7 +67,7 @@ Moments moments_of(glm::ivec3 brick, const BrickVolume& density, const glm::dmat
   return sum;
 }
 
-std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& density, GlowPower power) {
+std::vector<Moments> make_bricks(const BrickVolume& heat, const BrickVolume& density, GlowPower power) {
   const volume::SparseVolume& volume = *heat.volume;
   const glm::dmat4 density_from_heat = glm::inverse(density.world_from_voxel) * heat.world_from_voxel;
   const auto uniform = volume.uniform_bricks();
@@ -154,7 +154,7 @@ GlowBall ball_of(const Octants& octants, std::size_t octant, const Division& div
 }  // namespace
 
 std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& density, GlowPower power) {
-  const std::vector<Moments> bricks = bricks_of(glow, density, power);
+  const std::vector<Moments> bricks = make_bricks(glow, density, power);
   if (bricks.empty()) return {};
   Moments all;
   for (const Moments& brick : bricks) all.add(brick, 1);
@@ -169,7 +169,7 @@ std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& dens
 }
 
 std::vector<GlowColumn> glow_columns(const BrickVolume& heat, const BrickVolume& density) {
-  const std::vector<Moments> bricks = bricks_of(heat, density, GlowPower::fourth);
+  const std::vector<Moments> bricks = make_bricks(heat, density, GlowPower::fourth);
   const double power = std::pow(double{heat.unit}, 4);
   constexpr double kColumn = 64;  // voxels across a brick
   std::vector<GlowColumn> columns;

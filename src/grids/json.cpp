@@ -33,25 +33,25 @@ Failure bad_description(const std::filesystem::path& path, const std::string& wh
   return {ErrorCode::bad_input, path.string() + ": " + what};
 }
 
-std::optional<std::int64_t> integer_of(const Json& value, std::int64_t low, std::int64_t high) {
+std::optional<std::int64_t> to_integer(const Json& value, std::int64_t low, std::int64_t high) {
   if (!value.is_number_integer()) return std::nullopt;
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) return std::nullopt;
   const auto number = value.get<std::int64_t>();
   return number >= low && number <= high ? std::optional(number) : std::nullopt;
 }
 
-std::optional<glm::ivec3> integers_of(const Json& list, int low, int high) {
+std::optional<glm::ivec3> to_integers(const Json& list, int low, int high) {
   if (!list.is_array() || list.size() != 3) return std::nullopt;
   glm::ivec3 v;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto number = integer_of(list[static_cast<std::size_t>(axis)], low, high);
+    const auto number = to_integer(list[static_cast<std::size_t>(axis)], low, high);
     if (!number) return std::nullopt;
     v[axis] = static_cast<int>(*number);
   }
   return v;
 }
 
-std::optional<glm::dvec3> point_of(const Json& list) {
+std::optional<glm::dvec3> to_point(const Json& list) {
   if (!list.is_array() || list.size() != 3) return std::nullopt;
   glm::dvec3 point;
   for (int axis = 0; axis < 3; ++axis) {
@@ -63,24 +63,24 @@ std::optional<glm::dvec3> point_of(const Json& list) {
   return point;
 }
 
-std::optional<glm::dmat4> transform_of(const Json& columns) {
+std::optional<glm::dmat4> to_transform(const Json& columns) {
   if (!columns.is_array() || columns.size() != 4) return std::nullopt;
   glm::dmat4 m(1);
   for (int column = 0; column < 4; ++column) {
-    const auto v = point_of(columns[static_cast<std::size_t>(column)]);
+    const auto v = to_point(columns[static_cast<std::size_t>(column)]);
     if (!v) return std::nullopt;
     m[column] = glm::dvec4(*v, column == 3 ? 1 : 0);
   }
   return m;
 }
 
-Json json_of(const glm::dvec3& v) {
+Json to_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-Json json_of(const glm::dmat4& affine) {
+Json to_json(const glm::dmat4& affine) {
   Json columns = Json::array();
-  for (int column = 0; column < 4; ++column) columns.push_back(json_of(glm::dvec3(affine[column])));
+  for (int column = 0; column < 4; ++column) columns.push_back(to_json(glm::dvec3(affine[column])));
   return columns;
 }
 

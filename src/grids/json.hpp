@@ -24,15 +24,15 @@ Failure bad_description(const std::filesystem::path& path, const std::string& wh
 // nullopt: not of this form.
 
 /// A whole number in [low, high].
-std::optional<std::int64_t> integer_of(const Json& value, std::int64_t low, std::int64_t high);
+std::optional<std::int64_t> to_integer(const Json& value, std::int64_t low, std::int64_t high);
 /// Three of them.
-std::optional<glm::ivec3> integers_of(const Json& list, int low, int high);
+std::optional<glm::ivec3> to_integers(const Json& list, int low, int high);
 /// Three finite numbers.
-std::optional<glm::dvec3> point_of(const Json& list);
+std::optional<glm::dvec3> to_point(const Json& list);
 /// Four columns of three numbers.
-std::optional<glm::dmat4> transform_of(const Json& columns);
+std::optional<glm::dmat4> to_transform(const Json& columns);
 
-Json json_of(const glm::dmat4& affine);
-Json json_of(const glm::dvec3& v);
+Json to_json(const glm::dmat4& affine);
+Json to_json(const glm::dvec3& v);
 
 }  // namespace brume::grids

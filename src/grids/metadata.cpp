@@ -61,7 +61,7 @@ std::vector<Metadata> read_metadata(ByteReader& in) {
   return metadata;
 }
 
-std::string text_of(const Metadata& entry) {
+std::string to_text(const Metadata& entry) {
   if (entry.type == "string") return {reinterpret_cast<const char*>(entry.bytes.data()), entry.bytes.size()};
   if (entry.type == "bool" && entry.bytes.size() == 1)
     return entry.bytes[0] == std::byte{0} ? "false" : "true";

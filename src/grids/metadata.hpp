@@ -16,7 +16,7 @@ void write_metadata(ByteWriter& out, const std::vector<Metadata>& metadata);
 std::vector<Metadata> read_metadata(ByteReader& in);
 
 /// The value as text: "fog volume", "0.5", "64, 64, 96". Bytes of a type that has no text here: "12 bytes".
-std::string text_of(const Metadata& entry);
+std::string to_text(const Metadata& entry);
 
 /// Name and value of the metadata of a density that is an extinction per metre: at extinction 1 it is shown
 /// as it is.

@@ -53,7 +53,7 @@ bool set_member(ArrayDescription& to, const std::string& key, const Json& value)
   }
   if (key == "size" || key == "origin") {
     const bool is_size = key == "size";
-    const auto v = integers_of(value, is_size ? 1 : -kFarthest, is_size ? 2 * kFarthest : kFarthest);
+    const auto v = to_integers(value, is_size ? 1 : -kFarthest, is_size ? 2 * kFarthest : kFarthest);
     if (v) (is_size ? to.size : to.origin) = *v;
     return v.has_value();
   }
@@ -62,7 +62,7 @@ bool set_member(ArrayDescription& to, const std::string& key, const Json& value)
     return value.is_number() && std::isfinite(to.background);
   }
   if (key == "world_from_index") {
-    const auto m = transform_of(value);
+    const auto m = to_transform(value);
     if (m) to.world_from_index = *m;
     return m.has_value();
   }
@@ -150,7 +150,7 @@ std::vector<float> dense(const Grid& grid, const ArrayDescription& d) {
   return array;
 }
 
-std::string text_of(const ArrayDescription& d) {
+std::string to_text(const ArrayDescription& d) {
   const Json json{{"format", kArrayFormat},
                   {"version", kArrayVersion},
                   {"raw", d.raw},
@@ -160,7 +160,7 @@ std::string text_of(const ArrayDescription& d) {
                   {"size", {d.size.x, d.size.y, d.size.z}},
                   {"origin", {d.origin.x, d.origin.y, d.origin.z}},
                   {"background", d.background},
-                  {"world_from_index", json_of(d.world_from_index)}};
+                  {"world_from_index", to_json(d.world_from_index)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -243,7 +243,7 @@ Result<void> save_raw(const fs::path& json, const Grid& grid, const GridLimits& 
   d.world_from_index = grid.world_from_index;
   const std::vector<float> array = dense(grid, d);
   if (auto written = write_file_atomic(raw, std::as_bytes(std::span(array))); !written) return written;
-  return write_file_atomic(json, text_of(d));
+  return write_file_atomic(json, to_text(d));
 }
 
 }  // namespace brume::grids

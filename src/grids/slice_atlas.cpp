@@ -107,7 +107,7 @@ float decode(std::uint16_t code, const AtlasRange& range, std::uint32_t steps) {
 
 // Writes an atlas: an image of each level, and a description.
 
-image::NumberImage png_of(const SliceAtlas& atlas, std::uint32_t level) {
+image::NumberImage make_png(const SliceAtlas& atlas, std::uint32_t level) {
   const SliceLayout layout = level_of(atlas.layout, level);
   const glm::uvec2 size = layout.image_size();
   const auto stored = static_cast<std::uint32_t>(atlas.channels.size());
@@ -126,7 +126,7 @@ image::NumberImage png_of(const SliceAtlas& atlas, std::uint32_t level) {
   return image;
 }
 
-image::LayeredImage exr_of(const SliceAtlas& atlas, std::uint32_t level) {
+image::LayeredImage make_exr(const SliceAtlas& atlas, std::uint32_t level) {
   const SliceLayout layout = level_of(atlas.layout, level);
   const glm::uvec2 size = layout.image_size();
   image::LayeredImage image{size.x, size.y, {}};
@@ -150,7 +150,7 @@ image::LayeredImage exr_of(const SliceAtlas& atlas, std::uint32_t level) {
   return image;
 }
 
-Json description_of(const SliceAtlas& atlas, const std::vector<std::string>& images) {
+Json make_description(const SliceAtlas& atlas, const std::vector<std::string>& images) {
   const SliceLayout& layout = atlas.layout;
   const glm::uvec2 tile = layout.tile(), size = layout.image_size();
   Json channels = Json::array();
@@ -168,11 +168,11 @@ Json description_of(const SliceAtlas& atlas, const std::vector<std::string>& ima
             {"tiles", layout.tiles()},
             {"columns", layout.columns},
             {"padding", layout.padding},
-            {"axes", text_of(layout.axes)},
+            {"axes", to_text(layout.axes)},
             {"size", {layout.size.x, layout.size.y, layout.size.z}},
-            {"box", {{"low", json_of(box.low)}, {"high", json_of(box.high)}}},
+            {"box", {{"low", to_json(box.low)}, {"high", to_json(box.high)}}},
             {"channels", channels}};
-  if (atlas.world_from_box != glm::dmat4(1)) json["world_from_box"] = json_of(atlas.world_from_box);
+  if (atlas.world_from_box != glm::dmat4(1)) json["world_from_box"] = to_json(atlas.world_from_box);
   return json;
 }
 
@@ -186,9 +186,9 @@ struct AtlasDescription {
   std::int64_t tiles = 0;
 };
 
-std::optional<glm::ivec2> pair_of(const Json& list) {
+std::optional<glm::ivec2> to_pair(const Json& list) {
   if (!list.is_array() || list.size() != 2) return std::nullopt;
-  const auto x = integer_of(list[0], 1, image::kMaxAxis), y = integer_of(list[1], 1, image::kMaxAxis);
+  const auto x = to_integer(list[0], 1, image::kMaxAxis), y = to_integer(list[1], 1, image::kMaxAxis);
   if (!x || !y) return std::nullopt;
   return glm::ivec2(*x, *y);
 }
@@ -207,7 +207,7 @@ bool set_images(AtlasDescription& to, const Json& list) {
 
 bool set_box(SliceAtlas& to, const Json& box) {
   if (!box.is_object() || box.size() != 2 || !box.contains("low") || !box.contains("high")) return false;
-  const auto low = point_of(box["low"]), high = point_of(box["high"]);
+  const auto low = to_point(box["low"]), high = to_point(box["high"]);
   if (!low || !high || !glm::all(glm::lessThan(*low, *high))) return false;
   to.channels.resize(1);
   to.channels.front().box = {*low, *high};
@@ -240,20 +240,20 @@ bool set_layout_member(AtlasDescription& to, const std::string& key, const Json&
     return axes.has_value();
   }
   if (key == "size") {
-    const auto size = integers_of(value, 1, image::kMaxAxis);
+    const auto size = to_integers(value, 1, image::kMaxAxis);
     if (size) layout.size = glm::uvec3(*size);
     return size.has_value();
   }
   if (key == "columns" || key == "padding") {
-    const auto number = integer_of(value, key == "columns" ? 1 : 0, image::kMaxAxis);
+    const auto number = to_integer(value, key == "columns" ? 1 : 0, image::kMaxAxis);
     if (number) (key == "columns" ? layout.columns : layout.padding) = static_cast<std::uint32_t>(*number);
     return number.has_value();
   }
   if (key == "tiles") {
-    to.tiles = integer_of(value, 1, image::kMaxAxis).value_or(0);
+    to.tiles = to_integer(value, 1, image::kMaxAxis).value_or(0);
     return to.tiles > 0;
   }
-  const auto pair = pair_of(value);
+  const auto pair = to_pair(value);
   if (pair) (key == "tile" ? to.tile : to.image_size) = *pair;
   return pair.has_value();
 }
@@ -271,7 +271,7 @@ bool set_member(AtlasDescription& to, const std::string& key, const Json& value)
     return true;
   }
   if (key == "world_from_box") {
-    const auto m = transform_of(value);
+    const auto m = to_transform(value);
     if (m) to.atlas.world_from_box = *m;
     return m && std::abs(glm::determinant(glm::dmat3(*m))) > 0;
   }
@@ -428,12 +428,12 @@ Result<void> save_slice_atlas(const fs::path& json, const SliceAtlas& atlas, std
   for (std::uint32_t level = 0; level < levels; ++level) {
     const fs::path path = atlas_image_path(json, atlas.depth, level);
     images.push_back(path.filename().string());
-    const auto saved = is_png(atlas.depth) ? image::save_png(path, png_of(atlas, level))
-                                           : image::save_exr(path, exr_of(atlas, level));
+    const auto saved = is_png(atlas.depth) ? image::save_png(path, make_png(atlas, level))
+                                           : image::save_exr(path, make_exr(atlas, level));
     if (!saved) return saved;
   }
   const std::string text =
-      description_of(atlas, images).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+      make_description(atlas, images).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   return write_file_atomic(json, text);
 }
 

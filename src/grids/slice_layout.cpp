@@ -21,7 +21,7 @@ std::optional<AtlasAxes> parse_axes(std::string_view text) {
   return used == 7 ? std::optional(axes) : std::nullopt;
 }
 
-std::string text_of(const AtlasAxes& axes) {
+std::string to_text(const AtlasAxes& axes) {
   std::string text;
   for (const AtlasAxis& one : axes)
     text += std::string(text.empty() ? "" : " ") + (one.reversed ? '-' : '+') + "xyz"[one.axis];

@@ -27,7 +27,7 @@ inline constexpr AtlasAxes kUprightAxes{{{0, false}, {1, true}, {2, false}}};
 
 /// From three of +x, -x, +y, -y, +z, -z, each axis once, with blanks between; nullopt: of another form.
 std::optional<AtlasAxes> parse_axes(std::string_view text);
-std::string text_of(const AtlasAxes& axes);
+std::string to_text(const AtlasAxes& axes);
 
 /// Tiles are in rows from the top left.
 struct SliceLayout {

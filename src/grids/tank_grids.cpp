@@ -98,7 +98,7 @@ std::vector<std::size_t> painted_bricks(const Reduction& to, const spheres::Pain
 }
 
 // The bricks that have a voxel with opacity.
-std::vector<Brick> bricks_of(const Reduction& to, const spheres::PaintedBricks& paint) {
+std::vector<Brick> make_bricks(const Reduction& to, const spheres::PaintedBricks& paint) {
   const std::vector<std::size_t> painted = painted_bricks(to, paint);
   std::vector<Brick> all(painted.size());
   parallel_for(all.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -167,7 +167,7 @@ Result<GridFile> tank_grids(const spheres::Tank& tank, const std::string& name, 
 
   // Only as large as it may be.
   const spheres::PaintedBricks paint = spheres::paint_bricks(tank);
-  const std::vector<Brick> bricks = bricks_of(to, paint);
+  const std::vector<Brick> bricks = make_bricks(to, paint);
   std::uint64_t bytes = 0, active = 0;
   for (const std::size_t position : *positions)
     bytes += bricks.size() * (sizeof(Brick) + kBrickVoxels * bytes_of(grids[position].type));

@@ -54,7 +54,7 @@ Failure cannot_start(const fs::path& path, int error) {
   return {ErrorCode::internal, path.string() + ": cannot start brume-vdb: " + std::strerror(error)};
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);)
@@ -64,7 +64,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 void pass_warnings(const fs::path& path, const std::string& messages) {
   std::size_t count = 0;
-  for (const std::string& line : lines_of(messages))
+  for (const std::string& line : split_lines(messages))
     if (line.rfind(kWarning, 0) == 0 && count++ < kMaxWarnings)
       log_warning(path.string() + ": " + line.substr(std::strlen(kWarning)));
 }
@@ -83,7 +83,7 @@ Failure failure_of(const fs::path& path, int status, const std::string& messages
                                       std::to_string(signal) + "); the file is damaged"};
   }
   const int code = WEXITSTATUS(status);
-  const std::vector<std::string> lines = lines_of(messages);
+  const std::vector<std::string> lines = split_lines(messages);
   std::string reason = lines.empty() ? last_line(messages) : lines.back();
   if (reason.empty()) reason = "brume-vdb ended with exit code " + std::to_string(code);
   const bool known =

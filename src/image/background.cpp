@@ -33,8 +33,8 @@ void set_background(LayeredImage& image, Background background) {
   if (background == Background::in) {
     for (const std::string color : kColors) {
       Layer& layer = *find(image, color);
-      std::vector<float> sum = floats_of(layer);
-      const std::vector<float> behind = floats_of(*find(image, "background." + color));
+      std::vector<float> sum = to_floats(layer);
+      const std::vector<float> behind = to_floats(*find(image, "background." + color));
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += behind[i];
       set_values(sum, layer);
     }

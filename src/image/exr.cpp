@@ -78,7 +78,7 @@ std::span<const std::byte> bytes_of(const Layer& layer) {
 }
 
 // Slices of all layers, for reading and writing.
-Imf::FrameBuffer slices_of(const LayeredImage& image) {
+Imf::FrameBuffer make_slices(const LayeredImage& image) {
   Imf::FrameBuffer slices;
   for (const Layer& layer : image.layers) {
     const std::size_t texel = type_of(layer) == Imf::HALF ? 2 : 4;
@@ -158,7 +158,7 @@ Result<LayeredImage> read_layers(Imf::InputFile& file, const std::string& name) 
 
   // The values; slices count from pixel (0, 0), the window may begin elsewhere.
   const Imath::Box2i window = header.dataWindow();
-  Imf::FrameBuffer slices = slices_of(image);
+  Imf::FrameBuffer slices = make_slices(image);
   for (auto at = slices.begin(); at != slices.end(); ++at)
     at.slice().base -= static_cast<std::ptrdiff_t>(at.slice().xStride) * window.min.x +
                        static_cast<std::ptrdiff_t>(at.slice().yStride) * window.min.y;
@@ -192,7 +192,7 @@ Result<void> save_exr(const std::filesystem::path& path, const LayeredImage& ima
   try {
     // Its destructor completes the table of offsets.
     Imf::OutputFile file(out, header);
-    file.setFrameBuffer(slices_of(image));
+    file.setFrameBuffer(make_slices(image));
     file.writePixels(static_cast<int>(image.height));
   } catch (const IEX_NAMESPACE::BaseExc& e) {
     return Failure{ErrorCode::internal, path.string() + ": cannot encode the OpenEXR image: " + e.what()};

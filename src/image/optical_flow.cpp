@@ -82,8 +82,8 @@ struct Equation {
 };
 
 // Linearized around the flow so far.
-Raster<Equation> equations_of(const Raster<Feature>& from, const Raster<Feature>& to,
-                              const Raster<glm::vec2>& flow) {
+Raster<Equation> make_equations(const Raster<Feature>& from, const Raster<Feature>& to,
+                                const Raster<glm::vec2>& flow) {
   Raster<Feature> there(from.width, from.height);
   for (int y = 0; y < from.height; ++y)
     for (int x = 0; x < from.width; ++x) there.at(x, y) = to.sample(glm::vec2(x, y) + flow.at(x, y));
@@ -130,7 +130,7 @@ Raster<glm::vec2> flow_between(const Raster<Feature>& from, const Raster<Feature
   }
   for (int warp = 0; warp < kWarps; ++warp) {
     const Raster<glm::vec2> before = flow;
-    solve(equations_of(from, to, flow), flow);
+    solve(make_equations(from, to, flow), flow);
     for (std::size_t i = 0; i < flow.values.size(); ++i) {
       const glm::vec2 step = flow.values[i] - before.values[i];
       if (const float length = glm::length(step); length > kMostStep)

@@ -53,7 +53,7 @@ glm::vec3 shown_of(glm::vec3 color, const Display& display) {
 
 }  // namespace
 
-std::vector<float> floats_of(const Layer& layer) {
+std::vector<float> to_floats(const Layer& layer) {
   if (const auto* floats = std::get_if<std::vector<float>>(&layer.values)) return *floats;
   const auto& halves = std::get<std::vector<std::uint16_t>>(layer.values);
   std::vector<float> values(halves.size());
@@ -62,7 +62,7 @@ std::vector<float> floats_of(const Layer& layer) {
   return values;
 }
 
-Texels texels_of(const LayeredImage& picture) {
+Texels to_texels(const LayeredImage& picture) {
   Texels texels{picture.width, picture.height, {}};
   texels.rgba.resize(std::size_t{picture.width} * picture.height, glm::vec4(0));
   constexpr std::array kNames{"R", "G", "B", "A"};
@@ -70,7 +70,7 @@ Texels texels_of(const LayeredImage& picture) {
     const auto layer = std::ranges::find(
         picture.layers, std::string(kNames[static_cast<std::size_t>(channel)]), &Layer::name);
     if (layer == picture.layers.end()) continue;
-    const std::vector<float> values = floats_of(*layer);
+    const std::vector<float> values = to_floats(*layer);
     for (std::size_t i = 0; i < texels.rgba.size(); ++i) texels.rgba[i][channel] = values[i];
   }
   return texels;
@@ -115,7 +115,7 @@ void fill_transparent(Texels& straight) {
   }
 }
 
-Image8 colors_of(const Texels& shown) {
+Image8 to_colors(const Texels& shown) {
   Image8 image{shown.width, shown.height, std::vector<std::uint8_t>(4 * shown.rgba.size())};
   const auto byte = [](float value) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));

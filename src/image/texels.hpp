@@ -17,10 +17,10 @@ struct Texels {
 };
 
 /// The values of a layer, half floats or not.
-std::vector<float> floats_of(const Layer& layer);
+std::vector<float> to_floats(const Layer& layer);
 
 /// R, G, B and A of a picture that is Background::none.
-Texels texels_of(const LayeredImage& picture);
+Texels to_texels(const LayeredImage& picture);
 
 /// How radiance becomes colour.
 struct Display {
@@ -42,6 +42,6 @@ void make_straight(Texels& picture);
 void fill_transparent(Texels& straight);
 
 /// Linear colours as 8 bits of sRGB, and alpha.
-Image8 colors_of(const Texels& shown);
+Image8 to_colors(const Texels& shown);
 
 }  // namespace brume::image

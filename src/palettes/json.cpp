@@ -116,7 +116,7 @@ class Reader {
     if (!take('[')) throw Fault{"\"colors\": expected a list, [\"#rrggbb\", ...]"};
     if (take(']')) return colors;
     do {
-      const auto color = next() == '"' ? color_of(read_text()) : std::nullopt;
+      const auto color = next() == '"' ? to_color(read_text()) : std::nullopt;
       if (!color) throw Fault{"expected a colour such as \"#ff8000\" or \"#f80\""};
       if (colors.size() == kMostColors)
         throw Fault{"more than 4096 colours; remove some", ErrorCode::resource_limit};
@@ -126,7 +126,7 @@ class Reader {
     return colors;
   }
 
-  static std::optional<glm::u8vec3> color_of(const std::string& text) {
+  static std::optional<glm::u8vec3> to_color(const std::string& text) {
     if (!text.starts_with('#')) return std::nullopt;
     if (text.size() != 4) return color_of_hex(std::string_view(text).substr(1));
     return color_of_hex(std::string{text[1], text[1], text[2], text[2], text[3], text[3]});

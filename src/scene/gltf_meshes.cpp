@@ -52,7 +52,7 @@ void add_target(const GltfDocument& document, const std::map<std::string, int>& 
   add("NORMAL", read.normals);
 }
 
-Vertex vertex_of(const Attributes& read, std::size_t i, const glm::mat3x2& image_from_uv) {
+Vertex make_vertex(const Attributes& read, std::size_t i, const glm::mat3x2& image_from_uv) {
   Vertex vertex;
   const auto vector = [i](const std::vector<float>& values, std::size_t components) {
     return glm::vec3(values[components * i], values[components * i + 1], values[components * i + 2]);
@@ -133,7 +133,8 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials:
 
   Mesh mesh;
   mesh.vertices.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(vertex_of(read, i, material.image_from_uv));
+  for (std::size_t i = 0; i < count; ++i)
+    mesh.vertices.push_back(make_vertex(read, i, material.image_from_uv));
   mesh.indices = primitive.triangles(count);
   if (skin >= 0) apply_skin(document_, primitive, skins_.pose(skin), place, mesh);
   // Without normals, faces are flat, as the format demands.

@@ -165,6 +165,7 @@ std::vector<std::string> library_files(const ObjLibrary& library, const SceneFil
 
 Result<Libraries> read_libraries(const ObjModel& model, const SceneFiles& files) {
   Libraries materials;
+  // Faces of a material that is in none of the files are grey, so a file that is missing ends nothing.
   for (const ObjLibrary& library : model.libraries) {
     if (library.file.empty()) {
       log_warning(library.place + ": expected the name of a material file after mtllib");

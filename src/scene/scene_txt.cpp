@@ -102,13 +102,13 @@ class SceneTxtParser {
     if (auto end = expect_end(); !end) return end;
 
     // The object.
-    const auto mesh = mesh_of(name);
+    const auto mesh = make_mesh(name);
     if (!mesh) return mesh.failure();
     Object object;
     object.mesh = *mesh;
     object.role = role_of_prefix(name).value_or(Role::wall);
     const bool clear = object.role == Role::glass && material.empty();
-    object.material = clear ? glass() : material_of(material, std::clamp(roughness, kLeastRoughness, 1.0f));
+    object.material = clear ? glass() : make_material(material, std::clamp(roughness, kLeastRoughness, 1.0f));
     object.world_from_mesh = world_from_mesh(*position, *rotation, *scale);
     object.name = std::move(name);
     if (object.name != "Grenade") return builder_.add_object(std::move(object), reader_.line_place());
@@ -117,7 +117,7 @@ class SceneTxtParser {
     return {};
   }
 
-  Result<std::uint32_t> mesh_of(const std::string& name) {
+  Result<std::uint32_t> make_mesh(const std::string& name) {
     if (const auto known = meshes_.find(name); known != meshes_.end()) return known->second;
     const auto found = files_.find("Meshes/" + name + ".obj");
     if (!found) {
@@ -146,7 +146,7 @@ class SceneTxtParser {
     return glass_ = static_cast<std::uint32_t>(builder_.scene.materials.size() - 1);
   }
 
-  std::uint32_t material_of(const std::string& name, float roughness) {
+  std::uint32_t make_material(const std::string& name, float roughness) {
     const auto key = std::pair(name, roughness);
     if (const auto known = materials_.find(key); known != materials_.end()) return known->second;
     Material material;

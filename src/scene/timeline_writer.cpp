@@ -84,7 +84,7 @@ class Writer : private TomlText {
   void write_noise(const Noise& noise, const char* title, const Visit& visit) {
     const std::size_t before = text_.size();
     options(noise, Noise(), title, visit);
-    const bool has_strength = text_of(noise.strength) != text_of(Noise().strength);
+    const bool has_strength = to_text(noise.strength) != to_text(Noise().strength);
     if (text_.size() > before && !has_strength) line("strength", noise.strength);
   }
 

@@ -38,7 +38,7 @@ std::string triple(const Vector& v) {
   std::string text = "[";
   for (int axis = 0; axis < 3; ++axis) {
     if (axis > 0) text += ", ";
-    text += text_of(v[axis]);
+    text += to_text(v[axis]);
   }
   text += ']';
   return text;
@@ -46,11 +46,11 @@ std::string triple(const Vector& v) {
 
 }  // namespace
 
-std::string text_of(double value) {
+std::string to_text(double value) {
   return decimal(value);
 }
 
-std::string text_of(float value) {
+std::string to_text(float value) {
   // The reader rounds to double first, which in rare cases gives another float.
   std::string text = decimal(value);
   return static_cast<float>(read_back(text)) == value ? text : decimal(double{value});
@@ -68,43 +68,43 @@ std::string degrees_text(const OptionInfo& info, float radians) {
   return decimal(degrees);
 }
 
-std::string text_of(int value) {
+std::string to_text(int value) {
   return std::to_string(value);
 }
 
-std::string text_of(std::uint32_t value) {
+std::string to_text(std::uint32_t value) {
   return std::to_string(value);
 }
 
-std::string text_of(const std::vector<float>& numbers) {
+std::string to_text(const std::vector<float>& numbers) {
   std::string text;
-  for (const float number : numbers) text += (text.empty() ? "[" : ", ") + text_of(number);
+  for (const float number : numbers) text += (text.empty() ? "[" : ", ") + to_text(number);
   return text + ']';
 }
 
-std::string text_of(const glm::vec2& v) {
-  return text_of(std::vector{v.x, v.y});
+std::string to_text(const glm::vec2& v) {
+  return to_text(std::vector{v.x, v.y});
 }
 
-std::string text_of(const std::vector<std::vector<float>>& rows) {
+std::string to_text(const std::vector<std::vector<float>>& rows) {
   std::string text;
-  for (const std::vector<float>& row : rows) text += (text.empty() ? "[" : ", ") + text_of(row);
+  for (const std::vector<float>& row : rows) text += (text.empty() ? "[" : ", ") + to_text(row);
   return text + ']';
 }
 
-std::string text_of(const glm::vec3& v) {
+std::string to_text(const glm::vec3& v) {
   return triple(v);
 }
 
-std::string text_of(const glm::ivec3& v) {
+std::string to_text(const glm::ivec3& v) {
   return triple(v);
 }
 
-std::string text_of(bool value) {
+std::string to_text(bool value) {
   return value ? "true" : "false";
 }
 
-std::string text_of(const std::string& value) {
+std::string to_text(const std::string& value) {
   std::string text = "\"";
   for (const char c : value) {
     const auto byte = static_cast<unsigned char>(c);

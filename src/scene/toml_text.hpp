@@ -16,17 +16,17 @@
 namespace brume::scene {
 
 // A value as TOML: numbers as the shortest decimals that read back as the same.
-std::string text_of(double value);
-std::string text_of(float value);
-std::string text_of(int value);
-std::string text_of(std::uint32_t value);
-std::string text_of(bool value);
-std::string text_of(const std::string& value);
-std::string text_of(const glm::vec2& v);
-std::string text_of(const glm::vec3& v);
-std::string text_of(const glm::ivec3& v);
-std::string text_of(const std::vector<float>& numbers);
-std::string text_of(const std::vector<std::vector<float>>& rows);
+std::string to_text(double value);
+std::string to_text(float value);
+std::string to_text(int value);
+std::string to_text(std::uint32_t value);
+std::string to_text(bool value);
+std::string to_text(const std::string& value);
+std::string to_text(const glm::vec2& v);
+std::string to_text(const glm::vec3& v);
+std::string to_text(const glm::ivec3& v);
+std::string to_text(const std::vector<float>& numbers);
+std::string to_text(const std::vector<std::vector<float>>& rows);
 /// Degrees that the reader converts to the same radians: as few digits as possible, within the angle's range.
 std::string degrees_text(const OptionInfo& info, float radians);
 
@@ -40,15 +40,15 @@ std::filesystem::path path_from(const std::filesystem::path& path, const std::fi
 class OptionTexts {
  public:
   void operator()(const OptionInfo& info, const float& member) {
-    add(info, is_angle(info) ? degrees_text(info, member) : text_of(member));
+    add(info, is_angle(info) ? degrees_text(info, member) : to_text(member));
   }
   template <typename Member>
   void operator()(const OptionInfo& info, const Member& member) {
-    add(info, text_of(member));
+    add(info, to_text(member));
   }
   template <typename Member>
   void operator()(const OptionInfo& info, const std::optional<Member>& member) {
-    add(info, member ? text_of(*member) : "");
+    add(info, member ? to_text(*member) : "");
   }
   std::vector<std::pair<const char*, std::string>> texts;
 
@@ -64,7 +64,7 @@ class TomlText {
  protected:
   template <typename Value>
   void line(const char* key, const Value& value) {
-    text_ += std::string(key) + " = " + text_of(value) + "\n";
+    text_ += std::string(key) + " = " + to_text(value) + "\n";
   }
 
   /// Writes the options that differ from their defaults, under a title.

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 7> kNames{"cool-warm", "cubehelix", "grey
 
 /// CIE 1976 L*a*b* for the white of sRGB, D65.
 constexpr glm::dvec3 kWhite(0.95047, 1, 1.08883);
-glm::dvec3 lab_of(glm::dvec3 linear) {
+glm::dvec3 to_lab(glm::dvec3 linear) {
   const glm::dvec3 xyz(0.4124564 * linear.r + 0.3575761 * linear.g + 0.1804375 * linear.b,
                        0.2126729 * linear.r + 0.7151522 * linear.g + 0.0721750 * linear.b,
                        0.0193339 * linear.r + 0.1191920 * linear.g + 0.9503041 * linear.b);
@@ -26,7 +26,7 @@ glm::dvec3 lab_of(glm::dvec3 linear) {
   const glm::dvec3 at(f(xyz.x / kWhite.x), f(xyz.y / kWhite.y), f(xyz.z / kWhite.z));
   return {116 * at.y - 16, 500 * (at.x - at.y), 200 * (at.y - at.z)};
 }
-glm::dvec3 linear_of(glm::dvec3 lab) {
+glm::dvec3 to_linear(glm::dvec3 lab) {
   const double y = (lab.x + 16) / 116;
   const auto f = [](double t) { return t > 6.0 / 29 ? t * t * t : (116 * t - 16) * 27 / 24389; };
   const glm::dvec3 xyz = kWhite * glm::dvec3(f(y + lab.y / 500), f(y), f(y - lab.z / 200));
@@ -36,14 +36,14 @@ glm::dvec3 linear_of(glm::dvec3 lab) {
 }
 
 /// Moreland's polar form of L*a*b*: magnitude, saturation angle, hue angle.
-glm::dvec3 msh_of(glm::dvec3 srgb) {
-  const glm::dvec3 lab = lab_of(glm::convertSRGBToLinear(srgb));
+glm::dvec3 to_msh(glm::dvec3 srgb) {
+  const glm::dvec3 lab = to_lab(glm::convertSRGBToLinear(srgb));
   const double magnitude = glm::length(lab);
   return {magnitude, std::acos(lab.x / magnitude), std::atan2(lab.z, lab.y)};
 }
 glm::dvec3 linear_of_msh(glm::dvec3 msh) {
   const double radius = msh.x * std::sin(msh.y);
-  return linear_of({msh.x * std::cos(msh.y), radius * std::cos(msh.z), radius * std::sin(msh.z)});
+  return to_linear({msh.x * std::cos(msh.y), radius * std::cos(msh.z), radius * std::sin(msh.z)});
 }
 
 /// The hue with which an unsaturated colour of this magnitude meets a saturated one.
@@ -55,8 +55,8 @@ double hue_towards(glm::dvec3 saturated, double magnitude) {
 }
 
 glm::dvec3 cool_warm(double at) {
-  static const glm::dvec3 cool = msh_of(glm::dvec3(59, 76, 192) / 255.0);
-  static const glm::dvec3 warm = msh_of(glm::dvec3(180, 4, 38) / 255.0);
+  static const glm::dvec3 cool = to_msh(glm::dvec3(59, 76, 192) / 255.0);
+  static const glm::dvec3 warm = to_msh(glm::dvec3(180, 4, 38) / 255.0);
   constexpr double kMiddle = 88;
   const glm::dvec3 end = at < 0.5 ? cool : warm;
   const double magnitude = std::max({cool.x, warm.x, kMiddle});

@@ -343,7 +343,7 @@ std::vector<FilledVoxel> list_of(const FreeWords& free, glm::ivec3 source, std::
 
 /// The settled voxels as a set.
 template <typename FreeWords>
-Flood set_of(const FreeWords& free, glm::ivec3 source, std::uint32_t budget) {
+Flood make_set(const FreeWords& free, glm::ivec3 source, std::uint32_t budget) {
   Flooder flooder(free);
   Flood flood;
   flooder.run(source, budget, [&](std::uint32_t distance, auto voxels) {
@@ -398,12 +398,12 @@ std::vector<FilledVoxel> flood_fill(const BlockSet& domain, glm::ivec3 source) {
 Flood flood_set(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget) {
   BRUME_ASSERT(budget <= kMaxFillVoxels, std::to_string(budget));
   if (!grid.contains(source)) return {};
-  return set_of([&grid](glm::ivec3 brick) { return free_words(grid, brick); }, source, budget);
+  return make_set([&grid](glm::ivec3 brick) { return free_words(grid, brick); }, source, budget);
 }
 
 Flood flood_set(const BlockSet& domain, glm::ivec3 source) {
   if (!domain.contains(source)) return {};
-  return set_of([&domain](glm::ivec3 brick) { return words_of(domain, brick); }, source, domain.size());
+  return make_set([&domain](glm::ivec3 brick) { return words_of(domain, brick); }, source, domain.size());
 }
 
 }  // namespace brume::sim

@@ -82,7 +82,7 @@ std::array<std::array<std::uint8_t, 8>, 8> cells_with_any(const VoxelWindow& win
 
 }  // namespace
 
-VoxelWindow window_of(const std::array<const BrickBits*, 27>& around) {
+VoxelWindow make_window(const std::array<const BrickBits*, 27>& around) {
   VoxelWindow window;
   const auto byte = [&](std::size_t i, int y, int z) -> unsigned {
     if (!around[i]) return 0;

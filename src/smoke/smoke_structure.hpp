@@ -55,7 +55,7 @@ using VoxelWindow = std::array<std::array<std::uint16_t, 11>, 11>;
 
 /// The window of a brick from the bits of the 27 bricks around it, x + 3 y + 9 z of brick - at + 1; null: no
 /// bit is set.
-VoxelWindow window_of(const std::array<const BrickBits*, 27>& around);
+VoxelWindow make_window(const std::array<const BrickBits*, 27>& around);
 /// The bits of the 27 bricks of a grid around one; null where there is none.
 std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick);
 

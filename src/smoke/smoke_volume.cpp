@@ -269,11 +269,11 @@ void SmokeVolume::update_mask(std::uint32_t slot) {
 void SmokeVolume::build_cells(std::uint32_t slot) {
   // What is solid and where smoke can be, in the brick and around it.
   const glm::ivec3 at = brick_of(slot);
-  BrickScene scene{at, window_of(solid_around(*grid_, at)), {}, volume_.slots_around(at)};
+  BrickScene scene{at, make_window(solid_around(*grid_, at)), {}, volume_.slots_around(at)};
   std::array<const BrickBits*, 27> smoke{};
   for (std::size_t i = 0; i < 27; ++i)
     if (scene.slots[i] != kNoSlot) smoke[i] = &bricks_[scene.slots[i]].smoke;
-  scene.smoke = window_of(smoke);
+  scene.smoke = make_window(smoke);
   if (bricks_[slot].walls_stale) densities_.set_solid(slot, scene.solid);
 
   const auto has_smoke = [this](glm::ivec3 v) {

@@ -56,7 +56,7 @@ struct Beam {
   double solid_angle() const { return 2 * std::numbers::pi * height; }
 };
 
-Beam beam_of(const LightBall& light, const shared::Glass& glass) {
+Beam make_beam(const LightBall& light, const shared::Glass& glass) {
   // A ball around the glass, and the lines through all of the light.
   Beam beam{&light};
   const glm::dvec3 apart = glm::dvec3(glass.center) - glm::dvec3(light.position);
@@ -70,12 +70,12 @@ Beam beam_of(const LightBall& light, const shared::Glass& glass) {
 }
 
 /// Beams with numbers of paths in proportion to their power, at least one.
-std::vector<Beam> beams_of(const LightPathScene& scene, std::uint32_t count) {
+std::vector<Beam> make_beams(const LightPathScene& scene, std::uint32_t count) {
   std::vector<Beam> beams;
   double power = 0;
   for (const LightBall& light : scene.lights) {
     if (!(largest(light.intensity) > 0)) continue;
-    beams.push_back(beam_of(light, scene.glass));
+    beams.push_back(make_beam(light, scene.glass));
     power += largest(light.intensity) * beams.back().solid_angle();
   }
   std::uint32_t first = 0;
@@ -265,7 +265,7 @@ bool same_light(const LightPathScene& a, const LightPathScene& b) {
 LightPaths trace_light_paths(const Tank& tank, const BrickLists& bricks, const LightPathScene& scene,
                              const LightPathOptions& options, const std::function<bool()>& stopped) {
   if (!(scene.glass.index > 0) || options.count == 0) return {};
-  const std::vector<Beam> beams = beams_of(scene, std::min(options.count, shared::kMostPhotons - 64));
+  const std::vector<Beam> beams = make_beams(scene, std::min(options.count, shared::kMostPhotons - 64));
   if (beams.empty()) return {};
   const std::size_t count = std::size_t{beams.back().first} + beams.back().count;
   Progress progress("light paths", count);

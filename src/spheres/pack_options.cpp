@@ -10,7 +10,7 @@
 namespace brume::spheres {
 namespace {
 
-std::string text_of(double number) {
+std::string to_text(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", number);
   return text;
@@ -31,8 +31,8 @@ std::string check_radius(const PackOptions& options) {
   const float most = static_cast<float>(std::min({options.size.x, options.size.y, options.size.z})) / 2;
   const glm::vec2 radius = options.radius;
   if (radius.x > 0 && radius.x <= radius.y && radius.y <= most) return "";
-  return "radius: from " + text_of(radius.x) + " to " + text_of(radius.y) +
-         " voxels; expected 0 < least <= largest <= " + text_of(most) +
+  return "radius: from " + to_text(radius.x) + " to " + to_text(radius.y) +
+         " voxels; expected 0 < least <= largest <= " + to_text(most) +
          ", which is half of the tank's shortest side";
 }
 
@@ -40,13 +40,13 @@ std::string check_radius(const PackOptions& options) {
 std::string fault_of(const PackOptions& options) {
   const auto number = [](const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return std::string();
-    return name + (": " + text_of(value)) + "; expected " + text_of(low) + " to " + text_of(high);
+    return name + (": " + to_text(value)) + "; expected " + to_text(low) + " to " + to_text(high);
   };
   const std::string checks[] = {
       check_size(options.size),
       options.voxel > 0 && options.voxel <= std::numeric_limits<float>::max()
           ? ""
-          : "voxel: " + text_of(double{options.voxel}) + "; expected a finite edge above 0",
+          : "voxel: " + to_text(double{options.voxel}) + "; expected a finite edge above 0",
       options.count <= kMostSpheres ? ""
                                     : "count: " + std::to_string(options.count) + " spheres; expected 0 to " +
                                           std::to_string(kMostSpheres),

@@ -189,7 +189,7 @@ double pages_of(const Box<double>& box) {
 const grids::Grid* reach_of(const grids::Grid& heat, const grids::Grid& density, std::uint32_t max_pages,
                             std::optional<grids::Grid>& covered) {
   const bool is_same = heat.world_from_index == density.world_from_index;
-  if (!is_same) covered = grids::coverage_of(heat, density.world_from_index);
+  if (!is_same) covered = grids::make_coverage(heat, density.world_from_index);
   const grids::Grid* const reach = is_same ? &heat : covered ? &*covered : nullptr;
   const Box<double> own = active_bounds(density);
   const double most = max_pages;

@@ -41,7 +41,7 @@ void fill_box(BitGrid& grid, const Box<int>& voxels, bool solid) {
   });
 }
 
-BitGrid copy_of(const BitGrid& grid, const Box<int>& voxels) {
+BitGrid make_copy(const BitGrid& grid, const Box<int>& voxels) {
   BitGrid copy(grid.layout());
   for_each_in(bricks_of(voxels), [&](ivec3 at) {
     const BitGrid::Brick* brick = grid.find_brick(at);
@@ -228,9 +228,9 @@ LevelChange Level::rebuild(const Box<int>& touched) {
   const Box<int> cells = touched.empty()
                              ? Box<int>{}
                              : intersection<int>({touched.low - 1, touched.high}, {ivec3(-1), grid_.size()});
-  LevelChange change{voxels, cells, copy_of(grid_, voxels), {}};
-  if (roles_.sight) change.roles_before.sight = copy_of(*roles_.sight, voxels);
-  if (roles_.bodies) change.roles_before.bodies = copy_of(*roles_.bodies, voxels);
+  LevelChange change{voxels, cells, make_copy(grid_, voxels), {}};
+  if (roles_.sight) change.roles_before.sight = make_copy(*roles_.sight, voxels);
+  if (roles_.bodies) change.roles_before.bodies = make_copy(*roles_.bodies, voxels);
   if (voxels.empty()) change.voxels = {};
   if (cells.empty()) change.cells = {};
   if (!voxels.empty()) paint(voxels);

@@ -230,7 +230,7 @@ void merge(BitGrid& into, const BitGrid& from) {
   });
 }
 
-std::string text_of(double value) {
+std::string to_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
@@ -250,7 +250,7 @@ Result<void> check_frame(const GridLayout& layout) {
       return Failure{ErrorCode::usage, std::string("grid: the origin's ") + kAxes[axis] + " is not finite"};
   }
   if (!std::isfinite(layout.voxel_size) || layout.voxel_size <= 0)
-    return Failure{ErrorCode::usage, "grid: voxel size " + text_of(double{layout.voxel_size}) +
+    return Failure{ErrorCode::usage, "grid: voxel size " + to_text(double{layout.voxel_size}) +
                                          " m; give a finite number above 0"};
   return {};
 }
@@ -272,7 +272,7 @@ Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, floa
     const double size = std::max(high - low, 1.0);
     if (!(size <= kMaxAxis))
       return Failure{ErrorCode::resource_limit,
-                     "grid: the scene would need " + text_of(size) +
+                     "grid: the scene would need " + to_text(size) +
                          " voxels along an axis; at most 4096: make the voxels larger"};
     layout.size[axis] = static_cast<int>(size);
     layout.origin_world[axis] = static_cast<float>(low * voxel_size);

@@ -93,8 +93,8 @@ Result<void> decode_roles(ByteReader& in, Replay& replay) {
 
 }  // namespace
 
-Replay replay_of(const voxel::Solids& level, const sim::WorldSettings& settings,
-                 std::span<const sim::Event> events) {
+Replay make_replay(const voxel::Solids& level, const sim::WorldSettings& settings,
+                   std::span<const sim::Event> events) {
   Replay replay{level.smoke, settings, {events.begin(), events.end()}, {}};
   if (&level.sight != &level.smoke) replay.roles.sight = level.sight;
   if (&level.bodies != &level.smoke) replay.roles.bodies = level.bodies;

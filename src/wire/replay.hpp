@@ -26,8 +26,8 @@ struct Replay {
 };
 
 /// A replay of this world from its first tick, still without checksums.
-Replay replay_of(const voxel::Solids& level, const sim::WorldSettings& settings,
-                 std::span<const sim::Event> events);
+Replay make_replay(const voxel::Solids& level, const sim::WorldSettings& settings,
+                   std::span<const sim::Event> events);
 
 /// Maximum number of solid voxels in a replay; a 4^3 block counts as at least 16.
 constexpr std::uint64_t kMaxLevelVoxels = std::uint64_t{1} << 27;

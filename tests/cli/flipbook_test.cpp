@@ -35,7 +35,7 @@ class Flipbook : public testing::Test {
   }
   Texels exr(const std::string& name) const {
     const auto bytes = read_file(folder_.path() / name).value_or_throw();
-    return image::texels_of(image::decode_exr(bytes, name).value_or_throw());
+    return image::to_texels(image::decode_exr(bytes, name).value_or_throw());
   }
   nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read_text_file(folder_.path() / name).value_or_throw());

@@ -203,7 +203,7 @@ TEST_F(FileFaultTest, Voxels) {
 }
 
 TEST_F(FileFaultTest, Replays) {
-  const wire::Replay replay = wire::replay_of(voxel::BitGrid({{33, 17, 5}, 0.25f, {0, 0, 0}}), {}, {});
+  const wire::Replay replay = wire::make_replay(voxel::BitGrid({{33, 17, 5}, 0.25f, {0, 0, 0}}), {}, {});
   expect_whole_or_not_at_all(
       "match.replay", [&](const auto& path) { return wire::save_replay(path, replay); },
       [&](const auto& path) -> Result<bool> {

@@ -39,7 +39,7 @@ TEST(Coverage, HoldsWhateverFilteringFinds) {
   const Grid grid = sparse_grid(turned);
   for (const double voxel : {0.4, 1.0, 3.0}) {
     const glm::dmat4 other = glm::scale(glm::dmat4(1), glm::dvec3(voxel));
-    const auto covered = coverage_of(grid, other);
+    const auto covered = make_coverage(grid, other);
     ASSERT_TRUE(covered);
     EXPECT_EQ(covered->world_from_index, other);
     EXPECT_EQ(covered->values.size(), covered->bricks.size() * kBrickVoxels);
@@ -62,9 +62,9 @@ TEST(Coverage, HoldsWhateverFilteringFinds) {
 
 TEST(Coverage, IsNothingWhereItTakesTooManyVoxels) {
   const Grid grid = sparse_grid(glm::dmat4(1));
-  EXPECT_FALSE(coverage_of(grid, glm::scale(glm::dmat4(1), glm::dvec3(1e-3))));
-  EXPECT_FALSE(coverage_of(grid, glm::scale(glm::dmat4(1), glm::dvec3(1, 0, 1))));
-  const auto none = coverage_of(Grid(), glm::dmat4(1));
+  EXPECT_FALSE(make_coverage(grid, glm::scale(glm::dmat4(1), glm::dvec3(1e-3))));
+  EXPECT_FALSE(make_coverage(grid, glm::scale(glm::dmat4(1), glm::dvec3(1, 0, 1))));
+  const auto none = make_coverage(Grid(), glm::dmat4(1));
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->bricks.empty());
 }

@@ -82,7 +82,7 @@ void expect_same(const std::vector<Metadata>& a, const std::vector<Metadata>& b)
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].name, second[i].name);
     EXPECT_EQ(first[i].type, second[i].type) << first[i].name;
-    EXPECT_EQ(text_of(first[i]), text_of(second[i])) << first[i].name;
+    EXPECT_EQ(to_text(first[i]), to_text(second[i])) << first[i].name;
     EXPECT_EQ(first[i].bytes, second[i].bytes) << first[i].name;
   }
 }

@@ -67,7 +67,7 @@ class SliceAtlasFiles : public testing::Test {
 };
 
 TEST(SliceLayout, ReadsAndWritesAxes) {
-  for (const AtlasAxes& axes : all_axes()) EXPECT_EQ(parse_axes(text_of(axes)), axes);
+  for (const AtlasAxes& axes : all_axes()) EXPECT_EQ(parse_axes(to_text(axes)), axes);
   EXPECT_EQ(all_axes().size(), 48u);
   for (const char* text : {"", "+x -y", "+x -y +y", "x y z", "+x,-y,+z", "+x -y +w", "+x -y +z "})
     EXPECT_FALSE(parse_axes(text)) << text;
@@ -126,7 +126,7 @@ TEST_F(SliceAtlasFiles, PutsVoxelsWhereTheAxesSay) {
           voxel[axes[i].axis] = axes[i].reversed ? edge - 1 - along[i] : along[i];
         }
         EXPECT_EQ(image.values[at], voxel.x + 3 * (voxel.y + 4 * voxel.z))
-            << text_of(axes) << " " << x << "," << y;
+            << to_text(axes) << " " << x << "," << y;
       }
   }
 }

@@ -25,7 +25,7 @@ TEST(Texels, AreTheColorsOfLayersAndTheirAlpha) {
                              {{"A", std::vector<float>{0.5f}},
                               {"B", std::vector<float>{3}},
                               {"R", std::vector<std::uint16_t>{0x3c00}}}};
-  expect_near(texels_of(picture).rgba.front(), {1, 0, 3, 0.5f});
+  expect_near(to_texels(picture).rgba.front(), {1, 0, 3, 0.5f});
 }
 
 TEST(Texels, StraightColorsAreDividedByAlpha) {
@@ -79,7 +79,7 @@ TEST(Texels, TransparentTexelsContinueThoseAroundThem) {
 }
 
 TEST(Texels, ColorsAreOfSrgb) {
-  const Image8 image = colors_of(Texels{2, 1, {{0.2140411f, 0, 1, 0.5f}, {2, -1, 0, 1}}});
+  const Image8 image = to_colors(Texels{2, 1, {{0.2140411f, 0, 1, 0.5f}, {2, -1, 0, 1}}});
   EXPECT_EQ(image.rgba, (std::vector<std::uint8_t>{127, 0, 255, 128, 255, 0, 0, 255}));
 }
 

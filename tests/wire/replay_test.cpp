@@ -16,7 +16,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Replay recorded(const voxel::BitGrid& level, const std::vector<sim::Event>& events, std::uint32_t ticks) {
-  Replay replay = replay_of(level, kBusySettings, events);
+  Replay replay = make_replay(level, kBusySettings, events);
   sim::World world = world_of(level, events);
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     world.advance_to(tick);

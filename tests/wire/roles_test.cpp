@@ -104,7 +104,7 @@ TEST(RoleCoding, ReplaysHaveTheRolesOfTheirLevel) {
   fill_box(*roles.bodies, {20, 1, 1}, {21, 6, 30}, true);
   fill_box(*roles.bodies, {30, 1, 1}, {31, 6, 30}, true);
   const voxel::Solids level(grid, roles);
-  Replay replay = replay_of(level, kBusySettings, match_with_roles(grid, 3));
+  Replay replay = make_replay(level, kBusySettings, match_with_roles(grid, 3));
   sim::World world(level, kBusySettings);
   world.append(replay.events).value_or_throw();
   for (std::uint32_t tick = 0; tick < 200; ++tick) {
