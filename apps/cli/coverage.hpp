@@ -49,7 +49,7 @@ struct Coverage {
 /// Interrupted on a signal.
 Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times);
 
-/// Shots from one end of the line towards the other, in addition to those of the timeline.
+/// Shots from one end of the line towards the other, in addition to the timeline's own.
 struct Volley {
   unsigned count = 1;
   double first_time = 0, every = 0.1;  ///< [s]

@@ -127,7 +127,7 @@ planning::CameraAt orbiting(const Plan& plan, const Orbit& orbit, double seconds
   };
 }
 
-// --shutter replaces that of all cameras.
+// --shutter replaces the shutter time of all cameras.
 void set_shutter(const RenderOptions& options, Plan& plan, scenario::Scenario& scenario) {
   if (!options.shutter) return;
   const auto seconds = static_cast<float>(*options.shutter);

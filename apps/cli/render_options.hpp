@@ -55,7 +55,7 @@ void declare_render(const Arguments& arguments, RenderOptions& options);
 /// contradicts itself or would do nothing.
 Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs);
 
-/// Declares those of the frames of a sequence that the command writes.
+/// Declares the frames of a sequence that the command writes.
 void declare_frames(const RenderOptions& options, const Plan& plan, FrameRange range, Outputs& outputs);
 
 inline bool is_reference(const RenderOptions& options) {

@@ -42,7 +42,7 @@ void warn_of_times(const RenderOptions& options, const Plan& plan, double end) {
 namespace {
 
 // Frames to draw before a range whose frames depend on those before: all that leave a trace. Each frame's
-// mean is that of at most shared::kAccumulatedFrames, so that (7 / 8)^32 = 1.4 % of an older one remain.
+// mean covers at most shared::kAccumulatedFrames, so that (7 / 8)^32 = 1.4 % of an older one remain.
 std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
   constexpr std::uint32_t kWarmUp = 32;
   return frames_depend(options) ? std::min(first, kWarmUp) : 0;

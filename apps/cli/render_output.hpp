@@ -16,7 +16,7 @@ namespace brume::cli {
 /// What is drawn, for its times and for the keys of numbered frames.
 struct Film {
   double duration = 0;                       ///< [s]
-  std::vector<std::filesystem::path> files;  ///< That it is made from, without those of the command line.
+  std::vector<std::filesystem::path> files;  ///< What it is made from, besides the files of the command line.
   std::vector<std::string> device;           ///< Texts that name what draws.
 };
 

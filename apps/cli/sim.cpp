@@ -88,7 +88,7 @@ void check_options(const Arguments& arguments, const SimOptions& options, Output
   check_volumes(arguments, options, outputs);
 }
 
-// The ticks to simulate, and those of them whose smoke becomes a volume file.
+// The ticks to simulate, and which of them give a volume file of their smoke.
 struct Schedule {
   std::uint32_t rate = 0, ticks = 0;
   FrameRate frame_rate;

@@ -130,7 +130,7 @@ class Outputs {
 };
 
 /// Throws Error unless this file can be created: the folder exists and is writable, the file is no folder.
-/// The code is usage where another name would do, else that of AtomicFile::open.
+/// The code is usage where another name would do, else the code of AtomicFile::open.
 void check_writable(const std::filesystem::path& file);
 
 }  // namespace brume::cli

@@ -36,9 +36,9 @@ struct Occlusion {
 ///
 /// Triangles hide from both sides, and no ray passes between triangles that have an edge in common. Rays
 /// start slightly off the texel, so that one exactly on a triangle has the value of a point beside it, and
-/// its neighbours on the same plane that of the same side: above it for `up` and below it for `down`, up to a
-/// slope of 70 degrees; where a wall is steeper, that along +x and +z. The offset is at most a thousandth of
-/// a voxel's shortest edge, or 1/200,000 of the box's longest, if that is more.
+/// its neighbours on the same plane the value of the same side: above it for `up` and below it for `down`, up
+/// to a slope of 70 degrees; where a wall is steeper, that along +x and +z. The offset is at most a
+/// thousandth of a voxel's shortest edge, or 1/200,000 of the box's longest, if that is more.
 ///
 /// The triangles may reach beyond the box. Those with a corner that is not finite, or 10^11 times the box's
 /// longest edge away, hide nothing. The same numbers for any number of threads; other processors may round

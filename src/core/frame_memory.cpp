@@ -13,7 +13,7 @@ void FrameMemory::add_block(std::size_t size) {
 
 void FrameMemory::reset() {
   if (blocks_.empty()) return;
-  // One block for the next frame, as large as those of this one together.
+  // One block for the next frame, as large as all blocks of this one together.
   if (blocks_.size() > 1) {
     const std::size_t size = capacity_;
     blocks_.clear();

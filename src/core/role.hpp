@@ -8,7 +8,7 @@
 
 namespace brume {
 
-/// Each role stops less than the one before it. The numbers are those of brume_role (brume.h).
+/// Each role stops less than the one before it. The numbers are brume_role's (brume.h).
 enum class Role : std::uint8_t {
   wall,    ///< Stops everything: smoke, sight, shots, bodies and thrown grenades.
   glass,   ///< Lets sight pass.

@@ -290,7 +290,7 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& ou
   out.volume = std::make_unique<volume::SparseVolume>(info);
   const volume::ChannelId channel{0};
   out.volume->begin_update();
-  // Bricks with slots; those of a new volume are in the order in which they are acquired.
+  // Bricks with slots: a new volume numbers them in the order in which they are acquired.
   std::vector<glm::ivec3> bricks;
   for (std::size_t i = 0; i < levels.bricks.size(); ++i) {
     if (levels.uniform[i] > 0) {

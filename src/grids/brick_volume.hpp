@@ -16,7 +16,7 @@ namespace brume::grids {
 
 /// The most bricks of a volume, and the fewest to which any grid can be reduced.
 inline constexpr std::uint32_t kMostVolumeBricks = 1u << 21, kFewestVolumeBricks = 8;
-/// The same for entries of its page table: 128 MiB, and those of 8 nodes far apart.
+/// The same for entries of its page table: 128 MiB, and the entries of 8 nodes far apart.
 inline constexpr std::uint32_t kMostVolumePages = 1u << 25, kFewestVolumePages = 1u << 13;
 
 struct BrickVolumeOptions {
@@ -47,7 +47,7 @@ struct ValueRange {
 inline constexpr std::size_t kHistogramBins = 256;
 
 /// One channel of half floats, filtered trilinearly. Bricks are stored wherever a filtered value can differ
-/// from 0; those of one value throughout, apron included, without texels.
+/// from 0; bricks of one value throughout, apron included, have no texels.
 struct BrickVolume {
   std::unique_ptr<volume::SparseVolume> volume;  ///< Voxel space: voxel i covers [i, i + 1).
   /// The least and the largest value that filtering can give anywhere in the brick of a slot, faces included,
@@ -74,7 +74,7 @@ struct BrickVolume {
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,
 /// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). NaN becomes 0,
 /// what is infinite, or far beyond nearly all others, the largest other value; values that half floats lack
-/// are stored in a larger or smaller unit. The background must be 0, or that of a level set. Fails with
+/// are stored in a larger or smaller unit. The background must be 0, or a level set's. Fails with
 /// bad_input for a grid without numbers.
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 

@@ -69,7 +69,7 @@ class Lookup {
 
   const Grid* grid_;
   glm::ivec3 origin_{0};
-  std::size_t brick_ = 0;  // its number, or that of all: none
+  std::size_t brick_ = 0;  // its number; the number of all bricks: none
   bool known_ = false;
 };
 

@@ -21,7 +21,7 @@ bool is_color_grid(const Grid& grid);
 Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
                                                                 const BrickVolume& volume);
 
-/// Colours as three grids of numbers, as Mantaflow saves those of smoke.
+/// Colours as three grids of numbers, as Mantaflow saves the colours of smoke.
 struct ColorChannels {
   std::array<const Grid*, 3> parts{};  ///< Red, green and blue; none null.
   const Grid* density = nullptr;       ///< By which they are multiplied, and are divided; null: by nothing.
@@ -31,7 +31,7 @@ struct ColorChannels {
 /// places, none exceeds it, and where it is low they are as much lower.
 bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density);
 
-/// The same of three grids: at the voxels of the first, where those of the others are filtered trilinearly if
+/// The same of three grids: at the voxels of the first, where the others are filtered trilinearly if
 /// they are at other places. A voxel has a colour where one of them is active, or the density above 0.
 Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const ColorChannels& channels,
                                                                 const BrickVolume& volume);

@@ -51,7 +51,7 @@ Result<GridBox> box_of(std::span<const Grid* const> grids);
 /// The values of a grid in a box: each voxel's mean over what it covers, along axes on which it is larger
 /// than the grid's own, and linear between these along others. Voxels at the same place as the grid's have
 /// its values as they are. Numbers count as they are, vectors by their length, active voxels of a mask as 1;
-/// NaN is 0. Fails as box_of for a grid whose axes are not those of the box.
+/// NaN is 0. Fails as box_of for a grid whose axes are not the box's.
 Result<DenseGrid> resample(const Grid& grid, const GridBox& box);
 
 }  // namespace brume::grids

@@ -22,7 +22,7 @@ bool is_grid_file(const std::filesystem::path& path);
 /// bad_input for a description that cannot be read.
 Result<std::vector<std::filesystem::path>> files_of(const std::filesystem::path& path);
 
-/// Reads all grids of a file; skips those of types that ValueType lacks, with a warning. Fails with bad_input
+/// Reads all grids of a file; skips grids of types that ValueType lacks, with a warning. Fails with bad_input
 /// for a missing, damaged or foreign file, resource_limit beyond the limits, and no_device when brume-vdb is
 /// not installed beside the program.
 /// With `choice`, other grids of a .brv file are not read, and not in the result; fails as `choice`.

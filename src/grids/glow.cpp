@@ -97,7 +97,7 @@ std::vector<Moments> make_bricks(const BrickVolume& heat, const BrickVolume& den
 }
 
 /// How glow is divided into halves along each axis: not at a plane, but over a slope, so that nothing jumps
-/// where it moves across. The plane and the slope are those of two points with the same mean, deviation and
+/// where it moves across. Plane and slope are as for two points with the same mean, deviation and
 /// skewness: the plane is halfway between them, whatever their weights.
 struct Division {
   glm::dvec3 mean, plane, reach;  // reach: half the distance of the points
@@ -114,7 +114,7 @@ struct Division {
     plane = mean + 0.5 * skewness * deviation;
     reach = 0.5 * deviation * glm::sqrt(4.0 + skewness * skewness);
     const double longest = std::max({reach.x, reach.y, reach.z});
-    // Neither short axes nor those of a few voxels.
+    // Neither short axes nor axes of a few voxels.
     apart = glm::smoothstep(glm::dvec3(0.5), glm::dvec3(0.8), reach / longest) *
             glm::smoothstep(glm::dvec3(2), glm::dvec3(4), reach);
   }

@@ -27,7 +27,7 @@ struct GlowBall {
 };
 
 /// At most kMostGlowBalls, of the whole grid together; none where nothing is above 0. A part is divided in
-/// two across its longest axis, that of the most spread glow first, until it is as small as a brick.
+/// two across its longest axis, the part with the most spread glow first, until it is as small as a brick.
 std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& density,
                                 GlowPower power = GlowPower::fourth);
 

@@ -21,7 +21,7 @@
 
 namespace brume::grids {
 
-/// The numbers are those of the file format (docs/reference/formats.md).
+/// The numbers are the file format's (docs/reference/formats.md).
 enum class ValueType : std::uint8_t {
   float32 = 1,
   float64 = 2,
@@ -84,7 +84,7 @@ struct Grid {
   Value background{};  ///< Value of voxels outside of bricks and tiles, all inactive.
   std::vector<Metadata> metadata;
   std::vector<Brick> bricks;      ///< Rising by z, then y, then x of the origin; none twice.
-  std::vector<std::byte> values;  ///< kBrickVoxels values per brick, those of inactive voxels included.
+  std::vector<std::byte> values;  ///< kBrickVoxels values per brick, also of inactive voxels.
   std::vector<Tile> tiles;        ///< In the same order; none overlaps another or a brick.
 
   /// The values of a brick.
@@ -107,7 +107,7 @@ using GridChoice = std::function<Result<std::vector<std::size_t>>(std::span<cons
 /// A value as a number: vectors by their length, masks as 1.
 double number_of(ValueType type, const std::byte* value);
 
-/// Voxels that are active, those of tiles included.
+/// Voxels that are active, tiles included.
 std::uint64_t count_active(const Grid& grid);
 
 /// Whether the number of an active voxel or tile is finite and above `value`.
@@ -139,7 +139,7 @@ std::optional<std::size_t> find_brick(const Grid& grid, glm::ivec3 origin);
 struct ActiveValue {
   const std::byte* value;  ///< A value of the grid's type.
   glm::ivec3 low;          ///< Its voxel of the least coordinates.
-  std::uint32_t edge;      ///< [voxels]: 1, or that of a tile.
+  std::uint32_t edge;      ///< [voxels]: 1, or a tile's edge.
   std::uint64_t count() const { return std::uint64_t{edge} * edge * edge; }
 };
 

@@ -79,7 +79,7 @@ class GridNumbers {
   /// Moves all bricks by a number of them.
   void move(const glm::ivec3& bricks);
 
-  /// Bricks, those of all cubes included.
+  /// Number of bricks, all cubes divided into bricks.
   std::uint64_t brick_count() const;
   /// Around all of them [bricks]; empty without any.
   Box<int> brick_box() const;

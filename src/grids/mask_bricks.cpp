@@ -44,7 +44,7 @@ class MaskValues {
 
   const Grid* grid_;
   glm::ivec3 origin_{0};
-  std::optional<std::size_t> brick_;  // its number, or that of all: none
+  std::optional<std::size_t> brick_;  // its number; the number of all bricks: none
 };
 
 /// The values at a point of index space, linear between voxel centres.

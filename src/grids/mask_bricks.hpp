@@ -18,7 +18,7 @@ Result<Grid> joined_masks(std::span<const Grid* const> masks);
 
 /// One channel of two half floats for up to two masks, of four for more, a mask in each, in the same bricks
 /// and slots as `volume`: values at the centres of its voxels, filtered trilinearly where the voxels differ,
-/// 0 where a mask has none. The masks must be those of joined_masks.
+/// 0 where a mask has none. The masks must be the same that joined_masks was given.
 std::unique_ptr<volume::SparseVolume> make_mask_bricks(std::span<const Grid* const> masks,
                                                        const BrickVolume& volume);
 

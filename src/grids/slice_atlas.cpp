@@ -51,8 +51,8 @@ DenseGrid level_values(const DenseGrid& grid, const SliceLayout& layout, std::ui
   return result;
 }
 
-/// The texel that padding shows: mirrored, so that the mean of two texels beside the rim is that of the two
-/// inside of it, in levels that an engine makes.
+/// The texel that padding shows: mirrored, so that the mean of two texels beside the rim is the mean of the
+/// two inside of it, in levels that an engine makes.
 std::uint32_t mirrored(std::int64_t at, std::uint32_t edge) {
   if (at < 0) at = -1 - at;
   if (at >= edge) at = 2 * std::int64_t{edge} - 1 - at;

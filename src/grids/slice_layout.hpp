@@ -66,7 +66,7 @@ std::uint32_t near_square_columns(const SliceLayout& layout, bool whole_rows);
 /// Levels of which each halves the tiles of the one before, and their padding: all of a tile's texels stay
 /// its own. 1: none besides the whole resolution.
 std::uint32_t level_count(const SliceLayout& layout);
-/// The layout of a level; its voxels are those of the halved tiles.
+/// The layout of a level, whose voxels the halved tiles hold.
 SliceLayout level_of(const SliceLayout& layout, std::uint32_t level);
 
 }  // namespace brume::grids

@@ -21,7 +21,7 @@ bool is_volume_file(const std::filesystem::path& path);
 /// `choice` does.
 Result<GridFile> chosen_of(Result<GridFile> file, const GridChoice& choice);
 
-/// Reads all grids of a .brv, .vdb or .nvdb file, or those of `choice`. Fails as load_grid_file.
+/// Reads all grids of a .brv, .vdb or .nvdb file, or the grids of `choice`. Fails as load_grid_file.
 Result<GridFile> load_volume_file(const std::filesystem::path& path, const GridLimits& limits = {},
                                   const GridChoice& choice = {});
 

@@ -14,7 +14,8 @@
 
 namespace brume::image {
 
-/// DejaVu Sans Bold: "fonts/DejaVuSans-Bold.ttf" of find_data_file, else that of Debian's fonts-dejavu-core.
+/// DejaVu Sans Bold: "fonts/DejaVuSans-Bold.ttf" of find_data_file, else the file of Debian's
+/// fonts-dejavu-core.
 const std::filesystem::path& default_font();
 
 /// A glyph in the middle of a square, with at least one empty texel on each side.

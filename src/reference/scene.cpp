@@ -16,17 +16,12 @@ namespace {
 
 using surfaces::Emitter;
 
-/// Of lib/hash.glsl.
-glm::vec3 hash3(const glm::uvec3& v) {
-  return glm::vec3(shared::pcg3d(v) >> 8u) * (1.0f / 16777216.0f);
-}
-
 /// The stars of lib/sky.glsl.
 float star_light(const glm::vec3& direction) {
   const glm::vec3 a = glm::abs(direction);
   const glm::vec3 on_cube = direction / std::max({a.x, a.y, a.z}) * 64.0f;
   const glm::uvec3 cell(glm::ivec3(glm::floor(on_cube)) + 1024);
-  const glm::vec3 random = hash3(cell), more = hash3(cell + 4096u);
+  const glm::vec3 random = shared::hash3(cell), more = shared::hash3(cell + 4096u);
   if (more.x > 0.3f) return 0;
   const glm::vec3 star = (glm::floor(on_cube) + 0.1f + 0.8f * random) / 64.0f;
   const float offset = glm::length(glm::normalize(star) - direction);

@@ -5,7 +5,7 @@
 
 namespace brume::scene {
 
-/// Elevation from which on daylight is that of noon [radians]: 28 degrees.
+/// Elevation from which on daylight is as at noon [radians]: 28 degrees.
 inline constexpr float kDaylightElevation = 0.4887f;
 
 /// The fraction of the sun's red, green and blue that clear air lets through at an elevation [radians],

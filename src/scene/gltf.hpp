@@ -25,7 +25,7 @@ namespace brume::scene {
 /// - The first node or mesh called Grenade becomes Scene::grenade.
 /// - Meshes may be compressed by Draco, meshoptimizer or quantization (KHR_draco_mesh_compression,
 ///   EXT_meshopt_compression, KHR_mesh_quantization), images may be WebP (EXT_texture_webp).
-/// - Texture coordinates are those of the material's first image, after its KHR_texture_transform.
+/// - Texture coordinates serve the material's first image, after its KHR_texture_transform.
 /// - Images continue as their textures' samplers say; filters are the renderer's own.
 /// - Meshes have the shape of their default morph weights, and of their skins with the joints as the nodes
 ///   place them.

@@ -138,7 +138,7 @@ constexpr Rule kRules[] = {
 #undef LIGHTS
 #undef TEXTURE
 
-/// The rules by path, including those of the enclosing arrays and objects.
+/// The rules by path, including rules for the enclosing arrays and objects.
 struct Node {
   Rule rule{};
   std::vector<std::string> required;

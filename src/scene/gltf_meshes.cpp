@@ -72,7 +72,7 @@ Vertex make_vertex(const Attributes& read, std::size_t i, const glm::mat3x2& ima
   return vertex;
 }
 
-/// Gives every corner a vertex of its own, so that computed normals are those of the triangles.
+/// Gives every corner a vertex of its own, so that computed normals are the triangles' own.
 void separate_corners(Mesh& mesh) {
   std::vector<Vertex> vertices;
   vertices.reserve(mesh.indices.size());

@@ -8,7 +8,8 @@
 
 namespace brume::scene {
 
-/// The velocity at the middle of three keys: that of the parabola through them (non-uniform Catmull-Rom).
+/// The velocity at the middle of three keys: the slope of the parabola through them (non-uniform
+/// Catmull-Rom).
 glm::dvec3 parabola_speed(const double (&time)[3], const glm::dvec3 (&value)[3]);
 
 /// A velocity without overshoot: the weighted harmonic mean of the slopes on both sides, zero where their

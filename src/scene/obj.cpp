@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kUnset = -1, kInvalid = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kMostUnknown = 8;
 
-/// Statements of the format, read or not, and those of its earlier versions.
+/// Statements of the format and its earlier versions, read or not.
 constexpr std::string_view kKnownStatements[] = {
     "v",    "vt",       "vn",     "vp",     "f",      "p",      "l",          "curv",     "curv2",
     "surf", "cstype",   "deg",    "bmat",   "step",   "parm",   "trim",       "hole",     "scrv",

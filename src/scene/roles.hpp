@@ -12,7 +12,7 @@ namespace brume::scene {
 /// By how a name begins: IGNORE_ is a ghost, GLASS_ glass, GRILLE_ a grille.
 std::optional<Role> role_of_prefix(std::string_view name);
 
-/// The alpha of a material: that of the image at a place, times that of the vertices, times a factor.
+/// The alpha of a material: the image's at a place, times the vertices', times a factor.
 struct Alpha {
   const Image* image = nullptr;  ///< Null: 1.
   double factor = 1;

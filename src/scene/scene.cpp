@@ -51,7 +51,7 @@ void for_each_corner(const Scene& scene, Visit visit) {
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
 }
 
-/// The same, and for those of the cores of volumes.
+/// The same, also for materials of the cores of volumes.
 template <typename Visit>
 void for_each_point(const Scene& scene, Visit visit) {
   for_each_corner(scene, visit);

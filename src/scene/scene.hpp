@@ -66,7 +66,7 @@ struct Object {
   std::uint32_t material = kNone;  ///< Index into Scene::materials.
   glm::mat4 world_from_mesh{1};
   Role role = Role::wall;    ///< What it stops.
-  bool see_through = false;  ///< Its material is that of glass, whatever its role.
+  bool see_through = false;  ///< Its material is glass, whatever its role.
   bool backdrop = false;     ///< Not part of the scene's bounds: a ground that reaches to the horizon.
 };
 
@@ -99,7 +99,7 @@ struct Light {
 /// A thin lens; the default is a pinhole.
 struct Lens {
   float aperture = 0;        ///< Radius of its opening [m]; 0: all is sharp.
-  float focus = 0;           ///< Distance along the view axis that is sharp [m]; 0: that of the target.
+  float focus = 0;           ///< Distance along the view axis that is sharp [m]; 0: as far as the target.
   std::uint32_t blades = 0;  ///< Edges of the opening; below 3: it is round.
   std::filesystem::path opening =
       {};  ///< Image in the place of blades: white lets light through. Ready to open.

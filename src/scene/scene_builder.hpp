@@ -33,7 +33,7 @@ class SceneBuilder {
   Result<std::uint32_t> add_mesh(Mesh mesh);
   /// The first existing file of `names`, decoded; each file is read once for each way in which it wraps. If
   /// it is missing or damaged, logs a warning that starts with `place`, ends with `instead`, and returns the
-  /// magenta checker. `use` is that of this image: `roles` if it decides one.
+  /// magenta checker. `use` says what this image is for: `roles` if it decides one.
   std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place,
                               const char* instead = kCheckerStandsIn, ImageUse use = ImageUse::pictures,
                               Wraps wraps = {});

@@ -121,7 +121,7 @@ class TankReader {
     choice = *found;
   }
 
-  /// One that exists; that of a file lies below the scene's folder.
+  /// A palette that exists; a file of colours lies below the scene's folder.
   void read_palette(TomlTable& table) {
     if (scene_.palette.empty()) return;
     if (const std::string name(palettes::file_of_choice(scene_.palette)); !name.empty()) {

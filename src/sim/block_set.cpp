@@ -36,7 +36,7 @@ std::uint64_t spread_in_block(std::uint64_t from, std::uint64_t among) {
   }
 }
 
-/// The voxels next to those of a block in the block across a face: -x, +x, -y, +y, -z, +z.
+/// The voxels next to a block's voxels in the block across a face: -x, +x, -y, +y, -z, +z.
 std::uint64_t across_face(std::uint64_t voxels, std::size_t face) {
   switch (face) {
     case 0:
@@ -68,7 +68,7 @@ BlockSet::BlockSet(std::span<const glm::ivec3> voxels) {
     runs.back().mask |= std::uint64_t{1} << block_bit_index(v);
   }
 
-  // Sort the runs and join those of one block.
+  // Sort the runs, and join the runs of one block.
   std::sort(runs.begin(), runs.end(),
             [](const VoxelBlock& a, const VoxelBlock& b) { return block_before(a.at, b.at); });
   std::vector<VoxelBlock> blocks;

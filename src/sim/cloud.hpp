@@ -72,7 +72,7 @@ class Cloud {
 
   /// From untrusted, received parts. Fails with bad_input when they are inconsistent: numbers out of range, a
   /// fill that is disconnected or lacks its source, overlapping sets, lists of the wrong length. Distances
-  /// equal those of the flood that made the fill, because its shortest paths run through the fill only.
+  /// equal the flood's that made the fill, because its shortest paths run through the fill only.
   static Result<Cloud> from_parts(CloudParts parts);
 
   /// Whether an edit of the level changes where this smoke is or can flow.

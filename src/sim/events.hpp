@@ -46,7 +46,7 @@ struct HoleTimingMs {
 };
 constexpr std::uint32_t kMaxMilliseconds = 1u << 30;
 
-/// Cross-section of a hole. The numbers are those of shared/hole.h.
+/// Cross-section of a hole. The numbers are the same in shared/hole.h.
 enum class HoleShape : std::uint8_t {
   cylinder = shared::kHoleCylinder,
   box = shared::kHoleBox,

@@ -52,7 +52,7 @@ std::uint64_t solid_bits(const voxel::BitGrid& grid, glm::ivec3 block);
 
 /// Applies the edits to a grid of what stops smoke; changes outside the grid are ignored.
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits);
-/// The same for all grids of a level; adds those of the roles that it had none of.
+/// The same for all grids of a level; adds grids of the roles that it had none of.
 void apply_edits(voxel::BitGrid& grid, voxel::RoleGrids& roles, std::span<const EditBlock> edits);
 
 }  // namespace brume::sim

@@ -70,13 +70,13 @@ class World {
   /// later ones are retained. Fails with bad_input when the state has another layout, ticks_per_second or
   /// masks, or contains something that has already ended.
   Result<void> restore(const State& state);
-  /// The first tick that can be rolled back to: 0, or that of the earliest state retained or restored.
+  /// The first tick that can be rolled back to: 0, or the tick of the earliest state retained or restored.
   std::uint32_t earliest_tick() const { return first_.tick; }
   /// Drops history before the last checkpoint at or before `tick`, which becomes earliest_tick(). Cheap: a
   /// server may call it every tick.
   void forget_before(std::uint32_t tick);
 
-  /// The events since earliest_tick(), sorted by tick; those of one tick in the order appended.
+  /// The events since earliest_tick(), sorted by tick; events of one tick in the order appended.
   std::span<const Event> log() const { return log_; }
 
  private:

@@ -65,7 +65,7 @@ class CellSight {
  public:
   explicit CellSight(PlaneWindow& planes) : planes_(planes) {}
 
-  /// Sets the cell: reads its planes and those of the 26 cells around it.
+  /// Sets the cell: reads its planes and the planes of the 26 cells around it.
   void look_at(glm::ivec3 cell);
   /// The planes of the cell, packed as the shader reads them; first_set is 0.
   const shared::BoundaryCell& record() const { return record_; }

@@ -17,7 +17,7 @@ constexpr std::array<std::uint16_t, kVoxelsPerBrick> make_texels_of_voxels() {
 constexpr auto kTexelOfVoxel = make_texels_of_voxels();
 
 /// For each of the 27 bricks around, which voxels of this brick are among its texels: all of them for the
-/// brick itself, else those of a face, an edge or a corner.
+/// brick itself, else the texels of a face, an edge or a corner.
 constexpr std::array<BrickBits, 27> make_shared_voxels() {
   constexpr std::uint64_t kColumn0 = 0x0101010101010101u, kRow0 = 0xff;
   std::array<BrickBits, 27> shared{};

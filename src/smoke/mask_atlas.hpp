@@ -80,7 +80,7 @@ class MaskAtlas {
 
   std::uint32_t width_ = 1, height_ = 1;
   std::vector<std::uint8_t> texels_{0};
-  std::vector<MaskCell> cells_{MaskCell{}};  // as texels_; those of the last column and row are mixed
+  std::vector<MaskCell> cells_{MaskCell{}};  // as texels_; the last column and row are mixed
   std::vector<MaskRectangle> rectangles_;
   sim::MaskKey key_;
 };

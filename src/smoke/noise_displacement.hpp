@@ -18,8 +18,8 @@ class NoiseDisplacement {
   NoiseDisplacement(const SmokeVolume& volume, const sim::State& state, const shared::SmokeLook& look,
                     double seconds, double swirl_period);
 
-  /// Writes those of a brick's texels [m], x + 10 (y + 10 z): the noise at a point is that of the point + its
-  /// displacement. 0 where no texel next to it in its brick holds smoke.
+  /// Writes the displacement of a brick's texels [m], x + 10 (y + 10 z): the noise at a point is taken at the
+  /// point + its displacement. 0 where no texel next to it in its brick holds smoke.
   void write(std::uint32_t slot, std::span<glm::vec3, shared::kTexelsPerBrick> out) const;
 
  private:

@@ -18,7 +18,7 @@ constexpr double kCreep = 1.0 / 7, kCreepSeconds = 5;
 constexpr double kGoneWeight = 0.999;
 // How much wider the rolls of a cloud become while it dissolves.
 constexpr double kDrawnOut = 2;
-// How far the rolls of an old cloud are ahead of those of a new one, in turns, and how fast they get there
+// How far the rolls of an old cloud are ahead of a new one's, in turns, and how fast they get there
 // [s].
 constexpr double kSwirlLead = 0.5, kSwirlLeadSeconds = 1.5;
 

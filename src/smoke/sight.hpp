@@ -73,7 +73,7 @@ using SurfaceAlbedo = std::function<glm::vec3(const SightWall&)>;
 class Sight {
  public:
   /// The smoke of `volume` with `holes` at a time on their clock (State::seconds, holes_of), the walls of
-  /// `level`: what stops sight, voxel::Solids::sight. Volume and level must be those of the same tick, and
+  /// `level`: what stops sight, voxel::Solids::sight. Volume and level must be of the same tick, and
   /// stay as they are while the Sight is used. Throws Error (bad_input) for an extinction out of range, a
   /// time that is not finite, or a hole that is a mask where there are none.
   Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<const shared::Hole> holes,

@@ -35,7 +35,7 @@ void sort_unique(std::vector<glm::ivec3>& bricks) {
   bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
 }
 
-/// Which blocks of a set are those of a brick; all kNoBlock when there is none.
+/// Which blocks of a set lie in a brick; all kNoBlock when there is none.
 BrickBlocks blocks_in(const sim::BlockSet& set, glm::ivec3 brick) {
   BrickBlocks blocks = no_blocks();
   for (std::size_t i = 0; i < 8; ++i) {

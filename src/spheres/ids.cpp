@@ -12,7 +12,7 @@ namespace {
 constexpr int kEdge = shared::kSphereBrick;
 constexpr std::size_t kIdGrain = 64;  // bricks of a task
 
-// Eight voxels along x at once, which compilers make vectors of. The operations on each are those of
+// Eight voxels along x at once, which compilers make vectors of. The operations on each are as in
 // shared/spheres.h in the same order: squares of the three axes are computed once per sphere, (x + y) + z per
 // voxel.
 using Row = std::array<float, kEdge>;

@@ -45,7 +45,7 @@ class VoxelIds {
   std::unique_ptr<std::uint32_t[]> words_;
 };
 
-/// On all cores; the same for any number of threads. `lists` are those of the tank.
+/// On all cores; the same for any number of threads. `lists` belong to the tank.
 VoxelIds make_ids(const Tank& tank, const BrickLists& lists);
 
 inline glm::uvec4 VoxelIds::at(const glm::ivec3& voxel) const {

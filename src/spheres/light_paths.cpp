@@ -98,8 +98,8 @@ struct Line {
   glm::vec3 origin{0}, direction{0};
 };
 
-/// Line i of a beam. Those of one direction are spread over the disk across it that the light's ball shows:
-/// that is what a ball of constant radiance emits, and from afar it shines as its intensity says.
+/// Line i of a beam. The lines of one direction are spread over the disk across it that the light's ball
+/// shows: that is what a ball of constant radiance emits, and from afar it shines as its intensity says.
 Line line_of(const Beam& beam, std::uint32_t i, PathRandom& random, const glm::dvec2& shift) {
   // Directions by the sequence of Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
   const glm::dvec2 u =
@@ -239,7 +239,7 @@ std::optional<shared::Photon> Tracer::trace(const Line& line, const glm::vec3& f
 }
 
 /// A radius within which the photon in the middle of all that are sorted by the light around them has about
-/// kGathered others: as if those of a sphere were spread over half of its surface, or its ball.
+/// kGathered others: as if the photons of a sphere were spread over half of its surface, or its ball.
 float chosen_radius(const Tank& tank, const std::vector<shared::Photon>& photons) {
   if (photons.empty()) return 1;
   std::vector<std::uint32_t> counts(tank.spheres.size());

@@ -24,7 +24,7 @@ constexpr std::uint32_t scrambled_upwards(std::uint32_t bits, std::uint32_t seed
   return bits;
 }
 
-/// Sobol's second coordinate of point i, as a fraction of 2^32; that of the first is i reversed.
+/// Sobol's second coordinate of point i, as a fraction of 2^32; the first coordinate is i reversed.
 constexpr std::uint32_t second_of_sobol(std::uint32_t i) {
   std::uint32_t result = 0;
   for (std::uint32_t column = 1u << 31; i != 0; i >>= 1, column ^= column >> 1)
@@ -40,7 +40,7 @@ constexpr std::uint32_t second_scrambled(std::uint32_t i, std::uint32_t seed) {
   return reversed_bits(scrambled_upwards(reversed_bits(second_of_sobol(i)), seed));
 }
 
-/// The bits of both in turn, those of `high` before those of `low`: Morton's order.
+/// The bits of both in turn, each of `high` before its counterpart of `low`: Morton's order.
 constexpr std::uint64_t interleaved(std::uint32_t high, std::uint32_t low) {
   const auto spread = [](std::uint64_t bits) {
     bits = (bits | bits << 16) & 0x0000ffff0000ffffu;

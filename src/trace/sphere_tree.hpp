@@ -24,7 +24,8 @@ class SphereTree {
     std::uint32_t sphere = kNone;  ///< Index; kNone: nothing is hit.
     float t = 0;
   };
-  /// The first surface on a ray (direction: unit) in [from, to], from outside or inside, but that of `skip`.
+  /// The first surface on a ray (direction: unit) in [from, to], from outside or inside, but not the surface
+  /// of `skip`.
   Hit next(const glm::vec3& origin, const glm::vec3& direction, float from, float to,
            std::uint32_t skip) const;
 

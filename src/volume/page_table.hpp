@@ -20,7 +20,7 @@ class PageTable {
  public:
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
 
-  /// Whether an entry of a node is slot + 1: neither 0 nor that of a uniform brick.
+  /// Whether an entry of a node is slot + 1: neither 0 nor the number of a uniform brick.
   static bool is_slot(std::uint32_t entry) { return entry != 0 && (entry & shared::kUniformBrick) == 0; }
   /// The slot of a brick, or kNoSlot.
   std::uint32_t at(glm::ivec3 brick) const {
@@ -52,7 +52,7 @@ class PageTable {
   glm::ivec3 size() const { return size_; }
   /// shared::kFirstNode + node, or a distance: x + size.x (y + size.y z).
   std::span<const std::uint32_t> root() const { return root_; }
-  /// Slot + 1, 0, or that of a uniform brick, kPageEntries a node: x + 8 (y + 8 z). Free nodes hold 0.
+  /// Slot + 1, 0, or the number of a uniform brick, kPageEntries a node: x + 8 (y + 8 z). Free nodes hold 0.
   std::span<const std::uint32_t> nodes() const { return nodes_; }
 
   /// Whether the root changed since the last clear_changes, and which nodes did, in no order.

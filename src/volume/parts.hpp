@@ -29,7 +29,7 @@ class Parts {
   struct Node {
     int axis = 0;
     int plane = 0;                      ///< Bricks below it, along the axis, are in the first child.
-    std::uint32_t first = 0, count;     ///< Parts; those of the first child come first.
+    std::uint32_t first = 0, count;     ///< Parts; the first child's come first.
     std::uint32_t left = 0, right = 0;  ///< Nodes, where `count` is above 1.
   };
   bool split(std::uint32_t node, std::span<glm::ivec3> bricks);
@@ -39,7 +39,7 @@ class Parts {
 };
 
 /// A volume of the bricks of one part, with the bounds of the whole (SparseVolume::set_extent): rays are
-/// divided into the same steps in all parts. It has at least one slot. Its channels are those of the whole.
+/// divided into the same steps in all parts. It has at least one slot. It has the channels of the whole.
 SparseVolume part_of_volume(const SparseVolume& whole, const Parts& parts, std::uint32_t part);
 
 }  // namespace brume::volume

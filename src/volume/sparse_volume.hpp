@@ -64,7 +64,7 @@ class SparseVolume {
 
   explicit SparseVolume(const SparseVolumeInfo& info);
 
-  /// Different from that of every other volume of the process, as long as it runs.
+  /// No other volume of the process has this number, as long as it runs.
   std::uint64_t id() const { return id_; }
 
   /// Clears the dirty slots and the changes of the page table.
@@ -82,7 +82,7 @@ class SparseVolume {
   void mark_dirty(ChannelId channel, std::uint32_t slot);
   /// Where anything can be [voxel space]: layout().bounds_min and bounds_max, from the end of the update on.
   void set_bounds(glm::vec3 low, glm::vec3 high);
-  /// Bounds and boxes are those of another volume, from the end of the update on: this one is a part of it.
+  /// Takes bounds and boxes from another volume, from the end of the update on: this one is a part of it.
   void set_extent(const SparseVolume& whole);
   /// Publishes layout, dirty slots and revision. The atlas grows to slot_count() bricks and never shrinks.
   void end_update();
@@ -154,7 +154,7 @@ class SparseVolume {
     void resize(std::size_t slot_count) { has_.resize(slot_count); }
     void insert(std::uint32_t slot);
     void clear();
-    /// Puts them in order, without those of `slot_count` and above.
+    /// Puts them in order, without `slot_count` and above.
     void sort(std::uint32_t slot_count);
     std::span<const std::uint32_t> slots() const { return slots_; }
 

@@ -38,7 +38,7 @@ class Level {
  public:
   /// A level of parts, all shown, numbered from 0. `grid` must be the voxelization of all their triangles.
   Level(BitGrid grid, std::vector<std::vector<Triangle>> parts);
-  /// The same of parts with roles. `grid` is the voxelization of those that stop smoke, `roles` those of all.
+  /// The same of parts with roles. `grid` holds the voxels that stop smoke, `roles` the grids of all roles.
   Level(BitGrid grid, RoleGrids roles, std::vector<LevelPart> parts);
 
   /// What stops smoke.

@@ -18,7 +18,7 @@
 
 namespace brume::voxel {
 
-/// The grids of a level beside that of what stops smoke, where they differ from it.
+/// The grids of a level beside the grid of what stops smoke, where they differ from it.
 struct RoleGrids {
   std::optional<BitGrid> sight;   ///< What stops sight; none: what stops smoke.
   std::optional<BitGrid> bodies;  ///< What stops bodies; none: what stops smoke.

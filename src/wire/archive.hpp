@@ -18,7 +18,7 @@
 
 namespace brume::wire {
 
-/// Kinds of numbers. Positions have three consecutive kinds; the name is that of x.
+/// Kinds of numbers. Positions have three consecutive kinds, named by x.
 enum class Field : std::uint8_t {
   events,
   id,

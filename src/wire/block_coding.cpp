@@ -122,7 +122,7 @@ std::uint64_t code_mask(Coder& coder, BlockModels& models, std::span<const Voxel
   return coded;
 }
 
-// The same with a prediction: the context is how much the neighbours differ from those of the predicted set.
+// The same with a prediction: the context is how much the neighbours differ from the predicted set's.
 template <typename Coder>
 std::uint64_t code_mask_like(Coder& coder, BlockModels& models, std::span<const VoxelBlock> known, ivec3 at,
                              const Prediction& like, std::uint64_t mask) {

@@ -96,7 +96,7 @@ void code_cloud(Archive<Coder>& archive, const Cloud* before, std::uint32_t tick
       glm::any(glm::greaterThanEqual(source, archive.layout().size)))
     archive.fail("a cloud's source lies outside of the grid");
 
-  // Its voxels: those of the earlier cloud that are not in the fill are likely detached.
+  // Its voxels: what the earlier cloud had and is not in the fill is likely detached.
   Prediction like;
   BlockSet not_in_fill;
   if (before) like = {&before->voxels(), 0};

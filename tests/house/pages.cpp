@@ -73,6 +73,22 @@ std::set<std::string> anchors_of(std::string_view markdown) {
   return anchors;
 }
 
+std::vector<Reference> references_in(std::string_view source) {
+  static const std::regex kFile(
+      R"re(\b((?:docs/[\w/-]+|[A-Z]{4,})\.md|(?:lib|shared)/\w+\.(?:glsl|h))\b(?:, "([^"]+)")?)re");
+  std::vector<Reference> found;
+  std::size_t number = 0;
+  for (const std::string& line : page_lines(source)) {
+    ++number;
+    const std::size_t begin = line.find("//");
+    if (begin == std::string::npos) continue;
+    const std::string comment = line.substr(begin);
+    for (std::sregex_iterator at(comment.begin(), comment.end(), kFile), end; at != end; ++at)
+      found.push_back({number, (*at)[1].str(), (*at)[2].str()});
+  }
+  return found;
+}
+
 std::vector<std::string> vague_phrases(std::string_view text) {
   static const std::regex kPhrase(R"(\b([Tt]hat|[Tt]hose) of\b|(^|[.|:] |/// |// |< )Of )");
   std::vector<std::string> found;

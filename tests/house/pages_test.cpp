@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/file.hpp"
+#include "tests/house/sources.hpp"
 
 namespace brume::house {
 namespace {
@@ -13,15 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using Texts = std::vector<std::string>;
 
-const fs::path kProject = BRUME_SOURCE_DIR;
-
 /// Every Markdown file of the project.
 std::vector<fs::path> pages() {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(kProject))
+  for (const auto& entry : fs::directory_iterator(kRoot))
     if (entry.path().extension() == ".md") found.push_back(entry.path());
   for (const char* folder : {"docs", "scenes", "bench", "data", "examples", "integrations"})
-    for (const auto& entry : fs::recursive_directory_iterator(kProject / folder))
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
       if (entry.path().extension() == ".md") found.push_back(entry.path());
   return found;
 }
@@ -47,6 +46,39 @@ TEST(Pages, VaguePhrasesAreFound) {
   EXPECT_EQ(vague_phrases("```\nthat of\n```\nThe sum of that. Office hours.\n"), Texts{});
 }
 
+TEST(Pages, ReferencesOfCommentsAreFound) {
+  const std::vector<Reference> found = references_in(
+      "// See CONTRIBUTING.md, \"Add a medium\".\nf(\"docs/a.md\");\n/// lib/noise.glsl (docs/how/b-c.md)\n");
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].file, "CONTRIBUTING.md");
+  EXPECT_EQ(found[0].heading, "Add a medium");
+  EXPECT_EQ(found[1].file, "lib/noise.glsl");
+  EXPECT_EQ(found[2].file, "docs/how/b-c.md");
+  EXPECT_EQ(found[2].line, 3u);
+}
+
+TEST(Pages, ReferencesOfCommentsLeadSomewhere) {
+  std::size_t count = 0;
+  const auto check = [&](const fs::path& source, const std::string& text) {
+    for (const Reference& reference : references_in(text)) {
+      ++count;
+      const bool is_page = reference.file.ends_with(".md");
+      const fs::path target = kRoot / (is_page ? "" : "shaders") / reference.file;
+      if (!fs::exists(target)) {
+        ADD_FAILURE() << source << ":" << reference.line << ": " << reference.file << " does not exist";
+      } else if (!reference.heading.empty()) {
+        const std::set<std::string> anchor = anchors_of("# " + reference.heading + "\n");
+        EXPECT_TRUE(anchors_of(*read_text_file(target)).contains(*anchor.begin()))
+            << source << ":" << reference.line << ": \"" << reference.heading << "\" is no heading of "
+            << reference.file;
+      }
+    }
+  };
+  for (const char* folder : {"include", "src", "apps", "bench", "shaders", "python"})
+    for_each_source(kRoot / folder, check);
+  EXPECT_GT(count, 50u);
+}
+
 TEST(Pages, LinksLeadSomewhere) {
   std::size_t count = 0;
   for (const fs::path& page : pages())
@@ -67,9 +99,9 @@ TEST(Pages, LinksLeadSomewhere) {
 }
 
 TEST(Pages, SayWhatTheyMean) {
-  std::vector<fs::path> texts{kProject / "README.md"};
+  std::vector<fs::path> texts{kRoot / "README.md"};
   for (const char* folder : {"docs", "include"})
-    for (const auto& entry : fs::recursive_directory_iterator(kProject / folder))
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
       if (const auto extension = entry.path().extension();
           extension == ".md" || extension == ".h" || extension == ".hpp")
         texts.push_back(entry.path());
