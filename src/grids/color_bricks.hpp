@@ -24,7 +24,8 @@ Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colo
 /// Colours as three grids of numbers, as Mantaflow saves the colours of smoke.
 struct ColorChannels {
   std::array<const Grid*, 3> parts{};  ///< Red, green and blue; none null.
-  const Grid* density = nullptr;       ///< By which they are multiplied, and are divided; null: by nothing.
+  const Grid* density =
+      nullptr;  ///< Density that the colours are multiplied by, and divided by here; null: none.
 };
 
 /// Whether colours seem to be multiplied by a density, as Blender's solver saves them: at voxels of the same

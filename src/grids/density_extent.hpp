@@ -1,4 +1,4 @@
-// Where a density can be seen, and how deep it is: what a camera and an extinction are chosen by.
+// Where a density can be seen, and how deep it is: a camera and an extinction are chosen by it.
 #pragma once
 
 #include "core/box.hpp"
@@ -11,10 +11,10 @@ namespace brume::grids {
 inline constexpr double kStray = 0.005;
 
 struct DensityExtent {
-  /// Around what filtering finds above a fraction of BrickVolume::densest [voxel space]; empty: there is
+  /// Box around what filtering finds above a fraction of BrickVolume::densest [voxel space]; empty: there is
   /// nothing. A few hot voxels do not hide the rest, and what strays does not count.
   Box<float> seen = kEmptyBox;
-  /// Around the voxels above 0 that do not stray, as far as filtering reaches [voxel space].
+  /// Box around the voxels above 0 that do not stray, as far as filtering reaches [voxel space].
   Box<float> bulk = kEmptyBox;
   double stray_part = 0;   ///< Part of the voxels above 0 that strays.
   double stray_reach = 0;  ///< How far from the bulk they are, at most [the file's world].

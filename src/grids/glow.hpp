@@ -11,7 +11,7 @@ namespace brume::grids {
 
 inline constexpr std::size_t kMostGlowBalls = 8;
 
-/// How what glows depends on the value of a grid.
+/// How the power of what glows depends on the value of a grid.
 enum class GlowPower {
   linear,  ///< A mask: as the value.
   fourth,  ///< Heat: as its fourth power, as a black body of that temperature shines.

@@ -28,8 +28,8 @@ struct Display {
   std::uint32_t tone = 0;  ///< shared::kToneNeutral or kToneStandard.
 };
 
-/// Colours as a display shows them, linear in [0, 1] and premultiplied. Alpha stays, within [0, 1]; what
-/// glows is there where it is 0.
+/// Colours as a display shows them, linear in [0, 1] and premultiplied. Alpha stays, within [0, 1]; where
+/// it is 0, what glows stays.
 Texels displayed(const Texels& picture, const Display& display);
 /// The same straight: not multiplied by alpha. Alpha is raised where light is brighter than colours of at
 /// most 1 can be, as flames are; 0 where nothing is.

@@ -46,7 +46,7 @@ class SceneBuilder {
   std::uint32_t image_with_opacity(std::uint32_t color, std::span<const std::string> names,
                                    const std::string& place, Wraps wraps = {});
   std::uint32_t checker_image();
-  /// Unless images are loaded for less than `use`.
+  /// Logs the line, unless images are loaded for less than `use`.
   void warn_of_image(ImageUse use, const std::string& line) const;
   bool is_checker(std::uint32_t image) const { return image == checker_ && image != kNone; }
   /// The index of the stand-in cube.

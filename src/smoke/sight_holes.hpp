@@ -3,8 +3,8 @@
 // Along a ray the strength of a hole is smooth but for a few points: where the ray enters its edge or its
 // middle, where it passes from one texel of a mask to the next, and where the hole begins to open or to close
 // at that depth. All of them are roots of polynomials of degree one or two. Between them, quadrature of a
-// fixed order is accurate. Masks are walked cell by cell, those that are black or white around one in one
-// step.
+// fixed order is accurate. Masks are walked cell by cell; one step crosses all cells around that are as black
+// or as white.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -20,8 +20,8 @@ namespace brume::smoke {
 /// One hole along a ray: everything that varies is linear in the ray's t.
 struct RayHole {
   float begin, end;            ///< Where it can remove anything.
-  float nearest;               ///< t at which the ray is nearest to its axis;
-  float x, x_step, y, y_step;  ///< across it: x + x_step (t - nearest).
+  float nearest;               ///< t at which the ray is nearest to its axis.
+  float x, x_step, y, y_step;  ///< Place across the axis: x + x_step (t - nearest).
   float age, age_step;         ///< How long it has been opening: age + age_step t [s].
   float radius, expand, stay_end, fade;
   MaskView mask;  ///< Cross-section of a box whose shape is an image.
@@ -51,14 +51,14 @@ struct HolePiece {
 struct HolesOnRay {
   std::vector<RayHole> holes;
   std::vector<HoleSegment> segments;   ///< Hole by hole, each in order of t.
-  std::vector<HolePiece> pieces;       ///< In order of t; between them no hole is.
+  std::vector<HolePiece> pieces;       ///< In order of t; there is no hole between them.
   std::vector<std::uint32_t> members;  ///< Numbers of segments.
-  /// Memory for what a ray usually meets, at once.
+  /// Allocates memory for what a ray usually meets.
   void reserve();
   /// Fraction of the smoke that remains at four t of a piece.
   Float4 remaining(const HolePiece& piece, Float4 t) const;
 
-  // While the pieces are made.
+  // Used while the pieces are made.
   struct Cursor {
     float change;                 ///< Where its segment begins, or ends when inside.
     std::uint32_t segment, last;  ///< The current segment of a hole; one past its last.
@@ -76,7 +76,7 @@ class HoleSet {
   /// `masks` must outlive it and hold the rectangles of all holes that are masks.
   HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtlas* masks);
   bool empty() const { return holes_.empty(); }
-  /// Finds those that the points origin_world + t step_world enter for t in [0, t_end].
+  /// Finds the holes that the points origin_world + t step_world enter for t in [0, t_end].
   void find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const;
 
  private:

@@ -17,8 +17,8 @@
 
 namespace brume::smoke {
 
-/// Boundary cells are built brick by brick; their corner sets follow the densities. Slots are those of a
-/// volume. All changes happen between begin_update and end_update, and readers see them from end_update on.
+/// Boundary cells are built brick by brick; their corner sets follow the densities. Slots are a volume's. All
+/// changes happen between begin_update and end_update, and readers see them from end_update on.
 class WallCells {
  public:
   /// `volume` must outlive it; what `planes` returns too, or until the brick is built again.
@@ -44,7 +44,7 @@ class WallCells {
 
   /// kCellsPerBrick entries of a slot: boundary cell + 1, or 0.
   std::span<const std::uint32_t> cells(std::uint32_t slot) const;
-  /// Some between those that the cells name are unused.
+  /// Some entries between the ones that cells name are unused.
   std::span<const shared::BoundaryCell> boundary_cells() const { return boundary_cells_; }
   std::span<const glm::uvec2> corner_sets() const { return corner_sets_; }
 
@@ -66,7 +66,7 @@ class WallCells {
     // What the update has done.
     bool touched = false, cells_changed = false, home_changed = false;
     volume::IndexRange sets_changed;  // part of home->set_range, counted in the brick
-    BrickBits stale{};                // boundary cells whose corner sets are
+    BrickBits stale{};                // boundary cells whose corner sets are stale
   };
 
   void touch(std::uint32_t slot);

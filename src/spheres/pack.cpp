@@ -99,7 +99,7 @@ class Packing {
   }
 
  private:
-  /// Adds spheres that were not tried yet to those that were refused. Whether there are any.
+  /// Fills the round up with spheres that were not tried yet. False if it stays empty.
   bool fill_round() {
     const std::uint32_t most = places_->most_at_once();
     const std::uint32_t size = std::min(std::clamp(spheres_.count() / 4, kLeastRound, kMostRound), most);
@@ -153,7 +153,7 @@ class Packing {
       }
     });
 
-    // In order, since what was refused is in the way of none.
+    // Refuse them in order: a refused sphere is in nobody's way.
     std::sort(pairs.begin(), pairs.end());
     std::vector<bool> refused(spheres_.count() - first);
     for (const auto& [later, earlier] : pairs)

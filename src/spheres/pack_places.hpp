@@ -39,7 +39,7 @@ class PackPlaces {
   virtual std::uint32_t most_at_once() { return UINT32_MAX; }
 };
 
-/// For the options' arrangement; `spheres` are those that are inserted, which it reads.
+/// Makes the places of the options' arrangement. They read `spheres`, which holds what is inserted so far.
 std::unique_ptr<PackPlaces> make_pack_places(const PackOptions& options, const PackLevels& spheres);
 
 /// A position along an axis of `size` voxels of a sphere inside of it: `fraction` in [0, 1) of what is
