@@ -242,6 +242,16 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bo
 }
 
 void Recorder::bind(const Pipeline& pipeline, BoundResources resources, std::span<const std::byte> bytes) {
+  bind_all(pipeline, resources, bytes);
+}
+
+void Recorder::bind(const Pipeline& pipeline, Bundles bundles, BoundResources resources,
+                    std::span<const std::byte> bytes) {
+  bind_all(pipeline, with_bundles(pipeline.interface(), bundles, resources, &memory()), bytes);
+}
+
+void Recorder::bind_all(const Pipeline& pipeline, std::span<const BoundResource> resources,
+                        std::span<const std::byte> bytes) {
   for (const BoundResource& bound : resources) use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   const VkDescriptorSet set = write_set(pipeline, resources);
   if (concurrently_) {
@@ -255,6 +265,10 @@ void Recorder::bind(const Pipeline& pipeline, BoundResources resources, std::spa
 
 void Recorder::bind_for_draws(const Pipeline& pipeline, BoundResources resources) {
   bind_set(pipeline, write_set(pipeline, resources));
+}
+
+void Recorder::bind_for_draws(const Pipeline& pipeline, Bundles bundles, BoundResources resources) {
+  bind_set(pipeline, write_set(pipeline, with_bundles(pipeline.interface(), bundles, resources, &memory())));
 }
 
 void Recorder::bind_set(const Pipeline& pipeline, VkDescriptorSet set) {
@@ -271,6 +285,11 @@ void Recorder::prepare_for_draws(std::initializer_list<Binding> bindings) {
   for (const Binding& binding : bindings) {
     use(binding, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
   }
+}
+
+void Recorder::prepare_for_draws(const Pipeline& pipeline, Bundles bundles, BoundResources resources) {
+  for (const BoundResource& bound : with_bundles(pipeline.interface(), bundles, resources, &memory()))
+    prepare_for_draws({bound.resource});
 }
 
 void Recorder::prepare_indices(const Buffer& indices) {

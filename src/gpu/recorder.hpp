@@ -12,58 +12,13 @@
 #include <vector>
 
 #include "core/frame_memory.hpp"
+#include "gpu/bindings.hpp"
 #include "gpu/command_list.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
-#include "shared/shim.h"
 
 namespace brume::gpu {
-
-/// A resource bound to a pass, and how the pass accesses it.
-struct Binding {
-  VkDescriptorType type = kBuffer;
-  const Buffer* buffer = nullptr;
-  const Image* image = nullptr;
-  const Sampler* sampler = nullptr;
-  bool reads = false, writes = false;
-};
-inline Binding read(const Buffer& buffer) {
-  return {kBuffer, &buffer, nullptr, nullptr, true, false};
-}
-inline Binding write(const Buffer& buffer) {
-  return {kBuffer, &buffer, nullptr, nullptr, false, true};
-}
-inline Binding read_write(const Buffer& buffer) {
-  return {kBuffer, &buffer, nullptr, nullptr, true, true};
-}
-inline Binding uniform(const Buffer& buffer) {
-  return {kUniform, &buffer, nullptr, nullptr, true, false};
-}
-inline Binding sampled(const Image& image, const Sampler& sampler) {
-  return {kSampled, nullptr, &image, &sampler, true, false};
-}
-inline Binding stored(const Image& image) {
-  return {kStored, nullptr, &image, nullptr, false, true};
-}
-inline Binding read_stored(const Image& image) {
-  return {kStored, nullptr, &image, nullptr, true, false};
-}
-inline Binding read_write_stored(const Image& image) {
-  return {kStored, nullptr, &image, nullptr, true, true};
-}
-
-/// A resource at a binding of a shader: `{shared::kBindPages, gpu::read(pages)}`.
-struct BoundResource {
-  shared::BindingIndex at;
-  Binding resource;
-};
-using BoundResources = std::initializer_list<BoundResource>;
-
-/// Compares bound resources with the interface of a shader: a binding that the shader lacks, one of another
-/// type, one bound twice, or one without a resource. Empty when all match, else a message that names the
-/// binding.
-std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources);
 
 /// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
 /// Reused when the device is done with the frame.
@@ -106,6 +61,13 @@ class Recorder {
   template <typename Push>
   void bind(const Pipeline& pipeline, BoundResources resources, const Push& push) {
     bind(pipeline, resources, std::as_bytes(std::span(&push, 1)));
+  }
+  /// The same with bundles (with_bundles).
+  void bind(const Pipeline& pipeline, Bundles bundles, BoundResources resources,
+            std::span<const std::byte> push = {});
+  template <typename Push>
+  void bind(const Pipeline& pipeline, Bundles bundles, BoundResources resources, const Push& push) {
+    bind(pipeline, bundles, resources, std::as_bytes(std::span(&push, 1)));
   }
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
@@ -166,9 +128,12 @@ class Recorder {
   void set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px);
   /// Barriers for resources that draws read; before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);
+  /// The same for all that bind_for_draws will bind.
+  void prepare_for_draws(const Pipeline& pipeline, Bundles bundles, BoundResources resources);
   void prepare_indices(const Buffer& indices);
   /// Binds inside a rendering, where no barrier is possible: prepare_for_draws comes first.
   void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
+  void bind_for_draws(const Pipeline& pipeline, Bundles bundles, BoundResources resources);
 
   void begin_scope(const char* name);
   void end_scope();
@@ -199,6 +164,8 @@ class Recorder {
   };
   Staged stage_bytes(std::span<const std::byte> bytes);
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+  void bind_all(const Pipeline& pipeline, std::span<const BoundResource> resources,
+                std::span<const std::byte> push);
   VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
   void bind_set(const Pipeline& pipeline, VkDescriptorSet set);
   void add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);

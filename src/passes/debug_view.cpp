@@ -115,7 +115,6 @@ float ramp_end(DebugView view, const sim::State& state) {
 DebugViewPass::DebugViewPass(gpu::Context& context)
     : context_(context),
       nearest_(context, {VK_FILTER_NEAREST}),
-      linear_(context, {}),
       nothing_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
 
 void DebugViewPass::reserve(const DebugSubject& subject, glm::uvec2 size_px) {
@@ -181,22 +180,12 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   const gpu::Buffer& distances = distances_ ? distances_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;
   const gpu::ComputePipeline& pipeline = *pipelines_[static_cast<std::size_t>(subject.view)];
-  recorder.bind(pipeline,
+  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
-                    {shared::kBindPages, gpu::read(in.smoke.pages)},
-                    {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
-                    {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
                     {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
                     {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
                     {shared::kBindDepth, gpu::sampled(in.gbuffer.depth, nearest_)},
-                    {shared::kBindHoles, gpu::read(in.holes.holes)},
-                    {shared::kBindHoleLists, gpu::read(in.holes.lists)},
-                    {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
-                    {shared::kBindFilled, gpu::read(in.smoke.filled)},
                     {shared::kBindLevelWords, gpu::read(level)},
                     {shared::kBindDistances, gpu::read(distances)},
                     {shared::kBindMarchCounters, gpu::read(counters)},

@@ -77,7 +77,7 @@ class DebugViewPass {
   void find_distances(const DebugSubject& subject);
 
   gpu::Context& context_;
-  gpu::Sampler nearest_, linear_;
+  gpu::Sampler nearest_;
   std::array<std::optional<gpu::ComputePipeline>, shared::kViewCount> pipelines_;
   gpu::Buffer level_, distances_, counters_;
   gpu::Buffer nothing_;  ///< Bound where a view does not read one.

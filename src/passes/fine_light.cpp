@@ -24,7 +24,6 @@ gpu::Image make_pages(gpu::Context& context, std::uint32_t rows) {
 FineLightPass::FineLightPass(gpu::Context& context)
     : context_(context),
       pipeline_(context, shaders::fine_light_comp),
-      linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
   trim();
 }
@@ -68,16 +67,9 @@ void FineLightPass::upload(gpu::Recorder& recorder, const planning::FineLightPla
 void FineLightPass::record(gpu::Recorder& recorder, const planning::FineLightPlan& plan,
                            const Inputs& in) const {
   if (plan.slots.empty() || page_count_ == 0) return;
-  recorder.bind(pipeline_,
+  recorder.bind(pipeline_, {in.smoke.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
-                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
-                    {shared::kBindDensityDisplacement, gpu::sampled(in.smoke.density_displacement, linear_)},
-                    {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
-                    {shared::kBindLightSide, gpu::sampled(in.smoke.light_side, linear_)},
                     {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
                     {shared::kBindFineSlots, gpu::read(slots_)},
                     {shared::kBindFineLight, gpu::stored(light_)},

@@ -32,7 +32,7 @@ class FineLightPass {
  private:
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
-  gpu::Sampler linear_, repeat_;
+  gpu::Sampler repeat_;
   gpu::Image light_;
   gpu::Buffer pages_, slots_;
   std::uint32_t page_count_ = 0;  ///< Of the reserved plan.

@@ -69,18 +69,16 @@ void GlowFieldPass::record(gpu::Recorder& recorder, const Inputs& in) const {
 void GlowFieldPass::record_volume(gpu::Recorder& recorder, const Inputs& in, std::uint32_t volume) const {
   const shared::GlowFieldParams params{volume, 0, 0, 0};
   record_cells(recorder, in, params);
-  recorder.bind(sweep_pipeline_,
+  recorder.bind(sweep_pipeline_, {in.volumes.bindings()},
                 {
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindGlowMatter, gpu::sampled(matter_, linear_)},
                     {shared::kBindGlowSwept, gpu::stored(swept_)},
                 },
                 params);
   recorder.dispatch_threads(sweep_pipeline_, shared::kGlowThreads * shared::kSkyDirections,
                             shared::kGlowThreads);
-  recorder.bind(gather_pipeline_,
+  recorder.bind(gather_pipeline_, {in.volumes.bindings()},
                 {
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindGlowMatter, gpu::sampled(matter_, linear_)},
                     {shared::kBindGlowAlbedo, gpu::sampled(albedo_, linear_)},
                     {shared::kBindGlowSwept, gpu::sampled(swept_, linear_)},
@@ -95,16 +93,8 @@ void GlowFieldPass::record_volume(gpu::Recorder& recorder, const Inputs& in, std
 void GlowFieldPass::record_cells(gpu::Recorder& recorder, const Inputs& in,
                                  const shared::GlowFieldParams& params) const {
   const gpu::ComputePipeline& pipeline = cells_pipelines_.at(in.casters & kCellsMedia);
-  recorder.bind(pipeline,
+  recorder.bind(pipeline, {in.volumes.bindings()},
                 {
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
-                    {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
-                    {shared::kBindMaskPairs, gpu::sampled(in.volumes.mask_pairs, linear_)},
-                    {shared::kBindVolumeColors, gpu::sampled(in.volumes.colors, linear_)},
-                    {shared::kBindVolumeEffects, gpu::read(in.volumes.effects)},
                     {shared::kBindGlowMatterTarget, gpu::stored(matter_)},
                     {shared::kBindGlowAlbedoTarget, gpu::stored(albedo_)},
                 },
@@ -147,9 +137,8 @@ void GlowFieldPass::record_level(gpu::Recorder& recorder, const Inputs& in, std:
   // One workgroup holds the coarsest level, and synchronizes its steps itself.
   const std::uint32_t together = level + 1 == shared::kGlowLevels ? steps : 1;
   for (std::uint32_t step = 0; step < steps; step += together) {
-    recorder.bind(diffuse_pipeline_,
+    recorder.bind(diffuse_pipeline_, {in.volumes.bindings()},
                   {
-                      {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                       {shared::kBindGlowCells, gpu::read(cells_)},
                       {shared::kBindGlowState, gpu::read_write(state_)},
                   },

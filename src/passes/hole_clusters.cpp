@@ -20,6 +20,7 @@ HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandStream& stream, co
       bricks_pass_(context, shaders::hole_bricks_comp),
       cells_pass_(context, shaders::hole_cells_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
+      resources_{.nearest = nearest_},
       counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
       words_taken_(context, sizeof(std::uint32_t),
@@ -69,15 +70,13 @@ void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& pla
 void HoleClusters::record_first(gpu::Recorder& recorder, const planning::HolePlan& plan,
                                 const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (plan.holes.empty()) return;
-  recorder.bind(tiles_pass_, {{shared::kBindFrame, gpu::uniform(frame)},
-                              {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
-                              {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}});
+  recorder.bind(tiles_pass_, {resources_.bindings()},
+                {{shared::kBindFrame, gpu::uniform(frame)},
+                 {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}});
   recorder.dispatch_threads(tiles_pass_, tiles_pass_.group()[0] * plan.coarse_tiles.x, plan.coarse_tiles.y);
-  recorder.bind(bricks_pass_,
+  recorder.bind(bricks_pass_, {smoke.bindings(), resources_.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
-                    {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
-                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
                     {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
                     {shared::kBindHolePairs, gpu::write(pairs_)},
                     {shared::kBindHoleCounters, gpu::read_write(counters_)},
@@ -91,10 +90,9 @@ void HoleClusters::record_second(gpu::Recorder& recorder, const planning::HolePl
                                  const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (plan.holes.empty()) return;
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
-  recorder.bind(groups_pass_,
+  recorder.bind(groups_pass_, {resources_.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
-                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
                     {shared::kBindCoarseTileHoles, gpu::read(coarse_tile_holes_)},
                     {shared::kBindHoleLists, gpu::write(resources_.lists)},
                     {shared::kBindHoleWordsTaken, gpu::read_write(words_taken_)},
@@ -102,16 +100,12 @@ void HoleClusters::record_second(gpu::Recorder& recorder, const planning::HolePl
                 shared::HoleListsParams{plan.word_capacity});
   recorder.dispatch_threads(groups_pass_, groups_pass_.group()[0] * kPerTile * plan.coarse_tiles.x,
                             kPerTile * plan.coarse_tiles.y);
-  recorder.bind(cells_pass_,
+  recorder.bind(cells_pass_, {smoke.bindings(), resources_.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
-                    {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
-                    {shared::kBindHoles, gpu::read(resources_.holes)},
-                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
                     {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
                     {shared::kBindHolePairs, gpu::read(pairs_)},
                     {shared::kBindHoleCounters, gpu::read(counters_)},
-                    {shared::kBindHoleMasks, gpu::sampled(resources_.masks, nearest_)},
                 },
                 shared::HoleCellsParams{plan.slot_count, plan.pair_capacity, plan.chunk_capacity});
   recorder.dispatch_threads(cells_pass_, 64 * std::min(kGroups, plan.pair_capacity));

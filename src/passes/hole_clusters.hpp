@@ -4,16 +4,29 @@
 #include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
 #include "planning/hole_plan.hpp"
+#include "shared/hole_clusters.h"
 
 namespace brume::passes {
 
 /// Holes on the device, for every pass that evaluates them.
 struct HoleResources {
-  gpu::Buffer holes;    ///< shared::PackedHole.
-  gpu::Buffer reaches;  ///< shared::PackedReach, one per hole.
-  gpu::Buffer lists, cells;
-  gpu::Image masks;  ///< The mask atlas.
-  bool any = false;  ///< Whether any hole of the frame may remove smoke.
+  const gpu::Sampler& nearest;
+  gpu::Buffer holes{};    ///< shared::PackedHole.
+  gpu::Buffer reaches{};  ///< shared::PackedReach, one per hole.
+  gpu::Buffer lists{}, cells{};
+  gpu::Image masks{};  ///< The mask atlas.
+  bool any = false;    ///< Whether any hole of the frame may remove smoke.
+
+  /// All that shaders read of the holes.
+  auto bindings() const {
+    return std::to_array<gpu::BoundResource>({
+        {shared::kBindHoles, gpu::read(holes)},
+        {shared::kBindHoleReaches, gpu::read(reaches)},
+        {shared::kBindHoleLists, gpu::read(lists)},
+        {shared::kBindHoleCells, gpu::read(cells)},
+        {shared::kBindHoleMasks, gpu::sampled(masks, nearest)},
+    });
+  }
 };
 
 class HoleClusters {

@@ -143,7 +143,7 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
 template <typename... Own>
 void IndirectLightPass::dispatch_lit(gpu::Recorder& recorder, const Inputs& in,
                                      const gpu::ComputePipeline& pipeline, glm::uvec3 threads, Own... own) {
-  recorder.bind(pipeline,
+  recorder.bind(pipeline, {in.volumes.bindings()},
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindLights, gpu::read(lights_)},
                  {shared::kBindSun, gpu::uniform(in.shadows.sun)},
@@ -158,24 +158,16 @@ void IndirectLightPass::dispatch_lit(gpu::Recorder& recorder, const Inputs& in,
 void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) {
   const glm::uvec3 cells(params_.media_high - params_.media_low);
   const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.casters & kCellMedia);
-  recorder.bind(medium_pass,
+  recorder.bind(medium_pass, {in.smoke.bindings(), in.volumes.bindings()},
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
-                 {shared::kBindPages, gpu::read(in.smoke.pages)},
-                 {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
                  {shared::kBindHoleCells, gpu::read(in.hole_cells)},
                  {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
-                 {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                 {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                 {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                 {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
-                 {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
                  {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
                 params_);
   recorder.dispatch_threads(medium_pass, cells.x, cells.y, cells.z);
   dispatch_lit(recorder, in, medium_light_pass_, {probe_count_, 1, 1},
                gpu::BoundResource{shared::kBindIndirectProbes, gpu::read(probes_)},
                gpu::BoundResource{shared::kBindIndirectHits, gpu::read(hits_)},
-               gpu::BoundResource{shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                gpu::BoundResource{shared::kBindGlowField, gpu::sampled(in.glow_field, linear_)},
                gpu::BoundResource{shared::kBindIndirectTarget, gpu::stored(medium_direct_)},
                gpu::BoundResource{shared::kBindIndirectCubeTarget, gpu::stored(noisy_cube_)});

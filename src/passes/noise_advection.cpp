@@ -18,7 +18,6 @@ constexpr std::uint32_t kSlotsPerDispatch = 4096;
 NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
     : context_(context),
       pipeline_(context, shaders::noise_advection_comp),
-      linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
   trim();
   gpu::grow(context, impulses_, smoke::kMaxImpulses * sizeof(shared::Impulse));
@@ -68,11 +67,9 @@ void NoiseAdvectionPass::record(gpu::Recorder& recorder, const planning::NoisePl
       plan.slots_due ? static_cast<std::uint32_t>(plan.slots_due->size()) : in.smoke.required_count;
   for (std::uint32_t first = 0; first < all; first += kSlotsPerDispatch) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, all - first);
-    recorder.bind(pipeline_,
+    recorder.bind(pipeline_, {in.smoke.bindings()},
                   {
                       {shared::kBindFrame, gpu::uniform(in.frame)},
-                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
-                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
                       {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
                       {shared::kBindCloudParts, gpu::read(parts_)},
                       {shared::kBindDisplacements, gpu::read(displacements_)},

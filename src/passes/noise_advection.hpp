@@ -31,7 +31,7 @@ class NoiseAdvectionPass {
  private:
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
-  gpu::Sampler linear_, repeat_;
+  gpu::Sampler repeat_;
   smoke::CloudGrowth growth_;
   gpu::Buffer slots_due_;
   gpu::Buffer parts_, displacements_, motions_, impulses_;

@@ -55,28 +55,16 @@ void PanePass::reserve(const Needs& needs) {
   shine_.try_emplace(own, context_, info);
 }
 
-void PanePass::prepare(gpu::Recorder& recorder, const Inputs& in, const SceneResources& scene) const {
-  recorder.prepare_for_draws({gpu::uniform(in.frame),
-                              gpu::read(scene.vertices),
-                              gpu::read(scene.lights),
-                              gpu::uniform(in.shadows.sun),
-                              gpu::sampled(in.shadows.layers, compare_),
+void PanePass::prepare(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
+                       const SceneResources& scene) const {
+  recorder.prepare_for_draws({gpu::uniform(in.frame), gpu::read(scene.vertices), gpu::read(scene.lights),
+                              gpu::uniform(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
                               gpu::sampled(in.smoke_shadows.atlas, linear_),
-                              gpu::read(in.smoke_shadows.faces),
-                              gpu::sampled(in.smoke, nearest_),
+                              gpu::read(in.smoke_shadows.faces), gpu::sampled(in.smoke, nearest_),
                               gpu::sampled(in.level.sky.light(), linear_),
                               gpu::sampled(in.level.indirect_cube, linear_),
-                              gpu::sampled(in.level.solid.texels(), linear_),
-                              gpu::read(in.bricks.pages),
-                              gpu::sampled(in.bricks.filtered_density, linear_),
-                              gpu::read(in.bricks.cells),
-                              gpu::read(in.bricks.boundary),
-                              gpu::read(in.bricks.corners),
-                              gpu::read(in.hole_cells),
-                              gpu::uniform(in.volumes.instances),
-                              gpu::read(in.volumes.pages),
-                              gpu::sampled(in.volumes.values, linear_),
-                              gpu::read(in.volumes.transfers)});
+                              gpu::sampled(in.level.solid.texels(), linear_), gpu::read(in.hole_cells)});
+  recorder.prepare_for_draws(shine, {in.bricks.bindings(), in.volumes.bindings()}, {});
   maps_.prepare_for_draws(recorder, scene);
   recorder.prepare_indices(scene.indices);
 }
@@ -86,7 +74,7 @@ void PanePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs&
   const std::vector<const Draw*> draws = in_order(panes);
   if (draws.empty()) return;
   const gpu::GraphicsPipeline& shine = shine_.at({needs.voxel_shadows, needs.media & kPaneMedia});
-  prepare(recorder, in, panes.scene);
+  prepare(recorder, shine, in, panes.scene);
   gpu::Recorder::Attachments attachments{{&radiance}, &in.depth};
   attachments.keep = 0b1;
   attachments.keep_depth = true;
@@ -113,33 +101,24 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
                                        {shared::kBindNormalMap, normal},
                                    });
   draw_with(filter_);
-  recorder.bind_for_draws(
-      shine, {
-                 {shared::kBindFrame, gpu::uniform(in.frame)},
-                 {shared::kBindVertices, gpu::read(scene.vertices)},
-                 {shared::kBindBaseColorMap, base_color},
-                 {shared::kBindNormalMap, normal},
-                 {shared::kBindRoughnessMap, roughness},
-                 {shared::kBindLights, gpu::read(scene.lights)},
-                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
-                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                 {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
-                 {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
-                 {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
-                 {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
-                 {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
-                 {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
-                 {shared::kBindPages, gpu::read(in.bricks.pages)},
-                 {shared::kBindFilteredDensity, gpu::sampled(in.bricks.filtered_density, linear_)},
-                 {shared::kBindCells, gpu::read(in.bricks.cells)},
-                 {shared::kBindBoundary, gpu::read(in.bricks.boundary)},
-                 {shared::kBindCorners, gpu::read(in.bricks.corners)},
-                 {shared::kBindHoleCells, gpu::read(in.hole_cells)},
-                 {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                 {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                 {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                 {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
-             });
+  recorder.bind_for_draws(shine, {in.bricks.bindings(), in.volumes.bindings()},
+                          {
+                              {shared::kBindFrame, gpu::uniform(in.frame)},
+                              {shared::kBindVertices, gpu::read(scene.vertices)},
+                              {shared::kBindBaseColorMap, base_color},
+                              {shared::kBindNormalMap, normal},
+                              {shared::kBindRoughnessMap, roughness},
+                              {shared::kBindLights, gpu::read(scene.lights)},
+                              {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                              {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                              {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
+                              {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
+                              {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
+                              {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                              {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
+                              {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                              {shared::kBindHoleCells, gpu::read(in.hole_cells)},
+                          });
   draw_with(shine);
 }
 

@@ -52,7 +52,8 @@ class PanePass {
               const gpu::Image& radiance) const;
 
  private:
-  void prepare(gpu::Recorder& recorder, const Inputs& in, const SceneResources& scene) const;
+  void prepare(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
+               const SceneResources& scene) const;
   void draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
             const SceneResources& scene, const Draw& draw) const;
 

@@ -33,7 +33,7 @@ IntervalSurfaces::IntervalSurfaces(gpu::Context& context, glm::uvec2 size_px)
     : entries(interval_image(context, size_px)), exits(interval_image(context, size_px)) {}
 
 RaycastPass::RaycastPass(gpu::Context& context, RaycastForm form, glm::uvec2 size_px)
-    : linear_(context, {}), nearest_(context, {VK_FILTER_NEAREST}) {
+    : nearest_(context, {VK_FILTER_NEAREST}) {
   gpu::grow(context, view_, sizeof(shared::RaycastView));
   gpu::grow(context, volumes_, shared::kMaxVolumes * sizeof(shared::RaycastVolume));
   gpu::GraphicsInfo info{&shaders::raycast_box_vert, nullptr, {}, VK_FORMAT_UNDEFINED};
@@ -65,13 +65,10 @@ void RaycastPass::record_two_pass(gpu::Recorder& recorder, const Inputs& in,
                                   const planning::RaycastPlan::Box& box, const gpu::Image& target) const {
   draw_surface(recorder, draw_of(box, false), surfaces_->entries);
   draw_surface(recorder, draw_of(box, true), surfaces_->exits);
-  recorder.bind(*two_pass_,
+  recorder.bind(*two_pass_, {in.volumes.bindings()},
                 {
                     {shared::kBindRaycastView, gpu::read(view_)},
                     {shared::kBindRaycastVolumes, gpu::read(volumes_)},
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
                     {shared::kBindRayEntries, gpu::sampled(surfaces_->entries, nearest_)},
                     {shared::kBindRayExits, gpu::sampled(surfaces_->exits, nearest_)},
@@ -95,19 +92,16 @@ void RaycastPass::draw_surface(gpu::Recorder& recorder, const shared::RaycastDra
 
 void RaycastPass::record_single_pass(gpu::Recorder& recorder, const Inputs& in,
                                      const planning::RaycastPlan& plan, const gpu::Image& target) const {
-  recorder.prepare_for_draws({gpu::read(view_), gpu::read(volumes_), gpu::uniform(in.volumes.instances),
-                              gpu::read(in.volumes.pages), gpu::sampled(in.volumes.values, linear_),
-                              gpu::sampled(in.depth, nearest_)});
+  recorder.prepare_for_draws({gpu::read(view_), gpu::read(volumes_), gpu::sampled(in.depth, nearest_)});
+  recorder.prepare_for_draws(*single_, {in.volumes.bindings()}, {});
   recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, 1}, glm::uvec2(target.info().size));
   recorder.set_culling(true);
-  recorder.bind_for_draws(*single_, {
-                                        {shared::kBindRaycastView, gpu::read(view_)},
-                                        {shared::kBindRaycastVolumes, gpu::read(volumes_)},
-                                        {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                                        {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                                        {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                                        {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
-                                    });
+  recorder.bind_for_draws(*single_, {in.volumes.bindings()},
+                          {
+                              {shared::kBindRaycastView, gpu::read(view_)},
+                              {shared::kBindRaycastVolumes, gpu::read(volumes_)},
+                              {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
+                          });
   for (const planning::RaycastPlan::Box& box : plan.boxes) {
     // Around the eye there are no front faces; each ray leaves through one back face.
     recorder.push(*single_, bytes_of(draw_of(box, box.around_eye)));

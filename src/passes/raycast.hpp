@@ -51,7 +51,7 @@ class RaycastPass {
   std::optional<gpu::ComputePipeline> two_pass_;
   std::optional<IntervalSurfaces> surfaces_;
   gpu::Buffer view_, volumes_;
-  gpu::Sampler linear_, nearest_;
+  gpu::Sampler nearest_;
 };
 
 }  // namespace brume::passes

@@ -110,16 +110,13 @@ void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in, c
 void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
   const volume::IndexRange& range = part.texel_lists;
   if (range.count == 0) return;
-  recorder.bind(texels_pass_,
+  recorder.bind(texels_pass_, {in.smoke.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindTexelLists, gpu::read(listed_bricks_)},
-                    {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
                     {shared::kBindLightRows, gpu::read_write(texel_lists_)},
                     {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
                     {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLightChanges, gpu::read(changes_)},
                 },
                 params_of(range, texels_pass_.group()[0]));
@@ -133,27 +130,16 @@ const gpu::ComputePipeline& SmokeLightPass::rays_pass(const Inputs& in) const {
 
 void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                                    std::uint32_t threads) const {
-  recorder.bind(rays_pass(in),
+  recorder.bind(rays_pass(in), {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
-                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                    {shared::kBindPages, gpu::read(in.smoke.pages)},
-                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
-                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
                     {shared::kBindShadowRays, gpu::read(shadow_rays_)},
                     {shared::kBindLightRows, gpu::read(texel_lists_)},
                     {shared::kBindLightBlocks, gpu::write(ray_pages_)},
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                 },
                 params_of(range, threads));
   const Groups groups = groups_of(range.count);
@@ -162,25 +148,18 @@ void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, co
 
 void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,
                                       const volume::IndexRange& range, std::uint32_t threads) const {
-  recorder.bind(inscatter_pass_,
+  recorder.bind(inscatter_pass_, {in.smoke.bindings(), in.holes.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
-                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindLightRows, gpu::read(texel_lists_)},
                     {shared::kBindLightBlocks, gpu::read(ray_pages_)},
                     {shared::kBindLightGathers, gpu::read(gathers_)},
                     {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
                     {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
-                    {shared::kBindPages, gpu::read(in.smoke.pages)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
-                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
                     {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
-                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
                     {shared::kBindBrickLights, gpu::read(gathered_lights_)},
                 },
                 params_of(range, threads));

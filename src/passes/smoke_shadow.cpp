@@ -18,7 +18,7 @@ constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 }  // namespace
 
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
-    : context_(context), linear_(context, {}), nearest_(context, {VK_FILTER_NEAREST}) {}
+    : context_(context), nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void SmokeShadowPass::reserve(std::uint32_t casters) {
   const std::uint32_t media = casters & kShadowMedia;
@@ -57,28 +57,15 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
   params.spread = update.spread;
   params.first = update.first;
   const gpu::ComputePipeline& pipeline = pipelines_.at(in.casters & kShadowMedia);
-  recorder.bind(pipeline,
+  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, nearest_)},
-                    {shared::kBindPages, gpu::read(in.smoke.pages)},
-                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
-                    {shared::kBindCells, gpu::read(in.smoke.cells)},
-                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
                     {shared::kBindSmokeShadows, gpu::stored(shadows.atlas)},
-                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
                     {shared::kBindSmokeShadowFaces, gpu::read(shadows.faces)},
                     {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), nearest_)},
-                    {shared::kBindHoles, gpu::read(in.holes.holes)},
-                    {shared::kBindHoleReaches, gpu::read(in.holes.reaches)},
-                    {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
-                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                 },
                 params);
   recorder.dispatch_threads(pipeline, kRayThreads * plan.blocks, 1);

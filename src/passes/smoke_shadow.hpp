@@ -47,7 +47,7 @@ class SmokeShadowPass {
  private:
   gpu::Context& context_;
   std::map<std::uint32_t, gpu::ComputePipeline> pipelines_;  ///< By media.
-  gpu::Sampler linear_, nearest_;
+  gpu::Sampler nearest_;
 };
 
 }  // namespace brume::passes

@@ -50,13 +50,15 @@ std::uint32_t filled_cells(const smoke::SmokeBricks& volume, std::uint32_t slot)
 SmokeUpload::SmokeUpload(gpu::Context& context, std::uint32_t room)
     : context_(context),
       atlas_(context, kSmokeChannels, kDerivedFormats, false, room),
+      linear_(context, {}),
       resources_{.pages = atlas_.pages(),
                  .slot_bricks = atlas_.slot_bricks(),
                  .density = atlas_.channel(smoke::kDensityChannel),
                  .inscatter = atlas_.derived(kInscatter),
                  .density_displacement = atlas_.derived(kDensityDisplacement),
                  .filtered_density = atlas_.derived(kFilteredDensity),
-                 .light_side = atlas_.derived(kLightSide)} {
+                 .light_side = atlas_.derived(kLightSide),
+                 .linear = linear_} {
   trim(atlas_.atlas_bricks());
 }
 

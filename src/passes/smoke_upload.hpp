@@ -1,9 +1,13 @@
 // The smoke on the device: a BrickAtlas, cells and corner sets, uploaded where they changed.
 #pragma once
 
+#include <array>
+
 #include "gpu/recorder.hpp"
 #include "passes/brick_atlas.hpp"
 #include "planning/smoke_visibility.hpp"
+#include "shared/light_side.h"
+#include "shared/smoke_volume.h"
 #include "smoke/smoke_bricks.hpp"
 
 namespace brume::passes {
@@ -17,11 +21,29 @@ struct SmokeResources {
   const gpu::Image& density_displacement;  ///< Likewise; written by NoiseAdvectionPass, as the next.
   const gpu::Image& filtered_density;  ///< Half-float RG: what noise leaves of the mean density of a texel.
   const gpu::Image& light_side;        ///< Half-float RGBA; written with the in-scatter.
+  const gpu::Sampler& linear;
   gpu::Buffer cells{}, boundary{}, corners{};
   gpu::Buffer filled{};  ///< Per slot the cells that smoke may be in.
   gpu::Buffer slots{};   ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
   std::uint32_t required_count = 0;  ///< How many `slots` has.
+
+  /// All that shaders read of the smoke.
+  auto bindings() const {
+    return std::to_array<gpu::BoundResource>({
+        {shared::kBindPages, gpu::read(pages)},
+        {shared::kBindSlotBricks, gpu::read(slot_bricks)},
+        {shared::kBindCells, gpu::read(cells)},
+        {shared::kBindBoundary, gpu::read(boundary)},
+        {shared::kBindCorners, gpu::read(corners)},
+        {shared::kBindFilled, gpu::read(filled)},
+        {shared::kBindDensity, gpu::sampled(density, linear)},
+        {shared::kBindDensityDisplacement, gpu::sampled(density_displacement, linear)},
+        {shared::kBindFilteredDensity, gpu::sampled(filtered_density, linear)},
+        {shared::kBindInscatter, gpu::sampled(inscatter, linear)},
+        {shared::kBindLightSide, gpu::sampled(light_side, linear)},
+    });
+  }
 };
 
 /// The cells of a slot that smoke may be in, as shared::pack_cells packs them.
@@ -56,6 +78,7 @@ class SmokeUpload {
 
   gpu::Context& context_;
   BrickAtlas atlas_;
+  gpu::Sampler linear_;
   SmokeResources resources_;
   std::uint64_t reserved_volume_ = 0, reserved_generation_ = 0;  // that `reserve` saw last
   /// What of a volume is on the device.

@@ -87,6 +87,7 @@ std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
     : context_(context),
+      linear_(context, {}),
       atlas_(context, kVolumeChannels, {}, true),
       color_atlas_(context, kColorChannels, {}, true),
       pair_atlas_(context, kPairChannels, {}, true),

@@ -2,14 +2,17 @@
 // colours of those that glow.
 #pragma once
 
+#include <array>
+
 #include "passes/brick_atlas.hpp"
 #include "planning/media_plan.hpp"
 #include "planning/volume_streaming.hpp"
 
 namespace brume::passes {
 
-/// What the march binds. The references are to resources of the VolumeUpload.
+/// What shaders bind. The references are to resources of the VolumeUpload.
 struct VolumeResources {
+  const gpu::Sampler& linear;
   const gpu::Buffer& pages;
   const gpu::Image& values;      ///< Half floats.
   const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
@@ -18,6 +21,20 @@ struct VolumeResources {
   const gpu::Image& color_grids;  ///< Half floats: the atlas of VolumeColors.
   const gpu::Image& mask_pairs;   ///< Two half floats: the same of up to two masks.
   const gpu::Buffer& effects;     ///< A shared::VolumeEffect per volume in view, where one has any.
+
+  /// All that shaders read of the volumes.
+  auto bindings() const {
+    return std::to_array<gpu::BoundResource>({
+        {shared::kBindVolumes, gpu::uniform(instances)},
+        {shared::kBindVolumePages, gpu::read(pages)},
+        {shared::kBindVolumeValues, gpu::sampled(values, linear)},
+        {shared::kBindVolumeColors, gpu::sampled(colors, linear)},
+        {shared::kBindTransfers, gpu::read(transfers)},
+        {shared::kBindColorGrids, gpu::sampled(color_grids, linear)},
+        {shared::kBindMaskPairs, gpu::sampled(mask_pairs, linear)},
+        {shared::kBindVolumeEffects, gpu::read(effects)},
+    });
+  }
 };
 
 class VolumeUpload {
@@ -47,13 +64,8 @@ class VolumeUpload {
   static constexpr volume::ChannelId kValues{0};
 
   VolumeResources resources_with(const gpu::Buffer& instances) const {
-    return {atlas_.pages(),
-            atlas_.channel(kValues),
-            instances,
-            colors_,
-            transfers_,
-            color_atlas_.channel(kValues),
-            pair_atlas_.channel(kValues),
+    return {linear_, atlas_.pages(), atlas_.channel(kValues),       instances,
+            colors_, transfers_,     color_atlas_.channel(kValues), pair_atlas_.channel(kValues),
             effects_};
   }
   void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
@@ -72,6 +84,7 @@ class VolumeUpload {
   };
 
   gpu::Context& context_;
+  gpu::Sampler linear_;
   BrickAtlas atlas_, color_atlas_, pair_atlas_;
   gpu::Buffer instances_, lit_instances_, transfers_;
   gpu::Buffer effects_;

@@ -1,5 +1,7 @@
 #include "gpu/shader_interface.hpp"
 
+#include <array>
+
 #include "brume_gpu_test_shaders.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
@@ -83,6 +85,20 @@ TEST_F(BindingsTest, AreMatchedByNumberInAnyOrder) {
   });
   // 11 + 22 + 33 + 1
   EXPECT_EQ(read_back<std::uint32_t>(values_, 24), std::vector<std::uint32_t>(24, 67));
+}
+
+TEST_F(BindingsTest, OfBundlesAreWhatTheShaderHasAndTheListDoesNotBind) {
+  const std::array<BoundResource, 3> bundle{
+      {{kValues, read(values_)}, {{7, "kOther"}, read(values_)}, {kOut, stored(out_)}}};
+  const std::array<BoundResource, 1> other{{{kImage, sampled(in_, nearest_)}}};
+  const std::vector<BoundResource> own{{kConstants, uniform(constants_)}, {kValues, write(values_)}};
+  const auto bound = with_bundles(probe(), {bundle, other}, own);
+  EXPECT_EQ(binding_fault(probe(), bound), "");
+  EXPECT_TRUE(bound[1].resource.writes) << "the list comes before bundles";
+  EXPECT_EQ(binding_fault(probe(), with_bundles(probe(), {bundle}, own)),
+            "binding 2, a sampled image, has no resource");
+  EXPECT_EQ(binding_fault(probe(), with_bundles(probe(), {bundle, other, other}, own)),
+            "binding 2, a sampled image, has more than one resource");
 }
 
 TEST_F(BindingsTest, FaultsNameTheBinding) {

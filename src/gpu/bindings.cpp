@@ -1,8 +1,23 @@
+#include "gpu/bindings.hpp"
+
 #include <algorithm>
 
-#include "gpu/recorder.hpp"
-
 namespace brume::gpu {
+
+FrameVector<BoundResource> with_bundles(const ShaderInterface& interface, Bundles bundles,
+                                        std::span<const BoundResource> resources, Allocator memory) {
+  FrameVector<BoundResource> bound(memory);
+  bound.reserve(interface.bindings.size() + resources.size());
+  bound.assign(resources.begin(), resources.end());
+  const auto is_bound = [&](const BoundResource& one) {
+    return std::ranges::any_of(resources,
+                               [&](const BoundResource& own) { return own.at.number == one.at.number; });
+  };
+  for (const Bundle& bundle : bundles)
+    for (const BoundResource& one : bundle)
+      if (interface.find(one.at.number) && !is_bound(one)) bound.push_back(one);
+  return bound;
+}
 
 std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources) {
   const auto name = [](shared::BindingIndex at) {
