@@ -52,15 +52,9 @@ Level Scenario::level() const {
   return {{loaded_, &loaded_->scenario.voxels}};
 }
 
-smoke::SightSettings Scenario::sight_settings() const {
-  const scene::SmokeOptions& smoke = loaded_->scenario.timeline.smoke;
-  return {smoke.extinction, smoke.albedo, &loaded_->scenario.masks};
-}
-
-std::pair<shared::SmokeLook, double> Scenario::drawn_look() const {
+smoke::SightLook Scenario::sight_look(bool drawn) const {
   const scenario::Scenario& shown = loaded_->scenario;
-  const scene::SmokeOptions& smoke = shown.timeline.smoke;
-  return {planning::smoke_look(smoke, shown.voxels.grid.layout().voxel_size), double{smoke.swirl_period}};
+  return planning::sight_look(shown.timeline.smoke, shown.voxels.grid.layout().voxel_size, drawn);
 }
 
 void Scenario::advance_to(double seconds) {

@@ -26,10 +26,8 @@ class Scenario : public Smoke {
 
  protected:
   const sim::World& world() const override { return simulation_->world(); }
-  const smoke::SmokeVolume& volume() const override { return simulation_->volume(); }
-  void update_volume() override {}
-  smoke::SightSettings sight_settings() const override;
-  std::pair<shared::SmokeLook, double> drawn_look() const override;
+  const smoke::Field& update_field() override { return simulation_->field(); }
+  smoke::SightLook sight_look(bool drawn) const override;
 
  private:
   std::shared_ptr<Loaded> loaded_;

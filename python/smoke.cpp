@@ -7,10 +7,10 @@
 #include <cstring>
 #include <ctime>
 #include <mutex>
+#include <vector>
 
 #include "core/tasks.hpp"
 #include "python/density.hpp"
-#include "smoke/noise_look.hpp"
 
 namespace brume::python {
 namespace {
@@ -34,44 +34,23 @@ double processor_seconds() {
 
 }  // namespace
 
-std::pair<shared::SmokeLook, double> Smoke::drawn_look() const {
-  shared::SmokeLook look{};
-  smoke::set_noise(look, {});
-  return {look, smoke::SmokeInput().swirl_period};
-}
-
-/// With mutex_ locked. That of drawn smoke needs the other's holes and volume.
-void Smoke::make_sight(bool drawn) {
-  const sim::State& state = world().state();
-  const float time = state.seconds(state.tick);
-  const smoke::SightSettings settings = sight_settings();
-  if (!sight_) {
-    update_volume();
-    holes_ = smoke::holes_of(state, settings.masks);
-    sight_.emplace(volume(), world().solids().sight, holes_, time, settings);
-  }
-  if (!drawn || drawn_) return;
-  const auto [look, swirl_period] = drawn_look();
-  const smoke::SmokeInput input{&volume(), &state, holes_, look, swirl_period, time};
-  drawn_ = std::make_unique<const smoke::DrawnSight>(input, world().solids().sight, settings);
-}
-
 /// Calls query(sight). The first call notes the revision; later ones throw where it has changed since.
 template <typename Query>
 void Smoke::with_sight(std::optional<std::uint64_t>& revision, bool drawn, const Query& query) {
   std::shared_lock lock(mutex_);
-  while (!sight_ || (drawn && !drawn_)) {
+  while (!is_current_) {
     lock.unlock();
     {
       const std::unique_lock alone(mutex_);
-      make_sight(drawn);
+      if (!is_current_) field_ = &update_field();
+      is_current_ = true;
     }
     lock.lock();
   }
   if (revision && *revision != revision_)
     throw Error(ErrorCode::internal, "another thread moved the smoke during the query");
   revision = revision_;
-  query(drawn ? drawn_->sight() : *sight_);
+  query(*field_->sight(sight_look(drawn)));
 }
 
 /// Calls query(sight, segments, number of the first) for all lines, part by part; ends at Ctrl-C.
@@ -230,9 +209,8 @@ Returns float32, shape (...); a float for two points of the shape (3,).
 Holes and blasts are part of it. The same bits for one line or among many, on
 every machine. Uses all cores and runs without the interpreter lock; Ctrl-C ends it. Raises ValueError for
 another shape or a point out of range, TypeError for what is no array of numbers.)")
-      .def(
-          "visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,
-          R"(Whether b is visible from a: no wall between them, and not too much smoke.
+      .def("visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,
+           R"(Whether b is visible from a: no wall between them, and not too much smoke.
 
 Glass and grilles are no walls.
 

@@ -3,18 +3,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <shared_mutex>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "python/arrays.hpp"
 #include "python/level.hpp"
 #include "sim/world.hpp"
-#include "smoke/drawn_sight.hpp"
-#include "smoke/holes.hpp"
+#include "smoke/field.hpp"
 
 namespace brume::python {
 
@@ -40,13 +35,12 @@ class Smoke {
   auto change(const Change& change) {
     return released([&] {
       const std::unique_lock lock(mutex_);
-      sight_.reset();
-      drawn_.reset();
+      is_current_ = false;
       ++revision_;
       return change();
     });
   }
-  float extinction() const { return sight_settings().extinction; }
+  float extinction() const { return sight_look(false).extinction; }
 
   py::object optical_depth(const py::object& a, const py::object& b, bool drawn);
   py::object visible(const py::object& a, const py::object& b, float threshold, bool drawn);
@@ -57,25 +51,20 @@ class Smoke {
 
  protected:
   virtual const sim::World& world() const = 0;
-  virtual const smoke::SmokeVolume& volume() const = 0;
-  /// Brings the volume to the world's tick.
-  virtual void update_volume() = 0;
-  virtual smoke::SightSettings sight_settings() const = 0;
-  /// How it is drawn, and how long its noise takes to roll around once [s].
-  virtual std::pair<shared::SmokeLook, double> drawn_look() const;
+  /// Brought to the world's tick. Called while nothing reads.
+  virtual const smoke::Field& update_field() = 0;
+  virtual smoke::SightLook sight_look(bool drawn) const = 0;
 
  private:
   template <typename Query>
   void with_sight(std::optional<std::uint64_t>& revision, bool drawn, const Query& query);
-  void make_sight(bool drawn);
   template <typename Query>
   void in_chunks(const Lines& lines, bool drawn, const Query& query);
 
   mutable std::shared_mutex mutex_;
   std::uint64_t revision_ = 0;
-  std::vector<shared::Hole> holes_;    // of the sight
-  std::optional<smoke::Sight> sight_;  // none: to be made
-  std::unique_ptr<const smoke::DrawnSight> drawn_;
+  const smoke::Field* field_ = nullptr;
+  bool is_current_ = false;  // the field is at the world's tick
 };
 
 void bind_smoke(py::module_& module);

@@ -18,20 +18,6 @@ constexpr std::uint64_t kMaxEditVoxels = 1ull << 27;
 /// Ticks between two looks for Ctrl-C.
 constexpr std::uint32_t kTicksAtOnce = 1024;
 
-/// Whether a corner of the cell has been changed.
-bool touches_edit(const sim::EditBlocks& edits, glm::ivec3 cell) {
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 voxel = cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    const glm::i16vec3 block(voxel >> 2);
-    const auto found = std::lower_bound(
-        edits.begin(), edits.end(), block,
-        [](const sim::EditBlock& edit, glm::i16vec3 at) { return sim::block_before(edit.at, at); });
-    if (found != edits.end() && found->at == block && (found->all() >> sim::block_bit_index(voxel) & 1) != 0)
-      return true;
-  }
-  return false;
-}
-
 smoke::MaskAtlas pack_masks(const std::vector<py::array>& images) {
   std::vector<smoke::Mask> masks;
   for (const py::array& image : images) {
@@ -67,29 +53,27 @@ World::World(Level level, float extinction, std::uint32_t ticks_per_second,
              const std::vector<py::array>& masks)
     : level_(std::move(level)),
       masks_(pack_masks(masks)),
-      settings_{extinction, glm::vec3(0.92f), &masks_},
+      extinction_(extinction),
       world_(level_.voxels->solids(), {ticks_per_second, masks_.key()}) {
   if (!(extinction >= 0 && extinction <= 1e6f)) refuse("extinction", "expected 0 to 1,000,000 per metre");
 }
 
-const smoke::SmokeVolume& World::volume() const {
-  return *volume_;
-}
-
-void World::update_volume() {
-  if (!volume_)
-    volume_ = std::make_unique<smoke::SmokeVolume>(level_.grid(),
-                                                   [this](glm::ivec3 cell) -> std::span<const voxel::Plane> {
-                                                     const auto& edits = world_.state().edits;
-                                                     if (edits && touches_edit(*edits, cell)) return {};
-                                                     return level_.voxels->planes.at(cell);
-                                                   });
+const smoke::Field& World::update_field() {
+  if (!field_)
+    field_ = std::make_unique<smoke::Field>(level_.voxels->solids(), level_.voxels->planes, &masks_);
   try {
-    volume_->update(world_);
+    field_->update(world_);
   } catch (...) {
-    volume_.reset();  // It is of no further use.
+    field_.reset();  // It is of no further use.
     throw;
   }
+  return *field_;
+}
+
+smoke::SightLook World::sight_look(bool drawn) const {
+  smoke::SightLook look{extinction_};
+  if (drawn) look.drawn = smoke::drawn_look({});
+  return look;
 }
 
 bool World::is_complete(std::uint32_t tick) const {

@@ -52,9 +52,8 @@ class World : public Smoke {
 
  protected:
   const sim::World& world() const override { return world_; }
-  const smoke::SmokeVolume& volume() const override;
-  void update_volume() override;
-  smoke::SightSettings sight_settings() const override { return settings_; }
+  const smoke::Field& update_field() override;
+  smoke::SightLook sight_look(bool drawn) const override;
 
  private:
   /// Whether all events of a tick are in a state whose history is dropped.
@@ -65,10 +64,10 @@ class World : public Smoke {
 
   Level level_;
   smoke::MaskAtlas masks_;
-  smoke::SightSettings settings_;
+  float extinction_;
   sim::World world_;
   bool is_restored_ = false;
-  std::unique_ptr<smoke::SmokeVolume> volume_;  // null: to be made
+  std::unique_ptr<smoke::Field> field_;  // null: to be made
 };
 
 void bind_world(py::module_& module);

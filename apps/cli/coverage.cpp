@@ -8,8 +8,6 @@
 #include "apps/command_line/console.hpp"
 #include "core/progress.hpp"
 #include "planning/smoke_look.hpp"
-#include "smoke/drawn_sight.hpp"
-#include "smoke/holes.hpp"
 
 namespace brume::cli {
 namespace {
@@ -78,23 +76,9 @@ const char* name_of(HiddenBy by) {
 
 SightSample sample_sight(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                          const SightLine& line) {
-  const sim::State& state = simulation.world().state();
-  const std::vector<shared::Hole> holes = smoke::holes_of(state, &scenario.masks);
-  const scene::SmokeOptions& options = scenario.timeline.smoke;
-  const voxel::BitGrid& grid = simulation.world().solids().sight;
-  const float time = state.seconds(state.tick);
-  const smoke::SightSettings settings{options.extinction, options.albedo, &scenario.masks};
-  if (line.drawn) {
-    const smoke::DrawnSight drawn({.volume = &simulation.volume(),
-                                   .state = &state,
-                                   .holes = holes,
-                                   .look = planning::smoke_look(options, grid.layout().voxel_size),
-                                   .swirl_period = double{options.swirl_period},
-                                   .time = time},
-                                  grid, settings);
-    return sample_of(drawn.sight(), line);
-  }
-  return sample_of(smoke::Sight(simulation.volume(), grid, holes, time, settings), line);
+  const smoke::Field& field = simulation.field();
+  const scene::SmokeOptions& smoke = scenario.timeline.smoke;
+  return sample_of(*field.sight(planning::sight_look(smoke, field.layout().voxel_size, line.drawn)), line);
 }
 
 Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times) {

@@ -25,10 +25,11 @@ void create_field(Call& call, const brume_level* level, const brume_field_params
 }
 
 void update(brume_field& of, const sim::State& state) {
-  if (state.layout != of.level->grid.layout())
+  const smoke::Field& smoke = of.field->smoke();
+  if (state.layout != smoke.layout())
     fail(BRUME_ERROR_MISMATCH, "the state is of another level layout than the field");
-  const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
-  if (state.masks != masks) fail(BRUME_ERROR_MISMATCH, "the state's world has other masks than the field");
+  if (state.masks != smoke.masks())
+    fail(BRUME_ERROR_MISMATCH, "the state's world has other masks than the field");
   if (state.edits) unwrap(sim::check_event(sim::LevelEdit{0, *state.edits}, state.layout), BRUME_ERROR_DATA);
   if (of.broken) of.renew();
   of.field->update(state);
@@ -221,7 +222,8 @@ brume_result brume_field_densities(const brume_field* field, brume_voxel low, br
     const brume_field& of = call.handle(field);
     checked_box(of.level->grid.layout(), low, high, count);
     required(densities, "densities");
-    call.read(of, [&] { read_densities(of.field->volume(), ivec3_of(low), ivec3_of(high), densities); });
+    call.read(of,
+              [&] { read_densities(of.field->smoke().volume(), ivec3_of(low), ivec3_of(high), densities); });
   });
 }
 

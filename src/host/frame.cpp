@@ -130,11 +130,12 @@ void show_smoke(const brume_frame_params& params, const api::SmokeField& field, 
   require(is_within(params.detail_reduction, 0, 1), "`detail_reduction` must be from 0 to 1");
   scene::SmokeOptions options = options_of(params.look, field.extinction());
   options.detail = 1 - params.detail_reduction;
-  input.level.voxels = {&field.grid(), field.state().edits, &field.solids().sight};
-  input.smoke.volume = &field.volume();
-  input.smoke.state = &field.state();
-  input.smoke.holes = field.holes();
-  input.smoke.look = planning::smoke_look(options, field.layout().voxel_size);
+  const smoke::Field& smoke = field.smoke();
+  input.level.voxels = {&smoke.solids().smoke, smoke.state().edits, &smoke.solids().sight};
+  input.smoke.volume = &smoke.volume();
+  input.smoke.state = &smoke.state();
+  input.smoke.holes = smoke.holes();
+  input.smoke.look = planning::smoke_look(options, smoke.layout().voxel_size);
 }
 
 }  // namespace

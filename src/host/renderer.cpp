@@ -80,7 +80,7 @@ void check_frame(const brume_renderer& of, const brume_field* field, const brume
   if (params.completed_frame < of.device->completed)
     fail(BRUME_ERROR_ORDER, "`completed_frame` was " + std::to_string(of.device->completed) + " before");
   const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
-  if (field && field->field->masks() != masks)
+  if (field && field->field->smoke().masks() != masks)
     fail(BRUME_ERROR_MISMATCH, "the field has other masks than the renderer");
   if (params.picture.view == VK_NULL_HANDLE) return;
   require(can_blend(of.device->context, params.picture.format),

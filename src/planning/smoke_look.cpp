@@ -1,7 +1,6 @@
 #include "planning/smoke_look.hpp"
 
 #include "shared/opaque.h"
-#include "smoke/noise_look.hpp"
 
 namespace brume::planning {
 
@@ -20,6 +19,12 @@ shared::SmokeLook smoke_look(const scene::SmokeOptions& options, float voxel_siz
                           .hole_rim = options.hole_rim,
                           .swirl = options.swirl,
                           .rise = options.rise});
+  return look;
+}
+
+smoke::SightLook sight_look(const scene::SmokeOptions& options, float voxel_size, bool drawn) {
+  smoke::SightLook look{options.extinction, options.albedo};
+  if (drawn) look.drawn = {smoke_look(options, voxel_size), double{options.swirl_period}};
   return look;
 }
 

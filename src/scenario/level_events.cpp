@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenario/events.hpp"
 #include "scenario/world_triangles.hpp"
 
 namespace brume::scenario {
@@ -76,6 +77,20 @@ std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, cons
   }
   doors_before(INFINITY);
   return events;
+}
+
+std::size_t count_in_effect(std::span<const LevelEvent> events, const sim::World& world) {
+  const auto later = std::ranges::partition_point(events, [&](const LevelEvent& event) {
+    return tick_at(event.time, world.settings().ticks_per_second) <= world.tick();
+  });
+  return static_cast<std::size_t>(later - events.begin());
+}
+
+std::vector<std::shared_ptr<const voxel::PlanePatch>> patches_of(std::span<const LevelEvent> events) {
+  std::vector<std::shared_ptr<const voxel::PlanePatch>> patches;
+  patches.reserve(events.size());
+  for (const LevelEvent& event : events) patches.push_back(event.planes);
+  return patches;
 }
 
 Result<std::vector<LevelEvent>> level_events(const Scenario& scenario) {

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/error.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/level_edit.hpp"
+#include "sim/world.hpp"
 #include "voxel/level.hpp"
 #include "voxel/patched_planes.hpp"
 
@@ -39,6 +41,11 @@ Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::ve
 /// time. The doors must pass check_objects.
 std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, const scene::Scene& scene,
                                            ObjectLevel& objects);
+
+/// How many of the events, which are sorted by time, are in effect at the world's tick.
+std::size_t count_in_effect(std::span<const LevelEvent> events, const sim::World& world);
+/// For smoke::Field::set_patches.
+std::vector<std::shared_ptr<const voxel::PlanePatch>> patches_of(std::span<const LevelEvent> events);
 
 /// The level events of the scenario's timeline. Fails as check_objects does.
 Result<std::vector<LevelEvent>> level_events(const Scenario& scenario);

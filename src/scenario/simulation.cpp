@@ -21,8 +21,7 @@ std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
 Simulation::Simulation(const Scenario& scenario, std::vector<LevelEvent> level_events)
     : level_events_(std::move(level_events)),
       world_(scenario.voxels.solids(), {.masks = scenario.masks.key()}),
-      planes_(scenario.voxels.planes),
-      volume_(scenario.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
+      field_(scenario.voxels.solids(), scenario.voxels.planes, &scenario.masks) {}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(const Scenario& scenario) {
   auto changes = scenario::level_events(scenario);
@@ -41,7 +40,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(const Scenario& scenario)
 void Simulation::advance_to(double seconds) {
   world_.advance_to(tick_at(seconds, world_.settings().ticks_per_second));
   follow_level();
-  volume_.update(world_);
+  field_.update(world_);
 }
 
 std::vector<SmokeReport> Simulation::report_smokes(const Scenario& scenario) {
@@ -70,6 +69,7 @@ Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<Level
     orders_.insert(orders_.end(), orders.begin(), orders.end());
   }
   std::move(changes.begin(), changes.end(), std::back_inserter(level_events_));
+  field_.forget_sights();
   next_level_.reset();
   return {};
 }
@@ -92,40 +92,19 @@ Result<void> Simulation::replace(std::vector<OrderedEvent> events, std::vector<L
   std::vector<sim::Event> tail(std::make_move_iterator(from), std::make_move_iterator(log.end()));
   if (auto done = world_.replace_from(first, std::move(tail), masks); !done) return done;
   orders_ = std::move(orders);
-  replace_level(std::move(changes));
+  field_.forget_sights();
+  level_events_ = std::move(changes);
+  in_effect_.reset();
+  next_level_.reset();
   return {};
 }
 
-void Simulation::replace_level(std::vector<LevelEvent> changes) {
-  const auto same = [](const LevelEvent& a, const LevelEvent& b) { return a.planes == b.planes; };
-  if (std::equal(changes.begin(), changes.end(), level_events_.begin(), level_events_.end(), same)) return;
-  for (std::size_t i = 0; i < in_effect_; ++i) {
-    const Box<int>& cells = level_events_[i].planes->cells;
-    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
-  }
-  planes_.clear();
-  hidden_objects_.clear();
-  next_level_.reset();
-  in_effect_ = 0;
-  level_events_ = std::move(changes);
-}
-
 void Simulation::follow_level() {
-  const auto later = std::partition_point(level_events_.begin(), level_events_.end(), [&](const auto& event) {
-    return tick_at(event.time, world_.settings().ticks_per_second) <= world_.tick();
-  });
-  const auto count = static_cast<std::size_t>(later - level_events_.begin());
+  const std::size_t count = count_in_effect(level_events_, world_);
   if (count == in_effect_) return;
-
-  // Planes: add the new patches, or rebuild all when time ran backwards.
-  for (std::size_t i = std::min(count, in_effect_); i < std::max(count, in_effect_); ++i) {
-    const Box<int>& cells = level_events_[i].planes->cells;
-    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
-  }
-  if (count < in_effect_) planes_.clear();
-  for (std::size_t i = count < in_effect_ ? 0 : in_effect_; i < count; ++i)
-    planes_.add(level_events_[i].planes);
   in_effect_ = count;
+  const auto present = std::span(level_events_).first(count);
+  field_.set_patches(patches_of(present));
 
   hidden_objects_ = hidden_after(count);
   next_level_.reset();
@@ -143,7 +122,8 @@ std::vector<std::uint32_t> Simulation::hidden_after(std::size_t events) const {
 }
 
 std::shared_ptr<const NextLevel> Simulation::next_level() const {
-  if (next_level_ || in_effect_ == level_events_.size()) return next_level_;
+  const std::size_t present = count_in_effect(level_events_, world_);
+  if (next_level_ || present == level_events_.size()) return next_level_;
   const auto tick_of = [&](const LevelEvent& event) {
     return tick_at(event.time, world_.settings().ticks_per_second);
   };
@@ -152,9 +132,8 @@ std::shared_ptr<const NextLevel> Simulation::next_level() const {
   voxel::BitGrid grid = now.smoke;
   voxel::RoleGrids roles;
   if (&now.sight != &now.smoke) roles.sight = now.sight;
-  std::size_t end = in_effect_;
-  for (; end < level_events_.size() && tick_of(level_events_[end]) == tick_of(level_events_[in_effect_]);
-       ++end)
+  std::size_t end = present;
+  for (; end < level_events_.size() && tick_of(level_events_[end]) == tick_of(level_events_[present]); ++end)
     sim::apply_edits(grid, roles, level_events_[end].blocks);
   next_level_ = std::make_shared<const NextLevel>(
       NextLevel{roles.sight ? std::move(*roles.sight) : std::move(grid), hidden_after(end)});

@@ -9,12 +9,12 @@
 
 #include "core/box.hpp"
 #include "core/tasks.hpp"
-#include "scenario/events.hpp"
 
 namespace brume::scenario {
 namespace {
 
-/// Samples per axis of a cell: a surface is off by at most half the distance between them, a twelfth of a voxel.
+/// Samples per axis of a cell: a surface is off by at most half the distance between them, a twelfth of a
+/// voxel.
 constexpr int kSamples = 6;
 constexpr int kSamplesOfCell = kSamples * kSamples * kSamples;
 
@@ -71,7 +71,8 @@ class CellShares {
     const bool to_corners = (visible & kCorners) != 0;
     std::array<float, 64> weight{};
     float sum = 0;
-    for (smoke::Neighbourhood64 rest = to_corners ? visible & kCorners : visible; rest != 0; rest &= rest - 1) {
+    for (smoke::Neighbourhood64 rest = to_corners ? visible & kCorners : visible; rest != 0;
+         rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
       const glm::vec3 apart = glm::abs(smoke::from_cell_centre(static_cast<int>(bit)) + 0.5f - place);
       weight[bit] = around_.density[bit] * (to_corners ? (1 - apart.x) * (1 - apart.y) * (1 - apart.z)
@@ -98,10 +99,10 @@ bool touches_solid(std::span<const smoke::Texel> texels, glm::ivec3 local) {
 }
 
 /// What the drawn smoke of a brick's cells at walls has beyond linear interpolation between voxels.
-std::vector<Deposit> deposits_of(const smoke::SmokeVolume& volume, const smoke::PlaneSource& planes,
-                                 const sim::State& state, std::uint32_t slot) {
+std::vector<Deposit> deposits_of(const smoke::Field& field, std::uint32_t slot) {
   std::vector<Deposit> deposits;
-  smoke::PlaneWindow window(planes);
+  const smoke::SmokeVolume& volume = field.volume();
+  smoke::PlaneWindow window(field.planes());
   window.move_to(volume.brick_of(slot));
   smoke::CellSight sight(window);
   for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(8)}, [&](glm::ivec3 local) {
@@ -109,7 +110,7 @@ std::vector<Deposit> deposits_of(const smoke::SmokeVolume& volume, const smoke::
     const std::uint32_t entry = volume.cells(slot)[static_cast<std::size_t>(i.x + 9 * (i.y + 9 * i.z))];
     if (entry == 0 || !touches_solid(volume.texels(slot), local)) return;
     const glm::ivec3 cell = 8 * volume.brick_of(slot) + local;
-    const Neighbours around(state, cell);
+    const Neighbours around(field.state(), cell);
     if (around.smoky == 0) return;
     sight.look_at(cell);
     const CellShares shares(volume, around, sight, cell, volume.boundary_cells()[entry - 1]);
@@ -126,9 +127,9 @@ std::vector<Deposit> deposits_of(const smoke::SmokeVolume& volume, const smoke::
 
 }  // namespace
 
-grids::Grid smoke_grid_up_to_walls(const smoke::SmokeVolume& volume, const smoke::PlaneSource& planes,
-                                   const sim::State& state, const SmokeGridOptions& options) {
-  grids::Grid grid = smoke_grid(state, options);
+grids::Grid smoke_grid_up_to_walls(const smoke::Field& field, const SmokeGridOptions& options) {
+  const smoke::SmokeVolume& volume = field.volume();
+  grids::Grid grid = smoke_grid(field.state(), options);
 
   // In the order of places, so that sums have the same bits whatever the slots.
   std::vector<std::uint32_t> slots;
@@ -139,7 +140,7 @@ grids::Grid smoke_grid_up_to_walls(const smoke::SmokeVolume& volume, const smoke
   });
   std::vector<std::vector<Deposit>> deposits(slots.size());
   parallel_for(slots.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) deposits[i] = deposits_of(volume, planes, state, slots[i]);
+    for (std::size_t i = begin; i < end; ++i) deposits[i] = deposits_of(field, slots[i]);
   });
 
   for (const std::vector<Deposit>& of_brick : deposits)
@@ -158,20 +159,12 @@ grids::Grid smoke_grid_up_to_walls(const smoke::SmokeVolume& volume, const smoke
 
 FollowedSmoke::FollowedSmoke(const Scenario& scenario)
     : level_events_(level_events(scenario).value_or_throw()),
-      planes_(scenario.voxels.planes),
-      source_([this](glm::ivec3 cell) { return planes_.at(cell); }),
-      volume_(scenario.voxels.grid, source_) {}
+      field_(scenario.voxels.solids(), scenario.voxels.planes, &scenario.masks) {}
 
 grids::Grid FollowedSmoke::grid(const sim::World& world, const SmokeGridOptions& options) {
-  for (; in_effect_ < level_events_.size(); ++in_effect_) {
-    const LevelEvent& event = level_events_[in_effect_];
-    if (tick_at(event.time, world.settings().ticks_per_second) > world.tick()) break;
-    const Box<int>& cells = event.planes->cells;
-    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
-    planes_.add(event.planes);
-  }
-  volume_.update(world);
-  return smoke_grid_up_to_walls(volume_, source_, world.state(), options);
+  field_.set_patches(patches_of(std::span(level_events_).first(count_in_effect(level_events_, world))));
+  field_.update(world);
+  return smoke_grid_up_to_walls(field_, options);
 }
 
 }  // namespace brume::scenario

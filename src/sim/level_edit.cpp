@@ -97,16 +97,8 @@ EditBlocks difference(const voxel::Solids& from, const voxel::Solids& to, glm::i
 
 EditBlocks merge_edits(std::span<const EditBlock> earlier, std::span<const EditBlock> later) {
   EditBlocks merged;
-  auto a = earlier.begin();
-  auto b = later.begin();
-  while (a != earlier.end() || b != later.end()) {
-    if (b == later.end() || (a != earlier.end() && block_before(a->at, b->at)))
-      merged.push_back(*a++);
-    else if (a == earlier.end() || block_before(b->at, a->at))
-      merged.push_back(*b++);
-    else
-      merged.push_back(merge_edits(*a++, *b++));
-  }
+  for_each_pair(earlier, later,
+                [&](const EditBlock& a, const EditBlock& b) { merged.push_back(merge_edits(a, b)); });
   return merged;
 }
 

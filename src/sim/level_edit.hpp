@@ -41,6 +41,14 @@ EditBlocks merge_edits(std::span<const EditBlock> earlier, std::span<const EditB
 
 EditBlock merge_edits(const EditBlock& earlier, const EditBlock& later);
 
+/// Calls visit(a, b) in order for each block of two lists, with a block without bits for the one that a list
+/// lacks.
+template <typename Visit>
+void for_each_pair(std::span<const EditBlock> a, std::span<const EditBlock> b, Visit visit);
+/// The same for the blocks that are not alike in both. Null: a list without blocks.
+template <typename Visit>
+void for_each_difference(const EditBlocks* a, const EditBlocks* b, Visit visit);
+
 /// The part of the edits that changes the level.
 EditBlocks effective_edits(const voxel::Solids& level, std::span<const EditBlock> edits);
 
@@ -54,5 +62,32 @@ std::uint64_t solid_bits(const voxel::BitGrid& grid, glm::ivec3 block);
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits);
 /// The same for all grids of a level; adds grids of the roles that it had none of.
 void apply_edits(voxel::BitGrid& grid, voxel::RoleGrids& roles, std::span<const EditBlock> edits);
+
+template <typename Visit>
+void for_each_pair(std::span<const EditBlock> a, std::span<const EditBlock> b, Visit visit) {
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && block_before(i->at, j->at))) {
+      visit(*i, EditBlock{.at = i->at});
+      ++i;
+    } else if (i == a.end() || block_before(j->at, i->at)) {
+      visit(EditBlock{.at = j->at}, *j);
+      ++j;
+    } else {
+      visit(*i++, *j++);
+    }
+  }
+}
+
+template <typename Visit>
+void for_each_difference(const EditBlocks* a, const EditBlocks* b, Visit visit) {
+  const auto blocks_of = [](const EditBlocks* list) {
+    return list ? std::span<const EditBlock>(*list) : std::span<const EditBlock>();
+  };
+  for_each_pair(blocks_of(a), blocks_of(b), [&](const EditBlock& was, const EditBlock& is) {
+    if (was != is) visit(was, is);
+  });
+}
 
 }  // namespace brume::sim

@@ -135,7 +135,7 @@ void World::set_masks(const MaskKey& masks) {
 /// `first`: the first tick whose events change.
 Result<void> World::check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const {
   for (const Event& event : events) {
-    if (auto ok = check_event(event, level_.smoke.layout()); !ok) return ok;
+    if (auto ok = check_event(event, grid().layout()); !ok) return ok;
     if (auto ok = check_mask(event, masks); !ok) return ok;
   }
   if (first >= first_free_tick_) return {};
@@ -240,7 +240,7 @@ void World::go_back_before(std::uint32_t tick) {
 /// Makes a retained state the present one.
 void World::adopt(State target, bool is_first) {
   previous_.reset();
-  change_edits(target.edits);
+  level_.replace(target.edits);
   state_ = std::move(target);
   changed_at_ = state_.tick;
 
@@ -250,32 +250,8 @@ void World::adopt(State target, bool is_first) {
   next_end_ = next_end(state_);
 }
 
-World::EditedLevel& World::edited_level() {
-  if (!edited_) {
-    edited_.emplace(EditedLevel{level_.smoke, {}});
-    if (&level_.sight != &level_.smoke) edited_->roles.sight = level_.sight;
-    if (&level_.bodies != &level_.smoke) edited_->roles.bodies = level_.bodies;
-  }
-  return *edited_;
-}
-
-/// Replaces the edits of state_ in the level by others.
-void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
-  if (edits == state_.edits) return;
-  auto& [grid, roles] = edited_level();
-  if (state_.edits)
-    for (const EditBlock& edit : *state_.edits) {
-      const EditBlock as_loaded = content_of(level_, glm::ivec3(edit.at));
-      const std::uint64_t bits = edit.all();
-      apply_edits(grid, roles,
-                  std::array{EditBlock{edit.at, as_loaded.make_solid & bits, as_loaded.make_free & bits,
-                                       as_loaded.make_glass & bits, as_loaded.make_grille & bits}});
-    }
-  if (edits) apply_edits(grid, roles, *edits);
-}
-
 Result<void> World::restore(const State& state) {
-  if (state.layout != level_.smoke.layout() || state.ticks_per_second != settings_.ticks_per_second)
+  if (state.layout != grid().layout() || state.ticks_per_second != settings_.ticks_per_second)
     return Failure{ErrorCode::bad_input,
                    "state: expected the same grid and ticks per second as this world's"};
   if (state.masks != settings_.masks)
@@ -284,11 +260,11 @@ Result<void> World::restore(const State& state) {
   if (next_end(state) <= state.tick)
     return Failure{ErrorCode::bad_input, "state: contains something that ended before its tick"};
   if (state.edits)
-    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.smoke.layout()); !ok) return ok;
+    if (auto ok = check_event(LevelEdit{0, *state.edits}, grid().layout()); !ok) return ok;
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
   previous_.reset();
-  change_edits(state.edits);
+  level_.replace(state.edits);
   state_ = first_ = state;
   first_free_tick_ = state.tick + 1;
   changed_at_ = state.tick;
@@ -406,10 +382,8 @@ void World::apply(const LevelEdit& event) {
   EditBlocks of_smoke;
   for (const EditBlock& change : changes) of_smoke.push_back(change.of_smoke());
   of_smoke = effective_edits(grid(), of_smoke);
-  auto& [grid_now, roles] = edited_level();
-  apply_edits(grid_now, roles, changes);
-  state_.edits =
-      std::make_shared<const EditBlocks>(state_.edits ? merge_edits(*state_.edits, changes) : changes);
+  level_.add(changes);
+  state_.edits = level_.edits();
   parallel_for(state_.clouds.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "sim/edited_level.hpp"
 #include "sim/events.hpp"
 #include "sim/state.hpp"
 #include "voxel/solids.hpp"
@@ -62,9 +63,9 @@ class World {
   std::uint64_t state_hash() const { return state_.hash(); }
   const WorldSettings& settings() const { return settings_; }
   /// What stops smoke and shots at the present tick, edits included. Valid until the world changes tick.
-  const voxel::BitGrid& grid() const { return edited_ ? edited_->grid : level_.smoke; }
+  const voxel::BitGrid& grid() const { return level_.grid(); }
   /// The same for all roles.
-  voxel::Solids solids() const { return edited_ ? voxel::Solids(edited_->grid, edited_->roles) : level_; }
+  voxel::Solids solids() const { return level_.solids(); }
 
   /// Adopts a state, from another world's state() or received. Log events up to the state's tick are dropped,
   /// later ones are retained. Fails with bad_input when the state has another layout, ticks_per_second or
@@ -80,11 +81,6 @@ class World {
   std::span<const Event> log() const { return log_; }
 
  private:
-  struct EditedLevel {
-    voxel::BitGrid grid;
-    voxel::RoleGrids roles;
-  };
-
   Result<void> check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const;
   void replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events);
   void set_masks(const MaskKey& masks);
@@ -92,8 +88,6 @@ class World {
   void go_forward_to(std::uint32_t tick);
   void adopt(State target, bool is_first);
   std::uint64_t events_until(std::uint32_t tick) const;
-  EditedLevel& edited_level();
-  void change_edits(const std::shared_ptr<const EditBlocks>& edits);
   void play_tick(std::uint32_t tick);
   void apply(const ThrowSmoke& event);
   void apply(const Shot& event);
@@ -103,10 +97,9 @@ class World {
   void detonate();
   std::uint64_t hole_distance(const Shot& shot) const;
 
-  const voxel::Solids level_;
+  EditedLevel level_;  // with the edits of state_
   WorldSettings settings_;
   VoxelRuler ruler_;
-  std::optional<EditedLevel> edited_;
   std::vector<Event> log_;
   std::size_t next_event_ = 0;  // index into the log: the first event not yet in state_
   State first_, state_;

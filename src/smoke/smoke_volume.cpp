@@ -133,21 +133,12 @@ void SmokeVolume::remove_blast(const SmokeSink& sink) {
 
 void SmokeVolume::update_edits(const sim::State& state) {
   if (state.edits == edits_) return;
-  static const sim::EditBlocks kNone;
-  const sim::EditBlocks& was = edits_ ? *edits_ : kNone;
-  const sim::EditBlocks& is = state.edits ? *state.edits : kNone;
-  // Both lists are sorted by block: merge them.
-  auto a = was.begin(), b = is.begin();
-  while (a != was.end() || b != is.end()) {
-    const bool take_a = b == is.end() || (a != was.end() && !sim::block_before(b->at, a->at));
-    const bool take_b = a == was.end() || (b != is.end() && !sim::block_before(a->at, b->at));
-    const sim::EditBlock before = take_a ? a->of_smoke() : sim::EditBlock{},
-                         after = take_b ? b->of_smoke() : sim::EditBlock{};
+  const auto changed = [this](const sim::EditBlock& was, const sim::EditBlock& is) {
+    const sim::EditBlock before = was.of_smoke(), after = is.of_smoke();
     const std::uint64_t mask = (before.make_solid ^ after.make_solid) | (before.make_free ^ after.make_free);
-    if (mask != 0) voxels_changed(glm::ivec3(take_a ? a->at : b->at), mask);
-    if (take_a) ++a;
-    if (take_b) ++b;
-  }
+    if (mask != 0) voxels_changed(glm::ivec3(is.at), mask);
+  };
+  sim::for_each_difference(edits_.get(), state.edits.get(), changed);
   edits_ = state.edits;
 }
 

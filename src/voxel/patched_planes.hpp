@@ -24,9 +24,14 @@ class PatchedPlanes {
 
   /// As SurfacePlanes::at. Valid while the patch it comes from is alive.
   std::span<const Plane> at(glm::ivec3 cell) const {
+    const PlanePatch* patch = patch_at(cell);
+    return patch ? patch->planes.at(cell) : base_.at(cell);
+  }
+  /// The latest patch that contains the cell; null: none.
+  const PlanePatch* patch_at(glm::ivec3 cell) const {
     for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch)
-      if ((*patch)->cells.contains(cell)) return (*patch)->planes.at(cell);
-    return base_.at(cell);
+      if ((*patch)->cells.contains(cell)) return patch->get();
+    return nullptr;
   }
 
   /// Adds a patch on top and drops the patches it covers.

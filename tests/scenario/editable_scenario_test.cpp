@@ -157,7 +157,7 @@ class EditableScenarioTest : public testing::Test {
     const glm::ivec3 size = a.world().grid().size();
     int planes = 0, densities = 0;
     for_each_in({glm::ivec3(-1), size}, [&](glm::ivec3 cell) {
-      const auto p = a.planes().at(cell), q = b.planes().at(cell);
+      const auto p = a.field().planes()(cell), q = b.field().planes()(cell);
       planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
     });
     for (float z = 0.3f; z < 28; z += 1.7f)

@@ -24,7 +24,7 @@ void expect_level(const Simulation& simulation, const Voxels& expected) {
   for_each_in({ivec3(0), size},
               [&](ivec3 v) { voxels += simulation.world().grid().solid(v) != expected.grid.solid(v); });
   for_each_in({ivec3(-1), size}, [&](ivec3 cell) {
-    const auto p = simulation.planes().at(cell), q = expected.planes.at(cell);
+    const auto p = simulation.field().planes()(cell), q = expected.planes.at(cell);
     planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
   });
   EXPECT_EQ(voxels, 0);
@@ -147,7 +147,7 @@ TEST(LevelEvents, AnEditFillsTheVoxelsWithCentresInside) {
   simulation->advance_to(2.5);
   EXPECT_TRUE(simulation->world().grid().free(hole));
   EXPECT_TRUE(simulation->world().grid().solid(doorway));
-  EXPECT_TRUE(simulation->planes().at(hole).empty());
+  EXPECT_TRUE(simulation->field().planes()(hole).empty());
   simulation->advance_to(4.5);
   EXPECT_GT(smoke_in_the_east(*simulation), 0u);
 }

@@ -30,13 +30,13 @@ constexpr float kVoxel = 0.25f;
 struct SmokyRoom {
   static std::vector<voxel::Triangle> walls() {
     std::vector<voxel::Triangle> triangles;
-    add_wall(triangles, {-3.1f, -0.1f, -2.1f}, {3.1f, 0, 2.1f});             // floor
-    add_wall(triangles, {-3.1f, 2.63f, -2.1f}, {3.1f, 3.2f, 2.1f});          // ceiling
-    add_wall(triangles, {-3.11f, 0, -2.1f}, {-3.01f, 2.63f, 2.1f});          // left
-    add_wall(triangles, {2.93f, 0, -2.1f}, {3.5f, 2.63f, 2.1f});             // right
-    add_wall(triangles, {-3.1f, 0, -2.17f}, {3.1f, 2.63f, -1.83f});          // back
-    add_wall(triangles, {-3.1f, 0, 1.9f}, {3.1f, 2.63f, 2.0f});              // front
-    add_wall(triangles, {0.31f, 0, -1.83f}, {0.36f, 2.63f, 1.9f});           // across
+    add_wall(triangles, {-3.1f, -0.1f, -2.1f}, {3.1f, 0, 2.1f});     // floor
+    add_wall(triangles, {-3.1f, 2.63f, -2.1f}, {3.1f, 3.2f, 2.1f});  // ceiling
+    add_wall(triangles, {-3.11f, 0, -2.1f}, {-3.01f, 2.63f, 2.1f});  // left
+    add_wall(triangles, {2.93f, 0, -2.1f}, {3.5f, 2.63f, 2.1f});     // right
+    add_wall(triangles, {-3.1f, 0, -2.17f}, {3.1f, 2.63f, -1.83f});  // back
+    add_wall(triangles, {-3.1f, 0, 1.9f}, {3.1f, 2.63f, 2.0f});      // front
+    add_wall(triangles, {0.31f, 0, -1.83f}, {0.36f, 2.63f, 1.9f});   // across
     return triangles;
   }
   SmokyRoom() {
@@ -46,20 +46,18 @@ struct SmokyRoom {
     smoke.smoke.hold_ticks = 10000;
     world.append(smoke).value_or_throw();
     world.advance_to(600);
-    volume.update(world);
+    field.update(world);
   }
   /// Whether a point is between the surfaces.
   static bool inside(const glm::vec3& world) {
     return Box<float>{{-3.01f, 0, -1.83f}, {0.31f, 2.63f, 1.9f}}.contains(world);
   }
-  grids::Grid exported() const {
-    return smoke_grid_up_to_walls(volume, [this](glm::ivec3 cell) { return planes.at(cell); }, world.state(), {});
-  }
+  grids::Grid exported() const { return smoke_grid_up_to_walls(field, {}); }
   std::vector<voxel::Triangle> triangles = walls();
   voxel::BitGrid level = voxel::voxelize(triangles, {{32, 20, 24}, kVoxel, {-4, -0.9f, -3}}).value_or_throw();
   voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(triangles, level);
   sim::World world{level};
-  smoke::SmokeVolume volume{level, planes};
+  smoke::Field field{level, planes};
 };
 
 float density_at(const grids::Grid& grid, glm::ivec3 voxel) {
@@ -99,7 +97,7 @@ Depths depths_along(const SmokyRoom& room, const grids::Grid& grid, const grids:
     depths.interpolated += sampled(plain, p_voxel) / kSteps;
     // Rays see no smoke within solids, where drawn densities go on.
     if (!SmokyRoom::inside(room.level.layout().origin_world + kVoxel * p_voxel)) continue;
-    depths.drawn += double{smoke::sample_density(room.volume, p_voxel)} / kSteps;
+    depths.drawn += double{smoke::sample_density(room.field.volume(), p_voxel)} / kSteps;
     depths.between_walls += exported / kSteps;
   }
   return depths;
@@ -107,8 +105,7 @@ Depths depths_along(const SmokyRoom& room, const grids::Grid& grid, const grids:
 
 TEST(WallSmoke, DepthsAreThoseOfTheDrawnSmoke) {
   const SmokyRoom room;
-  const grids::Grid grid = room.exported(),
-                    plain = smoke_grid(room.world.state(), {});
+  const grids::Grid grid = room.exported(), plain = smoke_grid(room.world.state(), {});
   grids::check_grid(grid).value_or_throw();
   const auto voxel_of = [&](const glm::vec3& world) {
     return (world - room.level.layout().origin_world) / kVoxel;
@@ -138,8 +135,7 @@ TEST(WallSmoke, DepthsAreThoseOfTheDrawnSmoke) {
 
 TEST(WallSmoke, NoVoxelWithoutSmokeGetsAny) {
   const SmokyRoom room;
-  const grids::Grid grid = room.exported(),
-                    plain = smoke_grid(room.world.state(), {});
+  const grids::Grid grid = room.exported(), plain = smoke_grid(room.world.state(), {});
   ASSERT_EQ(grid.bricks.size(), plain.bricks.size());
   int beside_walls = 0, inside = 0;
   for_each_in(Box<int>{glm::ivec3(0), room.level.size()}, [&](glm::ivec3 voxel) {
@@ -155,11 +151,13 @@ TEST(WallSmoke, NoVoxelWithoutSmokeGetsAny) {
     inside += !touches_wall && value > 0;
     beside_walls += value > 1.2f * before;
   });
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) EXPECT_EQ(grid.bricks[i].active, plain.bricks[i].active);
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i)
+    EXPECT_EQ(grid.bricks[i].active, plain.bricks[i].active);
   EXPECT_GT(inside, 100);
   EXPECT_GT(beside_walls, 100);
   // Behind the wall across, from half a voxel on.
-  const glm::vec3 behind = (glm::vec3(0.36f + 1.5f * kVoxel, 1, 0) - room.level.layout().origin_world) / kVoxel;
+  const glm::vec3 behind =
+      (glm::vec3(0.36f + 1.5f * kVoxel, 1, 0) - room.level.layout().origin_world) / kVoxel;
   EXPECT_EQ(sampled(grid, behind), 0);
 }
 
