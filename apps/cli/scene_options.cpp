@@ -18,6 +18,24 @@
 namespace brume::cli {
 namespace {
 
+// Settings of timelines, whose ranges their options have.
+scene::OptionInfo grid_setting(const char* key) {
+  return scene::info_of<scene::GridOptions>(key, [](auto& o, auto& v) { scene::visit_grid_options(o, v); });
+}
+scene::OptionInfo timeline_setting(const char* key) {
+  return scene::info_of<scene::Timeline>(key, [](auto& o, auto& v) {
+    scene::visit_timeline_options(o, v);
+    scene::visit_level_options(o, v);
+  });
+}
+scene::OptionInfo sun_setting(const char* key) {
+  return scene::info_of<scene::SunOptions>(key, [](auto& o, auto& v) { scene::visit_sun_options(o, v); });
+}
+scene::OptionInfo volume_setting(const char* key) {
+  return scene::info_of<scene::VolumeOptions>(key,
+                                              [](auto& o, auto& v) { scene::visit_volume_options(o, v); });
+}
+
 std::optional<float> as_float(const std::optional<double>& value) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
@@ -32,10 +50,15 @@ scene::SmokeEvent parse_throw(const std::string& text) {
 
 scene::SunOptions parse_sun(const std::string& text) {
   const auto angles = parse_numbers(text, 2);
-  if (!angles || !(std::abs((*angles)[0]) <= 360 && (*angles)[1] >= 0.1 && (*angles)[1] <= 90))
-    throw Error(ErrorCode::usage,
-                "--sun '" + text +
-                    "': expected azimuth and elevation in degrees, -360 to 360 and 0.1 to 90, such as 60,40");
+  const scene::OptionInfo infos[] = {sun_setting("azimuth"), sun_setting("elevation")};
+  const auto fits = [&](int i) { return (*angles)[i] >= infos[i].low && (*angles)[i] <= infos[i].high; };
+  if (!angles || !fits(0) || !fits(1)) {
+    const auto range = [&](int i) {
+      return scene::shown(infos[i].low) + " to " + scene::shown(infos[i].high);
+    };
+    throw Error(ErrorCode::usage, "--sun '" + text + "': expected azimuth and elevation in degrees, " +
+                                      range(0) + " and " + range(1) + ", such as 60,40");
+  }
   scene::SunOptions sun{static_cast<float>((*angles)[0] * scene::kRadiansOfDegree),
                         static_cast<float>((*angles)[1] * scene::kRadiansOfDegree)};
   sun.irradiance *= scene::sunlight_fraction(sun.elevation);
@@ -132,13 +155,13 @@ void declare_transfer(const Arguments& arguments, SceneOptions& options) {
       .add_option("--kelvin", options.kelvin,
                   "Temperature where that grid is 1; default: 1000, or 1 if its values are kelvin")
       .type_name("K")
-      .range(1.0, 100000.0);
+      .range(volume_setting("kelvin").low, volume_setting("kelvin").high);
   arguments
       .add_option(
           "--volume-fps", options.volume_fps,
           "Frames per second of a sequence of volume files; default: one for each frame of a film, or 24")
       .type_name("F")
-      .range(0.01, 1000.0);
+      .range(volume_setting("frame_rate").low, volume_setting("frame_rate").high);
 }
 
 // One line for everything that never happens because the timeline ends before.
@@ -164,13 +187,13 @@ void warn_of_end(const scene::Timeline& timeline) {
 
 void declare_size_options(const Arguments& arguments, SceneOptions& options) {
   arguments.add_option("--voxel", options.voxel, "Edge length of a voxel [m]; default: fits the smoke")
-      .range(0.015625, 64.0)
+      .range(grid_setting("voxel").low, grid_setting("voxel").high)
       .type_name("M");
   arguments
       .add_option("--scale", options.scale,
                   "Metres per unit of the scene, such as 0.001 for millimetres; default: 1, "
                   "or what brings it between 1 m (glTF: 0.25 m) and 4 km")
-      .range(1e-6, 1e6)
+      .range(timeline_setting("scale").low, timeline_setting("scale").high)
       .type_name("X");
 }
 
@@ -215,7 +238,7 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
       .one_of({"neutral", "standard"})
       .type_name("neutral|standard");
   arguments.add_option("--exposure", options.exposure, "Exposure [EV]; default: the timeline's, or measured")
-      .range(-20.0, 20.0)
+      .range(timeline_setting("exposure").low, timeline_setting("exposure").high)
       .type_name("EV");
   arguments
       .add_option("--bounces", options.bounces,

@@ -793,7 +793,7 @@ typedef struct brume_drawn_params {
   float erosion;     ///< Strength of the erosion, [0, 1]; 0: no erosion.
   float noise_size;  ///< Size of the largest billows [m], [0.05, 100].
   float detail;      ///< Weight of the noise finer than a tenth of noise_size, [0, 1].
-  float hole_rim;    ///< Distance by which noise frays the rims of holes [m], [0, 1].
+  float hole_rim;    ///< Distance by which noise frays the rims of holes [m], [0, 10].
   float swirl;       ///< Distance by which the noise swirls [m], [0, 10].
   float rise;        ///< Speed at which the noise rises [m/s], [-10, 10].
 } brume_drawn_params;

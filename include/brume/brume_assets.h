@@ -106,12 +106,12 @@ typedef struct brume_shown_volume {
   brume_point x_axis, y_axis, z_axis;  ///< The axes of the file's space in the world; they must span space.
   brume_point position;                ///< The origin of the file's space in the world [m].
   double seconds;                      ///< Time since the start of a sequence [s], within +-10^6.
-  float extinction;                    ///< Extinction where the density is 1 [1/m], [0, 10^6].
+  float extinction;                    ///< Extinction where the density is 1 [1/m], [0, 10^12].
   float albedo[3];                     ///< Fraction of the light that is scattered, per channel, [0, 1].
-  float anisotropy;                    ///< Mean cosine of the phase function, (-1, 1).
+  float anisotropy;                    ///< Mean cosine of the phase function, [-0.99, 0.99].
   float multiple_scattering;           ///< Weight of light that is scattered more than once, [0, 1].
   float emission;                      ///< Factor of the glow, [0, 10^6].
-  /// Temperature where the heat is 1 [K], [1, 40000]. At 1000, values of heat above 100 count as kelvin.
+  /// Temperature where the heat is 1 [K], [0, 10^5]. At 1000, values of heat above 100 count as kelvin.
   float kelvin;
 } brume_shown_volume;
 

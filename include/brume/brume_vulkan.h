@@ -242,7 +242,7 @@ typedef struct brume_picture {
 /// The look of smoke; its large shape and its extinction come from the field.
 typedef struct brume_smoke_look {
   float albedo[3];            ///< Fraction of the light that smoke scatters, per channel, [0, 1].
-  float anisotropy;           ///< Mean cosine of the phase function, (-1, 1).
+  float anisotropy;           ///< Mean cosine of the phase function, [-0.99, 0.99].
   float multiple_scattering;  ///< Weight of light that is scattered more than once, [0, 1].
   /// Strength of the noise that erodes smoke, [0, 1]. Above 0, players see other smoke than
   /// brume_field_visible and brume_field_optical_depths count: rims are thinner, with gaps to look through,
@@ -251,7 +251,7 @@ typedef struct brume_smoke_look {
   /// smoke.
   float erosion;
   float noise_size;  ///< Size of the largest billows [m], [0.05, 100].
-  float hole_rim;    ///< Distance by which noise frays the rims of holes [m], [0, 1].
+  float hole_rim;    ///< Distance by which noise frays the rims of holes [m], [0, 10].
   float swirl;       ///< Distance by which the noise swirls [m], [0, 10].
   float rise;        ///< Speed at which the noise rises [m/s], [-10, 10].
 } brume_smoke_look;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "api/ranges.hpp"
 #include "api/smoke_field.hpp"
 #include "core/tasks.hpp"
 #include "shared/volume.h"
@@ -20,6 +21,7 @@ void create_field(Call& call, const brume_level* level, const brume_field_params
   const brume_level& of = call.handle(level);
   required(field, "field");
   const brume_field_params params = params_or(given, brume_field_defaults());
+  // Beyond the range of a timeline's: 0 hides nothing, and queries have no picture that becomes too dark.
   require(params.extinction >= 0 && params.extinction <= 1e6f, "`extinction` must be from 0 to 10^6");
   create(field, of.settings, of.data, atlas_of(call, params.masks), params.extinction);
 }
@@ -62,13 +64,14 @@ const auto of_smoke = [](const SmokeField& field) { return &field.sight(); };
 auto as_drawn(const brume_drawn_params* given) {
   return [given](const SmokeField& field) {
     const brume_drawn_params params = params_or(given, brume_drawn_defaults());
-    const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
-    require(within(params.erosion, 0, 1), "`erosion` must be from 0 to 1");
-    require(within(params.noise_size, 0.05f, 100), "`noise_size` must be from 0.05 to 100");
-    require(within(params.detail, 0, 1), "`detail` must be from 0 to 1");
-    require(within(params.hole_rim, 0, 1), "`hole_rim` must be from 0 to 1");
-    require(within(params.swirl, 0, 10), "`swirl` must be from 0 to 10");
-    require(within(params.rise, -10, 10), "`rise` must be from -10 to 10");
+    scene::SmokeOptions options;
+    options.erosion = params.erosion;
+    options.noise_size = params.noise_size;
+    options.detail = params.detail;
+    options.hole_rim = params.hole_rim;
+    options.swirl = params.swirl;
+    options.rise = params.rise;
+    scene::visit_smoke_options(options, RangeCheck("`"));
     return field.drawn_sight(
         {params.erosion, params.noise_size, params.detail, params.hole_rim, params.swirl, params.rise});
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "api/ranges.hpp"
 #include "host/frame.hpp"
 #include "host/volumes.hpp"
 #include "volumes/decal_volume.hpp"
@@ -112,12 +113,14 @@ planning::DecalInput input_of(const brume_shown_decal& shown, const DecalData& d
   const glm::mat4 world_from_box(world_from_space * data.space_from_box);
   check(is_placeable(glm::dmat4(world_from_box), data.volume->front().box),
         "its box must lie within 10^6 m of the world's origin and have edges of at least 10^-6 m");
-  check(is_within(shown.strength, 0, 1), "`strength` must be from 0 to 1");
-  check(is_within(shown.gamma, 0.1f, 10), "`gamma` must be from 0.1 to 10");
-  check(is_within(shown.correction, 0, 1), "`correction` must be from 0 to 1");
-  check(is_within(shown.falloff, 0, 100), "`falloff` must be from 0 to 100");
-  check(is_within(shown.fade, 0, 0.5f), "`fade` must be from 0 to 0.5");
-  check(is_within(shown.scatter, 0, 4), "`scatter` must be from 0 to 4");
+  scene::DecalOptions look;
+  look.strength = shown.strength;
+  look.gamma = shown.gamma;
+  look.correction = shown.correction;
+  look.falloff = shown.falloff;
+  look.fade = shown.fade;
+  look.scatter = shown.scatter;
+  scene::visit_decal_options(look, RangeCheck("decal " + std::to_string(number) + ": `"));
   return {world_from_box, 0,          shown.strength, shown.gamma, shown.correction,
           shown.falloff,  shown.fade, shown.scatter,  data.middle, data.radius};
 }

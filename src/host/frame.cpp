@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "api/ranges.hpp"
 #include "planning/smoke_look.hpp"
 
 namespace brume::host {
@@ -26,6 +27,7 @@ scene::Camera camera_of(const brume_camera& camera) {
   made.position_world = position(camera.position, "camera.position");
   made.target_world = made.position_world + unit(camera.forward, "camera.forward");
   made.up_world = unit(camera.up, "camera.up");
+  // Wider than a timeline's: the host has drawn with it already.
   require(camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f,
           "`camera.vertical_fov` must be above 0 and below pi");
   made.vertical_fov = camera.vertical_fov;
@@ -36,23 +38,17 @@ scene::Camera camera_of(const brume_camera& camera) {
 
 scene::SmokeOptions options_of(const brume_smoke_look& look, float extinction) {
   scene::SmokeOptions options;
-  options.extinction = extinction;
   options.albedo = vec3_of(look.albedo);
-  require(is_within(options.albedo, 0, 1), "`look.albedo` must be from 0 to 1");
-  require(look.anisotropy > -1 && look.anisotropy < 1, "`look.anisotropy` must be above -1 and below 1");
   options.anisotropy = look.anisotropy;
-  require(is_within(look.multiple_scattering, 0, 1), "`look.multiple_scattering` must be from 0 to 1");
   options.multiple_scattering = look.multiple_scattering;
-  require(is_within(look.erosion, 0, 1), "`look.erosion` must be from 0 to 1");
   options.erosion = look.erosion;
-  require(is_within(look.noise_size, 0.05f, 100), "`look.noise_size` must be from 0.05 to 100");
   options.noise_size = look.noise_size;
-  require(is_within(look.hole_rim, 0, 1), "`look.hole_rim` must be from 0 to 1");
   options.hole_rim = look.hole_rim;
-  require(is_within(look.swirl, 0, 10), "`look.swirl` must be from 0 to 10");
   options.swirl = look.swirl;
-  require(is_within(look.rise, -10, 10), "`look.rise` must be from -10 to 10");
   options.rise = look.rise;
+  scene::visit_smoke_options(options, api::RangeCheck("`look."));
+  // A field's extinction has a wider range than a timeline's.
+  options.extinction = extinction;
   return options;
 }
 
@@ -224,11 +220,14 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.view.continues = params.continues_previous != 0;
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
   input.environment.sky.ambient = vec3_of(params.ambient);
+  // A thousand times what a timeline's sky may have: a host's unit of radiance is its own.
   require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
-  require(is_within(params.ambient_indoors, 0, 1), "`ambient_indoors` must be from 0 to 1");
+  const auto sky = [](auto& o, auto& v) { scene::visit_sky_options(o, v); };
+  api::require_range(scene::info_of<scene::SkyOptions>("bounce", sky), params.ambient_indoors,
+                     "`ambient_indoors`");
   input.environment.sky.bounce = params.ambient_indoors;
-  require(params.bounces <= 16, "`bounces` must be at most 16");
   input.environment.bounces = params.bounces;
+  scene::visit_bounce_options(input.environment, api::RangeCheck("`"));
   add_lights(params, input.environment.flashes);
   input.quality = quality_of(params.quality);
   // What is too dark to be seen depends on it.

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "api/ranges.hpp"
 #include "host/frame.hpp"
+#include "scene/tank_options.hpp"
 #include "spheres/file.hpp"
 
 using namespace brume::api;
@@ -12,14 +14,16 @@ namespace brume::host {
 namespace {
 
 constexpr std::size_t kMostTanks = 4;
-constexpr std::uint32_t kMostSamples = 64, kMostBounces = 16;
-constexpr std::uint32_t kMostPhotons = 1u << 22;
+/// Of a frame; a picture of a file averages as many as it likes.
+constexpr std::uint32_t kMostSamples = 64;
 
 spheres::Tank copied_tank(const brume_tank_params& params) {
   spheres::Tank tank;
   tank.size = {params.size[0], params.size[1], params.size[2]};
   tank.voxel = params.voxel;
-  require(is_within(params.voxel, 1e-6f, 1e3f), "`voxel` must be from 10^-6 to 1000");
+  spheres::PackOptions numbers;
+  numbers.voxel = params.voxel;
+  scene::visit_pack_options(numbers, RangeCheck("`"));
   unwrap(spheres::check_tank_size(tank.size, params.sphere_count));
   if (params.sphere_count == 0) return tank;
   required(params.spheres, "spheres");
@@ -47,26 +51,31 @@ std::shared_ptr<const planning::TankContent> content_of(const brume_tank_params&
   return content;
 }
 
+scene::OptionInfo light_info(const char* key) {
+  return scene::info_of<scene::TankLight>(key,
+                                          [](auto& o, auto& v) { scene::visit_tank_light_options(o, v); });
+}
+
 scene::TankLight light_of(const brume_tank_light& light, std::size_t number) {
   const std::string name = "light " + std::to_string(number);
   scene::TankLight made;
   made.position_world = position(light.position, (name + ".position").c_str());
   made.radius = light.radius;
-  if (!is_within(made.radius, 0, 1000)) refuse(name + " must have a radius from 0 to 1000");
+  require_range(light_info("radius"), made.radius, name + ".radius");
   made.color = vec3_of(light.intensity);
   made.intensity = 1;
-  if (!is_within(made.color, 0, 1e9f)) refuse(name + " must have an intensity from 0 to 10^9");
+  for (int channel = 0; channel < 3; ++channel)
+    require_range(light_info("intensity"), made.color[channel], name + ".intensity");
   return made;
 }
 
 void add_glass(const brume_tank_lighting& lighting, scene::TankScene& scene) {
   if (lighting.glass_index == 0) return;
-  require(is_within(lighting.glass_index, 1, 4), "`glass_index` must be from 1 to 4, or 0");
   scene::TankGlass& glass = scene.glass.emplace();
   glass.index = lighting.glass_index;
   glass.position_world = position(lighting.glass_position, "glass_position");
   glass.radii = vec3_of(lighting.glass_radii);
-  require(is_within(glass.radii, 1e-4f, 1e4f), "`glass_radii` must be from 0.0001 to 10000");
+  scene::visit_glass_options(glass, RangeCheck("`glass_"));
 }
 
 scene::TankScene scene_of(const brume_tank_lighting& lighting) {
@@ -76,16 +85,15 @@ scene::TankScene scene_of(const brume_tank_lighting& lighting) {
   for (std::size_t i = 0; i < lighting.light_count; ++i)
     scene.lights.push_back(light_of(lighting.lights[i], i));
   scene.sky.ambient = vec3_of(lighting.ambient);
+  // As in a frame: a host's unit of radiance is its own.
   require(is_within(scene.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
-  require(lighting.bounces <= kMostBounces, "`bounces` must be at most 16");
   scene.bounces = lighting.bounces;
   scene.fog.extinction = lighting.fog_extinction;
-  require(is_within(scene.fog.extinction, 0, 1e6f), "`fog_extinction` must be from 0 to 10^6");
   scene.fog.color = vec3_of(lighting.fog_color);
-  require(is_within(scene.fog.color, 0, 1e6f), "`fog_color` must be from 0 to 10^6");
+  scene::visit_fog_options(scene.fog, RangeCheck("`fog_"));
   add_glass(lighting, scene);
-  require(lighting.photons <= kMostPhotons, "`photons` must be at most 2^22");
   scene.photons = lighting.photons;
+  scene::visit_tank_picture_options(scene, RangeCheck("`"));
   return scene;
 }
 

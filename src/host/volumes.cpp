@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "api/ranges.hpp"
 #include "host/frame.hpp"
 #include "planning/volume_inputs.hpp"
 
@@ -25,8 +26,8 @@ scene::VolumeOptions options_of(const brume_volume_params& params) {
   options.density = text_of(params.density);
   options.heat = text_of(params.heat);
   options.color = text_of(params.color);
-  require(is_within(params.frame_rate, 0.001f, 1000), "`frame_rate` must be from 0.001 to 1000");
   options.frame_rate = params.frame_rate;
+  scene::visit_volume_options(options, RangeCheck("`"));
   require(params.repeat <= BRUME_REPEAT_CLIP, "`repeat` must be a brume_repeat");
   options.loop = params.repeat == BRUME_REPEAT_LOOP;
   options.ping_pong = params.repeat == BRUME_REPEAT_PING_PONG;
@@ -59,22 +60,14 @@ void place(const brume_shown_volume& shown, const std::string& name, scene::Volu
 }
 
 void set_look(const brume_shown_volume& shown, const std::string& name, scene::VolumeOptions& options) {
-  const auto check = [&](bool condition, const char* expected) {
-    if (!condition) refuse(name + ": " + expected);
-  };
-  check(is_within(shown.extinction, 0, 1e6f), "`extinction` must be from 0 to 10^6");
   options.extinction = shown.extinction;
   options.albedo = vec3_of(shown.albedo);
-  check(is_within(options.albedo, 0, 1), "`albedo` must be from 0 to 1");
-  check(shown.anisotropy > -1 && shown.anisotropy < 1, "`anisotropy` must be above -1 and below 1");
   options.anisotropy = shown.anisotropy;
-  check(is_within(shown.multiple_scattering, 0, 1), "`multiple_scattering` must be from 0 to 1");
   options.multiple_scattering = shown.multiple_scattering;
-  check(is_within(shown.emission, 0, 1e6f), "`emission` must be from 0 to 10^6");
   options.emission = shown.emission;
-  check(is_within(shown.kelvin, 1, 40000), "`kelvin` must be from 1 to 40000");
   options.kelvin = shown.kelvin;
-  check(std::abs(shown.seconds) <= 1e6, "`seconds` must be within 10^6");
+  scene::visit_volume_options(options, RangeCheck(name + ": `"));
+  if (!(std::abs(shown.seconds) <= 1e6)) refuse(name + ": `seconds` must be within 10^6");
 }
 
 }  // namespace
@@ -86,8 +79,9 @@ ShownVolumes add_volumes(Call& call, const brume_frame_params& params, planning:
   for (std::size_t i = 0; i < params.volume_count; ++i) {
     const std::string name = "volume " + std::to_string(i);
     options.push_back(call.handle(params.volumes[i].volume).data->options);
-    place(params.volumes[i], name, options.back());
     set_look(params.volumes[i], name, options.back());
+    // Its axes may be of other lengths than a timeline's, so that they come after the check of those.
+    place(params.volumes[i], name, options.back());
   }
   ShownVolumes shown;
   for (std::size_t i = 0; i < options.size(); ++i) {

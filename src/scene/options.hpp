@@ -1,6 +1,6 @@
 // Every numeric setting of a timeline in one place: key, unit, range and description. The reader and writer
-// of timelines, the viewer's panels and the tables of docs/guides/timelines.md are generated from it or
-// checked against it.
+// of timelines, the C interfaces, the program's options, the viewer's panels, Blender's add-on and the tables
+// of the documentation take their ranges from it or are tested against it.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,13 @@ inline bool is_angle(const OptionInfo& info) {
 /// Latest time of an event or a key [s]; largest coordinate of a camera or a grid, per axis [m].
 constexpr double kLatestTime = 3600, kFarthestPoint = 1e6;
 
+/// Whether a member is within its range. Compared as floats: the file's lower bound may round down to a float
+/// below it. False for what is not a number.
+inline bool is_in_range(const OptionInfo& info, float member) {
+  const double unit = is_angle(info) ? kRadiansOfDegree : 1;
+  return member >= static_cast<float>(info.low * unit) && member <= static_cast<float>(info.high * unit);
+}
+
 /// Most samples of a pixel.
 constexpr std::uint32_t kMostSamples = 1u << 24;
 
@@ -39,6 +46,10 @@ void visit_timeline_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"duration", "s", "duration of the film", 0.01, kLatestTime}, o.duration);
   visit(OptionInfo{"exposure", "EV", "radiance is multiplied by 2^exposure", -20, 20}, o.exposure);
 }
+
+/// Largest mean cosine of a phase function, forwards or backwards: closer to 1, the peak of Henyey-Greenstein
+/// times the light of a sun no longer fits half floats.
+constexpr double kMostAnisotropy = 0.99;
 
 /// Most bounces of indirect light.
 constexpr std::uint32_t kMostBounces = 16;
@@ -76,7 +87,8 @@ void visit_smoke_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"dissolve", "s", "time to dissolve", 0.05, 60}, o.dissolve);
   visit(OptionInfo{"extinction", "1/m", "extinction at full density", 0.01, 100}, o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
-  visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},
+  visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -kMostAnisotropy,
+                   kMostAnisotropy},
         o.anisotropy);
   visit(OptionInfo{"droplet", "um", "droplet diameter; replaces `anisotropy`", 0.1, 50}, o.droplet);
   visit(
@@ -123,14 +135,15 @@ void visit_volume_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"z_axis", "", "the same for z", -1e9, 1e9}, o.z_axis);
   visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12}, o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
-  visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},
+  visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -kMostAnisotropy,
+                   kMostAnisotropy},
         o.anisotropy);
   visit(
       OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0, 1},
       o.multiple_scattering);
   visit(OptionInfo{"emission", "", "brightness of what glows", 0, 1e6}, o.emission);
   visit(OptionInfo{"kelvin", "K", "temperature where the heat is 1", 0, 1e5}, o.kelvin);
-  visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.01, 1000}, o.frame_rate);
+  visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.001, 1000}, o.frame_rate);
   visit(OptionInfo{"start", "s", "time of the first frame of a sequence", -kLatestTime, kLatestTime},
         o.start);
   visit(OptionInfo{"glow", "", "fraction of the colours that is emitted, unlit, instead of scattered", 0, 1},
@@ -198,8 +211,7 @@ template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170}, o.vertical_fov);
   visit(OptionInfo{"aperture", "m", "radius of the lens; 0: all is sharp", 0, 100}, o.lens.aperture);
-  visit(OptionInfo{"focus", "m", "sharp distance along the view; 0: as far as the target", 0,
-                   kFarthestPoint},
+  visit(OptionInfo{"focus", "m", "sharp distance along the view; 0: as far as the target", 0, kFarthestPoint},
         o.lens.focus);
   visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);
   visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10}, o.shutter);
@@ -244,6 +256,20 @@ void visit_blast_options(Options& o, Visitor&& visit) {
                    60},
         o.refill_middle);
   visit(OptionInfo{"flash", "W/sr", "intensity of the fireball, 0.3 s long", 0, 1e6}, o.flash);
+}
+
+/// The description of one setting: info_of<SkyOptions>("stars", [](auto& o, auto& v) { visit_sky_options(o,
+/// v);
+/// }).
+template <typename Options, typename Visit>
+OptionInfo info_of(std::string_view key, Visit visit) {
+  OptionInfo found{};
+  const Options options{};
+  const auto look = [&](const OptionInfo& info, const auto&) {
+    if (info.key == key) found = info;
+  };
+  visit(options, look);
+  return found;
 }
 
 }  // namespace brume::scene

@@ -23,11 +23,8 @@ class Checker {
   }
 
   void operator()(const OptionInfo& info, const float& member) {
-    const double unit = is_angle(info) ? kRadiansOfDegree : 1;
-    // Compared as floats: the file's lower bound may round down to a float below it.
-    if (member >= static_cast<float>(info.low * unit) && member <= static_cast<float>(info.high * unit))
-      return;
-    out_of_range(info.key, double{member} / unit, info.low, info.high);
+    if (is_in_range(info, member)) return;
+    out_of_range(info.key, double{member} / (is_angle(info) ? kRadiansOfDegree : 1), info.low, info.high);
   }
   void operator()(const OptionInfo& info, const std::uint32_t& member) {
     number(info.key, member, info.low, info.high);

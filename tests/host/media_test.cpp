@@ -4,6 +4,7 @@
 
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
+#include "scene/options.hpp"
 #include "tests/host/hosted_pair.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/work_folder.hpp"
@@ -218,6 +219,46 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   refused(BRUME_ERROR_ARGUMENT, "file");
   params.file = "/nowhere/cloud.brv";
   refused(BRUME_ERROR_DATA, "/nowhere/cloud.brv");
+}
+
+TEST_F(MediaTest, LooksAreRefusedBeyondTheRangesOfTimelines) {
+  add_volume(cloud_file("cloud.brv", 1, true));
+  load_volumes();
+  make_sides(1, 1);
+  brume_frame_params params = frame_of(scenario_, 1);
+  params.frame_number = 1;
+  params.depth.view = reinterpret_cast<VkImageView>(1);
+  show_volumes(params);
+  const auto refused = [&](const std::string& words, float& member, const scene::OptionInfo& info) {
+    const float before = member;
+    for (const float bad : {std::nextafter(static_cast<float>(info.low), -INFINITY),
+                            std::nextafter(static_cast<float>(info.high), INFINITY), NAN}) {
+      member = bad;
+      EXPECT_EQ(brume_renderer_record(smoke_->renderer, smoke_->field.get(), &params), BRUME_ERROR_ARGUMENT);
+      EXPECT_NE(std::string(brume_last_error()).find(words), std::string::npos) << brume_last_error();
+    }
+    member = before;
+  };
+  host_->frame([&](VkCommandBuffer commands, std::uint64_t, std::uint64_t) {
+    params.commands = commands;
+    brume_shown_volume& shown = shown_[0];
+    for (const auto& [key, member] :
+         {std::pair("extinction", &shown.extinction), std::pair("anisotropy", &shown.anisotropy),
+          std::pair("multiple_scattering", &shown.multiple_scattering),
+          std::pair("emission", &shown.emission), std::pair("kelvin", &shown.kelvin)})
+      refused(std::string("volume 0: `") + key + "` must be from ", *member,
+              scene::info_of<scene::VolumeOptions>(
+                  key, [](auto& o, auto& v) { scene::visit_volume_options(o, v); }));
+    brume_smoke_look& look = params.look;
+    for (const auto& [key, member] :
+         {std::pair("anisotropy", &look.anisotropy),
+          std::pair("multiple_scattering", &look.multiple_scattering), std::pair("erosion", &look.erosion),
+          std::pair("noise_size", &look.noise_size), std::pair("hole_rim", &look.hole_rim),
+          std::pair("swirl", &look.swirl), std::pair("rise", &look.rise)})
+      refused(std::string("`look.") + key + "` must be from ", *member,
+              scene::info_of<scene::SmokeOptions>(
+                  key, [](auto& o, auto& v) { scene::visit_smoke_options(o, v); }));
+  });
 }
 
 TEST_F(MediaTest, ShadowsAreThoseOfTheRenderersSurfaces) {

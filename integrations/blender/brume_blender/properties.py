@@ -1,6 +1,6 @@
 """Properties that the add-on stores in a .blend file: roles of objects, events, and settings of the scene.
 
-Names, defaults and ranges: docs/guides/timelines.md. Lengths are stored in metres; panels show the property with the
+Defaults and ranges: settings.py. Lengths are stored in metres; panels show the property with the
 prefix `shown_`, which is in the units of the scene. No property is animatable, because timelines have no keys for them.
 """
 
@@ -18,6 +18,7 @@ from bpy.props import (
 
 from .clock import frames_per_second
 from .conversion import metres_per_unit, radius_of_voxels, voxels_of_radius
+from .settings import SETTINGS
 
 HOLE_TIMES = ("reach", "expand", "stay", "fade")
 
@@ -47,14 +48,19 @@ EVENTS = (
 _FIXED = set()  # Options of a property without keyframes.
 
 
-def _seconds(name, default, most, what, least=0.0):
-    return FloatProperty(
-        name=name, default=default, min=least, max=most, description=what, unit="TIME_ABSOLUTE", options=_FIXED
-    )
-
-
-def _plain(name, default, least, most, what, **more):
-    return FloatProperty(name=name, default=default, min=least, max=most, description=what, options=_FIXED, **more)
+def _number(table, key, name, **more):
+    """A setting of a table of timelines, or of a type of events."""
+    setting = SETTINGS[table][key]
+    if setting.unit == "s":
+        more["unit"] = "TIME_ABSOLUTE"
+    kind, default = FloatProperty, setting.default
+    if isinstance(default, int):
+        kind = IntProperty
+    low, high = setting.low, setting.high
+    if setting.unit == "degrees":
+        low, high, more["subtype"] = math.radians(low), math.radians(high), "ANGLE"
+    more = {"description": setting.description} | more
+    return kind(name=name, default=default, min=low, max=high, options=_FIXED, **more)
 
 
 def _scene_of(group):
@@ -130,7 +136,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
     aim: PointerProperty(
         type=bpy.types.Object, name="Aim", description="Target that the shot passes through; empty: along the arrow"
     )
-    radius: _plain("Radius", 0.25, 0.01, 10.0, "Radius of the hole, half the edge of a box or mask")
+    radius: _number("shot", "radius", "Radius")
     shape: EnumProperty(
         items=(
             ("CYLINDER", "Cylinder", "A round hole"),
@@ -144,32 +150,27 @@ class BrumeEvent(bpy.types.PropertyGroup):
     mask: StringProperty(
         name="Mask", description="Image of the cross-section", subtype="FILE_PATH", options=_FIXED
     )
-    roll: FloatProperty(
-        name="Roll",
-        description="Rotates a box, mask or word clockwise as seen by the shooter",
-        min=-2 * math.pi,
-        max=2 * math.pi,
-        subtype="ANGLE",
-        options=_FIXED,
+    roll: _number(
+        "shot", "roll", "Roll", description="Rotates a box, mask or word clockwise as seen by the shooter"
     )
-    flash: _plain("Flash (W/sr)", 25.0, 0.0, 1e6, "Intensity of the muzzle flash, 0.06 s long")
-    reach: _seconds("Bore Time", 0.25, 60.0, "Time until the hole reaches the far end")
-    expand: _seconds("Open Time", 0.05, 60.0, "Time to open at each depth")
-    stay: _seconds("Stay Open", 0.6, 600.0, "Time open")
-    fade: _seconds("Close Time", 0.35, 60.0, "Time to close")
+    flash: _number("shot", "flash", "Flash (W/sr)")
+    reach: _number("shot", "reach", "Bore Time")
+    expand: _number("shot", "expand", "Open Time")
+    stay: _number("shot", "stay", "Stay Open")
+    fade: _number("shot", "fade", "Close Time")
     text: StringProperty(name="Word", description="One line of letters", default="SMOKE", options=_FIXED)
-    size: _plain("Height", 0.5, 0.02, 10.0, "Height of a capital letter")
+    size: _number("text", "size", "Height")
     font: StringProperty(
         name="Font", description="Font file; empty: DejaVu Sans Bold", subtype="FILE_PATH", options=_FIXED
     )
-    spacing: _plain("Spacing", 0.0, -0.5, 10.0, "Extra space between letters, in capital heights")
-    interval: _seconds("Interval", 0.0, 10.0, "Time between letters")
-    blast_radius: _plain("Radius", 5.0, 0.1, 100.0, "Radius of the cavity")
-    blast_flash: _plain("Flash (W/sr)", 250.0, 0.0, 1e6, "Intensity of the fireball, which lasts 0.3 s")
-    speed: _plain("Speed", 32.0, 1.0, 10000.0, "Speed of the front")
-    remaining: _plain("Remaining", 0.02, 0.0, 1.0, "Fraction of the smoke that remains", subtype="FACTOR")
-    refill_rim: _seconds("Rim Refills In", 0.5, 60.0, "Time until the rim is refilled", least=0.01)
-    refill_middle: _seconds("Middle Refills In", 5.0, 60.0, "Time until the middle is refilled", least=0.01)
+    spacing: _number("text", "spacing", "Spacing")
+    interval: _number("text", "interval", "Interval")
+    blast_radius: _number("blast", "radius", "Radius")
+    blast_flash: _number("blast", "flash", "Flash (W/sr)")
+    speed: _number("blast", "speed", "Speed")
+    remaining: _number("blast", "remaining", "Remaining", subtype="FACTOR")
+    refill_rim: _number("blast", "refill_rim", "Rim Refills In")
+    refill_middle: _number("blast", "refill_middle", "Middle Refills In")
     door: PointerProperty(
         type=bpy.types.Object, name="Door", description="The door to open or close; its role must be Door"
     )
@@ -185,7 +186,7 @@ def _read_smoke_radius(self):
 
 def _write_smoke_radius(self, radius):
     metres = min(max(radius * metres_per_unit(_scene_of(self)), 0.0), 1e4)
-    self.smoke_voxels = min(voxels_of_radius(metres, self.voxel), 16777216)
+    self.smoke_voxels = min(voxels_of_radius(metres, self.voxel), SETTINGS["smoke"]["voxels"].high)
 
 
 class BrumeScene(bpy.types.PropertyGroup):
@@ -198,15 +199,8 @@ class BrumeScene(bpy.types.PropertyGroup):
         description="Intermediate format for rendering and voxelizing",
         options=_FIXED,
     )
-    voxel: _plain("Voxel Size", 0.25, 1 / 64, 10.0, "Edge of a voxel")
-    smoke_voxels: IntProperty(
-        name="Voxels",
-        default=1800,
-        min=1,
-        max=16777216,
-        description="Number of voxels that a fully grown smoke fills",
-        options=_FIXED,
-    )
+    voxel: _number("grid", "voxel", "Voxel Size")
+    smoke_voxels: _number("smoke", "voxels", "Voxels")
     smoke_radius: FloatProperty(
         name="Radius",
         description="Radius of a fully grown smoke in open air, as a ball; walls and floors make it wider",
@@ -215,11 +209,14 @@ class BrumeScene(bpy.types.PropertyGroup):
         set=_write_smoke_radius,
         options=_FIXED,
     )
-    smoke_bloom: _seconds("Grow Time", 1.0, 60.0, "Time from going off to full size", least=0.05)
-    smoke_hold: _seconds("Stay Time", 18.0, 3600.0, "Time at full size")
-    smoke_dissolve: _seconds("Dissolve Time", 3.0, 60.0, "Time to dissolve completely", least=0.05)
-    smoke_extinction: _plain(
-        "Density (1/m)", 3.0, 0.01, 100.0, "Extinction coefficient of dense smoke: at 3 one sees 1 m far"
+    smoke_bloom: _number("smoke", "bloom", "Grow Time")
+    smoke_hold: _number("smoke", "hold", "Stay Time")
+    smoke_dissolve: _number("smoke", "dissolve", "Dissolve Time")
+    smoke_extinction: _number(
+        "smoke",
+        "extinction",
+        "Density (1/m)",
+        description="Extinction coefficient of dense smoke: at 3 one sees 1 m far",
     )
     sky: EnumProperty(
         items=(

@@ -11,11 +11,13 @@ from .clock import events_of, frames_per_second, moves
 from .conversion import number
 from .messages import BrumeError
 from .properties import HOLE_TIMES
+from .settings import SETTINGS
 from .toml_text import quoted, vector
 from .volumes import Tables
 
 _KEYS_PER_SECOND = 8
-_LONGEST = 3600.0
+_TIMELINE, _CAMERA = SETTINGS["timeline"], SETTINGS["camera"]
+_LONGEST = _TIMELINE["duration"].high
 _AHEAD = 5.0  # Distance from the camera to its target [m].
 
 
@@ -62,9 +64,12 @@ class Writer:
     def _head(self, scene_file, tone):
         scene, options = self._scene, self._scene.brume
         duration = self._clock.seconds(scene.frame_end + 1)
-        if not 0.01 <= duration <= _LONGEST:
-            raise BrumeError(f"the scene lasts {duration:g} s, expected 0.01 to 3600 s; change its frame range")
-        exposure = min(max(scene.view_settings.exposure, -20.0), 20.0)
+        least, most = _TIMELINE["duration"].low, _TIMELINE["duration"].high
+        if not least <= duration <= most:
+            raise BrumeError(
+                f"the scene lasts {duration:g} s, expected {least:g} to {most:g} s; change its frame range"
+            )
+        exposure = _TIMELINE["exposure"].clamped(scene.view_settings.exposure)
         lines = ["version = 1", f"scene = {quoted(scene_file)}"]
         lines += [f"duration = {number(duration)}", f"exposure = {number(exposure)}"]
         lines += [f"tone = {quoted(tone)}"] if tone else []
@@ -118,7 +123,7 @@ class Writer:
         return (
             vector(conversion.point(position, metres)),
             vector(conversion.point(target, metres)),
-            min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
+            _CAMERA["fov"].clamped(math.degrees(vertical_fov(evaluated.data, self._scene))),
             self._lens(evaluated, time) | self._shutter(),
         )
 
@@ -127,7 +132,7 @@ class Writer:
         render = self._scene.render
         if not render.use_motion_blur:
             return {}
-        return {"shutter": min(render.motion_blur_shutter * render.fps_base / render.fps, 10.0)}
+        return {"shutter": _CAMERA["shutter"].clamped(render.motion_blur_shutter * render.fps_base / render.fps)}
 
     def _lens(self, camera, time):
         """Aperture, focus and blades of a camera with depth of field; without, nothing."""
@@ -141,8 +146,8 @@ class Writer:
             distance = abs((camera.matrix_world.inverted() @ aim).z)
         # The focal length is in millimetres; the f-number divides it into the diameter of the opening.
         lens = {
-            "aperture": min(data.lens / 1000 / (2 * settings.aperture_fstop), 100.0),
-            "focus": min(max(distance * metres, 0.0), 1e6),
+            "aperture": _CAMERA["aperture"].clamped(data.lens / 1000 / (2 * settings.aperture_fstop)),
+            "focus": _CAMERA["focus"].clamped(distance * metres),
         }
         if settings.aperture_blades >= 3:
             lens["blades"] = settings.aperture_blades

@@ -5,11 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .settings import SETTINGS
+
 # A black body of T kelvin emits per Blender unit sigma / pi * 1e-6 * T^4 of W/(sr m^2) in Blender (Cycles, node
 # Principled Volume), and 1 at 1,900 K for each unit of optical depth in Brume (docs/guides/volumes.md).
 _GLOW = 5.670373e-8 * 1e-6 / math.pi * 1900.0**4
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-_MOST_EMISSION = 1e6
+_VOLUME = SETTINGS["volume"]
+_MOST_EMISSION = _VOLUME["emission"].high
 
 
 @dataclass
@@ -118,7 +121,7 @@ def _principled(reader, warn):
     look.color = grid or reader.text("Color Attribute")
     look.albedo = tuple(np.minimum(color / mean, 1.0)) if mean > 0 else (0.0, 0.0, 0.0)
     anisotropy = reader.value("Anisotropy")
-    look.anisotropy = min(max(anisotropy, -0.9), 0.9)
+    look.anisotropy = _VOLUME["anisotropy"].clamped(anisotropy)
     if look.anisotropy != anisotropy:
         warn(f"its Anisotropy {anisotropy:.2f} becomes {look.anisotropy:g}")
     if reader.value("Emission Strength") > 0 and max(reader.value("Emission Color")) > 0:
@@ -132,7 +135,7 @@ def _set_glow(look, reader, warn):
     if blackbody == 0:
         return
     look.temperature = reader.text("Temperature Attribute")
-    look.kelvin = min(max(reader.value("Temperature"), 0.0), 1e5)
+    look.kelvin = _VOLUME["kelvin"].clamped(reader.value("Temperature"))
     tint = np.maximum(reader.value("Blackbody Tint"), 0.0)
     if np.ptp(tint) > 0.01 * max(tint.max(), 1e-6):
         warn("its Blackbody Tint is not exported, but for its brightness")

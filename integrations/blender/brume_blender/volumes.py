@@ -8,12 +8,14 @@ import numpy as np
 
 from . import files, names, volume_look
 from .conversion import number
+from .settings import SETTINGS
 from .toml_text import quoted, vector
 
+_VOLUME = SETTINGS["volume"]
 _MOST = 32  # Volumes of a frame.
 _FARTHEST = 1e6  # [m]
 _LAST_FRAME = 1_000_000_000
-_LATEST = 3600.0  # [s]
+_LATEST = _VOLUME["start"].high  # [s]
 _COLORS = ("Cd", "color", "colour")  # Usual names of grids of colours.
 # What Brume takes for the number of a frame in the name of a file.
 _NUMBER = re.compile(r"%0?\d*d")
@@ -158,10 +160,10 @@ class Tables:
         keys = {"density": quoted(density)} if density else {}
         keys |= {"heat": quoted(look.temperature)} if emission > 0 else {}
         keys |= self._color_keys(look.color, grids, warn)
-        keys["extinction"] = number(min(look.extinction * scale / self._level.metres, 1e12))
+        keys["extinction"] = number(_VOLUME["extinction"].clamped(look.extinction * scale / self._level.metres))
         keys["albedo"] = vector(look.albedo)
         keys["anisotropy"] = number(look.anisotropy)
-        keys["emission"] = number(min(emission, 1e6))
+        keys["emission"] = number(_VOLUME["emission"].clamped(emission))
         if emission > 0:
             keys["kelvin"] = number(look.kelvin)
         return keys
@@ -201,7 +203,7 @@ def _place_keys(volume):
     position, axes = matrix[:3, 3], matrix[:3, :3]
     if not np.isfinite(matrix).all():
         raise _Skipped("its transform is not finite")
-    if np.abs(position).max() > _FARTHEST or np.abs(axes).max() > 1e9:
+    if np.abs(position).max() > _FARTHEST or np.abs(axes).max() > _VOLUME["x_axis"].high:
         raise _Skipped(f"it is farther than {_FARTHEST:g} m from the origin, or larger than Brume shows")
     if abs(np.linalg.det(axes)) <= 1e-8 * np.prod(np.linalg.norm(axes, axis=0)):
         raise _Skipped("it is scaled to nothing along an axis")

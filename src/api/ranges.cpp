@@ -1,0 +1,38 @@
+#include "api/ranges.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+namespace brume::api {
+namespace {
+
+/// Large powers as such: 10^6, 2^22.
+std::string text_of(double value) {
+  const double exponent = std::round(std::log10(std::max(value, 1.0)));
+  if (value >= 1e6 && std::pow(10.0, exponent) == value)
+    return "10^" + std::to_string(static_cast<int>(exponent));
+  const auto whole = static_cast<std::uint32_t>(value);
+  if (value == whole && value >= 1 << 16 && std::has_single_bit(whole))
+    return "2^" + std::to_string(std::countr_zero(whole));
+  char text[32];
+  std::snprintf(text, sizeof text, "%.7g", value);
+  return text;
+}
+
+[[noreturn]] void refuse_range(const scene::OptionInfo& info, const std::string& name, const char* or_else) {
+  refuse(name + " must be from " + text_of(info.low) + " to " + text_of(info.high) + or_else);
+}
+
+}  // namespace
+
+void require_range(const scene::OptionInfo& info, float value, const std::string& name, const char* or_else) {
+  if (!scene::is_in_range(info, value)) refuse_range(info, name, or_else);
+}
+
+void require_range(const scene::OptionInfo& info, std::uint32_t value, const std::string& name) {
+  if (value > info.high) refuse(name + " must be at most " + text_of(info.high));
+  if (value < info.low) refuse_range(info, name, "");
+}
+
+}  // namespace brume::api
