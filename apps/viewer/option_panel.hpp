@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -32,11 +33,23 @@ bool volume_row(const scene::OptionInfo& info, std::uint32_t& voxels, std::uint3
 /// A patch of a linear colour in [0, 1] whose popup edits it. Returns whether it changed.
 bool color_patch(glm::vec3& color);
 
+/// What a row has for a range from 0 to more than 1000.
+enum class WideRange { slider, drag };
+
 /// Rows for the members that `selects` selects, all if it is empty; `visit` wraps one of the visit_*
-/// functions. `file` holds the values that the level began with. Returns whether a value changed.
+/// functions. `file` holds the values that the document began with. Returns whether a value changed.
 template <typename Options, typename Visit>
 bool option_rows(Options& options, const Options& file, Visit visit,
-                 const std::function<bool(const std::string&)>& selects = {}) {
+                 const std::function<bool(const std::string&)>& selects = {},
+                 WideRange wide = WideRange::slider) {
+  const auto row = [&](const scene::OptionInfo& info, auto& value, const auto& standard) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, float>)
+      if (wide == WideRange::drag && info.high > 1000) return drag_row(info, value, standard);
+    if constexpr (std::is_same_v<Value, glm::vec3>)
+      if (info.unit == std::string_view("m")) return vector_row(info, value, standard);
+    return option_row(info, value, standard);
+  };
   bool changed = false;
   // Both visits are in the same order, so that index i is the file's value of member i.
   std::vector<const void*> initial;
@@ -45,9 +58,16 @@ bool option_rows(Options& options, const Options& file, Visit visit,
   visit(options, [&](const scene::OptionInfo& info, auto& member) {
     using Member = std::remove_reference_t<decltype(member)>;
     const auto& standard = *static_cast<const Member*>(initial[i++]);
-    if (!selects || selects(info.key)) changed = option_row(info, member, standard) || changed;
+    if (!selects || selects(info.key)) changed = row(info, member, standard) || changed;
   });
   return changed;
+}
+
+/// The rows of a tank, whose lengths and intensities span more than a slider resolves.
+template <typename Options, typename Visit>
+bool tank_rows(Options& options, const Options& file, Visit visit,
+               const std::function<bool(const std::string&)>& selects = {}) {
+  return option_rows(options, file, visit, selects, WideRange::drag);
 }
 
 }  // namespace brume::viewer

@@ -3,9 +3,10 @@
 
 #include <optional>
 
-#include "apps/viewer/tank_rows.hpp"
+#include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/tank_ui.hpp"
 #include "apps/viewer/widgets.hpp"
+#include "scene/tank_options.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -47,7 +48,7 @@ bool lay_out_light(TankState& state, std::size_t index) {
   // A light with keys is where they lead it: drag its mark to move all of them.
   const bool changed = tank_rows(
       light, file, [](auto& o, auto&& v) { scene::visit_tank_light_options(o, v); },
-      [&](std::string_view key) { return key != "position" || light.keys.empty(); });
+      [&](const std::string& key) { return key != "position" || light.keys.empty(); });
   if (changed) state.edit().lights[index] = light;
   const KeyButtons keys = lay_out_keys(light.keys.size());
   if (keys.add) state.add_light_key(index);
@@ -107,7 +108,7 @@ void lay_out_glass(TankState& state) {
   const bool changed = tank_rows(
       glass, state.file().glass.value_or(scene::TankGlass()),
       [](auto& o, auto&& v) { scene::visit_glass_options(o, v); },
-      [&](std::string_view key) { return !has_keys || key == "index"; });
+      [&](const std::string& key) { return !has_keys || key == "index"; });
   if (changed) state.edit().glass = glass;
   const KeyButtons keys = lay_out_keys(glass.keys.size());
   if (keys.add) state.add_glass_key();
@@ -123,7 +124,7 @@ void lay_out_lens(TankState& state, TankRequests& requests) {
   // The pictures of tanks have no motion blur.
   if (tank_rows(
           camera, file, [](auto& o, auto&& v) { scene::visit_camera_options(o, v); },
-          [](std::string_view key) { return key != "shutter"; }))
+          [](const std::string& key) { return key != "shutter"; }))
     state.move_camera(camera);
   if (button("focus on the middle")) requests.actions.push_back(Action::focus);
   ImGui::SameLine();

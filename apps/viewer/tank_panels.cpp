@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/viewer/tank_rows.hpp"
+#include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/tank_ui.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
 #include "palettes/choice.hpp"
+#include "scene/tank_options.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -70,7 +71,7 @@ void lay_out_sky(TankState& state) {
   // A tank has no stars, nor rooms that light must find the way into.
   bool changed = tank_rows(
       scene.sky, state.file().sky, [](auto& o, auto&& v) { scene::visit_sky_options(o, v); },
-      [](std::string_view key) { return key != "stars" && key != "bounce"; });
+      [](const std::string& key) { return key != "stars" && key != "bounce"; });
   ImGui::PushID("fog");
   ImGui::TextDisabled("fog in the tank");
   changed =
@@ -218,9 +219,9 @@ void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& r
   spheres::PackOptions& pack = scene.pack;
   const spheres::PackOptions& file = state.file().pack;
   bool changed = false;
-  const auto rows = [&](std::string_view key) {
+  const auto rows = [&](const std::string& key) {
     const auto visit = [](auto& o, auto&& v) { scene::visit_pack_options(o, v); };
-    changed = tank_rows(pack, file, visit, [&](std::string_view each) { return each == key; }) || changed;
+    changed = tank_rows(pack, file, visit, [&](const std::string& each) { return each == key; }) || changed;
   };
   rows("spheres");
   changed = radius_rows(pack, file) || changed;
