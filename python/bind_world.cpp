@@ -11,12 +11,27 @@ using Class = py::class_<World, Smoke, std::shared_ptr<World>>;
 using Time = std::optional<double>;
 using Tick = std::optional<std::int64_t>;
 
+/// A shot of a cross-section; `mask` takes precedence.
+sim::Shot shot_of(const std::string& shape, std::optional<std::uint32_t> mask) {
+  if (shape != "cylinder" && shape != "box")
+    refuse("shape", "expected 'cylinder' or 'box', got '" + shape + "'");
+  sim::Shot shot;
+  if (shape == "box") shot.shape = sim::HoleShape::box;
+  if (mask) {
+    shot.shape = sim::HoleShape::mask;
+    shot.mask = *mask;
+  }
+  return shot;
+}
+
 void bind_smoke_events(Class& world) {
   world.def(
       "throw_smoke",
       [](World& w, const py::object& origin, const py::object& at, Time time, Tick tick, std::uint32_t voxels,
          double bloom, double hold, double dissolve) {
-        w.throw_smoke(origin, at, {time, tick}, voxels, {bloom, hold, dissolve});
+        w.append<sim::ThrowSmoke>(
+            {time, tick}, {{{"from", vector_of("origin", origin)}, {"at", vector_of("at", at)}},
+                           {{"voxels", voxels}, {"bloom", bloom}, {"hold", hold}, {"dissolve", dissolve}}});
       },
       "origin"_a, "at"_a, py::kw_only(), "time"_a = py::none(), "tick"_a = py::none(), "voxels"_a = 1800,
       "bloom"_a = 1.0, "hold"_a = 18.0, "dissolve"_a = 3.0,
@@ -33,7 +48,12 @@ Raises ValueError for a number out of range; the world is then unchanged.)");
       "blast",
       [](World& w, const py::object& at, Time time, Tick tick, double radius, double speed, double remaining,
          double refill_rim, double refill_middle) {
-        w.blast(at, {time, tick}, {radius, speed, remaining, refill_rim, refill_middle});
+        w.append<sim::Blast>({time, tick}, {{{"at", vector_of("at", at)}},
+                                            {{"radius", radius},
+                                             {"speed", speed},
+                                             {"remaining", remaining},
+                                             {"refill_rim", refill_rim},
+                                             {"refill_middle", refill_middle}}});
       },
       "at"_a, py::kw_only(), "time"_a = py::none(), "tick"_a = py::none(), "radius"_a = 5.0, "speed"_a = 32.0,
       "remaining"_a = 0.02, "refill_rim"_a = 0.5, "refill_middle"_a = 5.0,
@@ -53,10 +73,17 @@ void bind_other_events(Class& world) {
   world.def(
       "shoot",
       [](World& w, const py::object& origin, const py::object& toward, Time time, Tick tick, double radius,
-         double reach, double expand, double stay, double fade, std::string shape, double roll,
+         double reach, double expand, double stay, double fade, const std::string& shape, double roll,
          std::optional<std::uint32_t> mask) {
-        w.shoot(origin, toward, {time, tick},
-                {radius, reach, expand, stay, fade, roll, std::move(shape), mask});
+        w.append({time, tick},
+                 {{{"from", vector_of("origin", origin)}, {"toward", vector_of("toward", toward)}},
+                  {{"radius", radius},
+                   {"reach", reach},
+                   {"expand", expand},
+                   {"stay", stay},
+                   {"fade", fade},
+                   {"roll", roll}}},
+                 shot_of(shape, mask));
       },
       "origin"_a, "toward"_a, py::kw_only(), "time"_a = py::none(), "tick"_a = py::none(), "radius"_a = 0.2,
       "reach"_a = 0.25, "expand"_a = 0.05, "stay"_a = 1.0, "fade"_a = 0.35, "shape"_a = "cylinder",
@@ -76,7 +103,7 @@ Raises ValueError for a number out of range; the world is then unchanged.)");
   world.def(
       "move_body",
       [](World& w, std::uint32_t body, const py::object& to, Time time, Tick tick) {
-        w.move_body(body, to, {time, tick});
+        w.append({time, tick}, {{{"to", vector_of("to", to)}}, {}}, sim::MoveBody{0, body});
       },
       "body"_a, "to"_a, py::kw_only(), "time"_a = py::none(), "tick"_a = py::none(),
       R"(A player or an object moves; its wake stirs the smoke of pictures.

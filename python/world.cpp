@@ -40,11 +40,17 @@ std::uint32_t rounded(const char* argument, double value) {
   return static_cast<std::uint32_t>(std::llround(std::min(value, 4294967295.0)));
 }
 
-std::uint32_t units(const char* argument, double metres) {
-  return rounded(argument, metres * sim::kUnitsPerMetre);
+/// An angle [degrees] in 1/65536 turn, [0, 65535].
+std::uint32_t to_turn(const char* argument, double degrees) {
+  if (!std::isfinite(degrees)) refuse(argument, "is not finite");
+  const double turns = degrees / 360 - std::floor(degrees / 360);
+  return static_cast<std::uint32_t>(std::llround(turns * sim::kFullTurn)) % sim::kFullTurn;
 }
-std::uint32_t milliseconds(const char* argument, double seconds) {
-  return rounded(argument, seconds * 1000);
+
+template <typename Value>
+const Value* find(const std::vector<std::pair<std::string_view, Value>>& values, std::string_view key) {
+  const auto found = std::ranges::find(values, key, &std::pair<std::string_view, Value>::first);
+  return found == values.end() ? nullptr : &found->second;
 }
 
 }  // namespace
@@ -91,57 +97,26 @@ std::uint32_t World::tick_of(std::optional<double> time, std::optional<std::int6
   return time ? scenario::tick_at(*time, world_.settings().ticks_per_second) : static_cast<std::uint32_t>(at);
 }
 
-template <typename Make>
-void World::append(const When& when, const Make& make) {
-  change([&] { world_.append(sim::Event(make(tick_of(when.time, when.tick)))).value_or_throw(); });
+void ValueSetter::operator()(const sim::PositionField& field, sim::Position& member) const {
+  if (const glm::dvec3* metres = find(values.positions, field.key))
+    member = sim::position_from_metres(*metres);
 }
 
-void World::throw_smoke(const py::object& origin, const py::object& at, const When& when,
-                        std::uint32_t voxels, const SmokeLife& life) {
-  const sim::Position from = sim::position_from_metres(vector_of("origin", origin));
-  const sim::Position to = sim::position_from_metres(vector_of("at", at));
-  const double rate = world_.settings().ticks_per_second;
-  const sim::SmokeSettings settings{voxels, rounded("bloom", life.bloom * rate),
-                                    rounded("hold", life.hold * rate),
-                                    rounded("dissolve", life.dissolve * rate)};
-  append(when, [&](std::uint32_t tick) { return sim::ThrowSmoke{tick, from, to, settings}; });
+void ValueSetter::operator()(const sim::NumberField& field, std::uint32_t& member) const {
+  const double* value = find(values.numbers, field.key);
+  if (!value) return;
+  if (field.unit == sim::FieldUnit::turn_65536) return void(member = to_turn(field.key, *value));
+  const std::uint32_t steps =
+      field.unit == sim::FieldUnit::tick ? ticks_per_second : sim::steps_of(field.unit);
+  member = rounded(field.key, *value * steps);
 }
 
-void World::shoot(const py::object& origin, const py::object& toward, const When& when,
-                  const HoleForm& form) {
-  sim::Shot shot;
-  shot.origin = sim::position_from_metres(vector_of("origin", origin));
-  shot.toward = sim::position_from_metres(vector_of("toward", toward));
-  shot.radius = units("radius", form.radius);
-  shot.timing = {milliseconds("reach", form.reach), milliseconds("expand", form.expand),
-                 milliseconds("stay", form.stay), milliseconds("fade", form.fade)};
-  if (form.shape != "cylinder" && form.shape != "box")
-    refuse("shape", "expected 'cylinder' or 'box', got '" + form.shape + "'");
-  if (form.shape == "box") shot.shape = sim::HoleShape::box;
-  if (form.mask) {
-    shot.shape = sim::HoleShape::mask;
-    shot.mask = *form.mask;
-  }
-  if (!std::isfinite(form.roll)) refuse("roll", "is not finite");
-  const double turns = form.roll / 360 - std::floor(form.roll / 360);
-  shot.roll = static_cast<std::uint32_t>(std::llround(turns * sim::kFullTurn)) % sim::kFullTurn;
-  append(when, [&](std::uint32_t tick) { return shot.tick = tick, shot; });
-}
-
-void World::blast(const py::object& at, const When& when, const BlastForm& form) {
-  sim::Blast blast;
-  blast.at = sim::position_from_metres(vector_of("at", at));
-  blast.radius = units("radius", form.radius);
-  blast.speed = units("speed", form.speed);
-  blast.remaining = rounded("remaining", 255 * form.remaining);
-  blast.refill_rim_ms = milliseconds("refill_rim", form.refill_rim);
-  blast.refill_middle_ms = milliseconds("refill_middle", form.refill_middle);
-  append(when, [&](std::uint32_t tick) { return blast.tick = tick, blast; });
-}
-
-void World::move_body(std::uint32_t body, const py::object& to, const When& when) {
-  const sim::Position place = sim::position_from_metres(vector_of("to", to));
-  append(when, [&](std::uint32_t tick) { return sim::MoveBody{tick, body, place}; });
+void World::append_event(const When& when, sim::Event event) {
+  change([&] {
+    const std::uint32_t tick = tick_of(when.time, when.tick);
+    std::visit([&](auto& kind) { kind.tick = tick; }, event);
+    world_.append(std::move(event)).value_or_throw();
+  });
 }
 
 void World::set_solid(const py::object& low, const py::object& high, bool solid, const When& when) {
@@ -153,9 +128,7 @@ void World::set_solid(const py::object& low, const py::object& high, bool solid,
   const glm::u64vec3 size(box.high - box.low);
   if (size.x * size.y * size.z > kMaxEditVoxels)
     throw Error(ErrorCode::resource_limit, "low, high: the box has more than 2^27 voxels; take smaller ones");
-  append(when, [&](std::uint32_t tick) {
-    return sim::LevelEdit{tick, sim::edit_box(layout, box.low, box.high, solid)};
-  });
+  append_event(when, sim::LevelEdit{0, sim::edit_box(layout, box.low, box.high, solid)});
 }
 
 void World::advance_to(std::optional<double> time, std::optional<std::int64_t> tick) {

@@ -3,9 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "python/smoke.hpp"
 #include "scenario/events.hpp"
+#include "sim/event_fields.hpp"
 
 namespace brume::python {
 
@@ -14,19 +18,18 @@ struct When {
   std::optional<double> time;
   std::optional<std::int64_t> tick;
 };
-/// [s]
-struct SmokeLife {
-  double bloom, hold, dissolve;
+/// Values of an event by the keys of sim/event_fields.hpp: metres, seconds, fractions, degrees.
+struct EventValues {
+  std::vector<std::pair<std::string_view, glm::dvec3>> positions;
+  std::vector<std::pair<std::string_view, double>> numbers;
 };
-/// Metres, seconds, degrees.
-struct HoleForm {
-  double radius, reach, expand, stay, fade, roll;
-  std::string shape;
-  std::optional<std::uint32_t> mask;
-};
-/// Metres, metres per second, seconds; a fraction.
-struct BlastForm {
-  double radius, speed, remaining, refill_rim, refill_middle;
+
+/// Sets the fields of an event that have values, in its steps: a visitor of sim/event_fields.hpp.
+struct ValueSetter {
+  const EventValues& values;
+  std::uint32_t ticks_per_second;
+  void operator()(const sim::PositionField& field, sim::Position& member) const;
+  void operator()(const sim::NumberField& field, std::uint32_t& member) const;
 };
 
 class World : public Smoke {
@@ -35,11 +38,12 @@ class World : public Smoke {
 
   Level level() const override { return level_; }
 
-  void throw_smoke(const py::object& origin, const py::object& at, const When& when, std::uint32_t voxels,
-                   const SmokeLife& life);
-  void shoot(const py::object& origin, const py::object& toward, const When& when, const HoleForm& form);
-  void blast(const py::object& at, const When& when, const BlastForm& form);
-  void move_body(std::uint32_t body, const py::object& to, const When& when);
+  /// Appends an event with these values; its other fields are as given.
+  template <typename Event>
+  void append(const When& when, const EventValues& values, Event event = {}) {
+    sim::visit_fields(event, ValueSetter{values, world_.settings().ticks_per_second});
+    append_event(when, event);
+  }
   void set_solid(const py::object& low, const py::object& high, bool solid, const When& when);
 
   void advance_to(std::optional<double> time, std::optional<std::int64_t> tick);
@@ -59,8 +63,7 @@ class World : public Smoke {
   /// Whether all events of a tick are in a state whose history is dropped.
   bool is_complete(std::uint32_t tick) const;
   std::uint32_t tick_of(std::optional<double> time, std::optional<std::int64_t> tick) const;
-  template <typename Make>
-  void append(const When& when, const Make& make);
+  void append_event(const When& when, sim::Event event);
 
   Level level_;
   smoke::MaskAtlas masks_;

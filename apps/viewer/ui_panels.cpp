@@ -7,6 +7,7 @@
 #include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
 #include "scenario/aim.hpp"
+#include "scene/event_fields.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -115,18 +116,16 @@ void lay_out_shots(Game& game) {
   lay_out_file_list(game);
 
   // How.
-  const auto rows = [&](const char* what, auto& options, const auto& file, auto visit) {
+  const auto rows = [&](const char* what, auto& event, const auto& file) {
     if (!begin_tree(what)) return;
-    if (option_rows(options, file, visit)) game.setting_changed(what);
+    const auto visit = [](auto& o, auto&& visitor) { scene::visit_event_numbers(o, visitor); };
+    if (option_rows(event, file, visit)) game.setting_changed(what);
+    scene::keep_rules(event);
     ImGui::TreePop();
   };
-  rows("bullets and images", weapons.shot, first.shot,
-       [](auto& o, auto&& visitor) { scene::visit_shot_options(o, visitor); });
-  rows("letters and words", weapons.text, first.text,
-       [](auto& o, auto&& visitor) { scene::visit_text_options(o, visitor); });
-  rows("explosions", weapons.blast, first.blast,
-       [](auto& o, auto&& visitor) { scene::visit_blast_options(o, visitor); });
-  weapons.blast.refill_middle = std::max(weapons.blast.refill_middle, weapons.blast.refill_rim);
+  rows("bullets and images", weapons.shot, first.shot);
+  rows("letters and words", weapons.text, first.text);
+  rows("explosions", weapons.blast, first.blast);
 }
 
 void lay_out_quality(Choices& choices, const Notices& notices) {

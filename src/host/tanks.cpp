@@ -14,7 +14,7 @@ namespace brume::host {
 namespace {
 
 constexpr std::size_t kMostTanks = 4;
-/// Of a frame; a picture of a file averages as many as it likes.
+/// Samples of a frame at most; a picture of a file may have more.
 constexpr std::uint32_t kMostSamples = 64;
 
 spheres::Tank copied_tank(const brume_tank_params& params) {

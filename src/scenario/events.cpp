@@ -7,18 +7,12 @@
 #include <optional>
 
 #include "scenario/smoke_start.hpp"
+#include "scene/event_fields.hpp"
+#include "sim/event_fields.hpp"
 #include "smoke/holes.hpp"
 
 namespace brume::scenario {
 namespace {
-
-std::uint32_t milliseconds(float seconds) {
-  return static_cast<std::uint32_t>(std::lround(seconds * 1000));
-}
-
-std::uint32_t units(float metres) {
-  return static_cast<std::uint32_t>(std::lround(metres * sim::kUnitsPerMetre));
-}
 
 static_assert(scene::kFarthestEvent * sim::kUnitsPerMetre == sim::kMaxCoordinate);
 
@@ -35,11 +29,6 @@ sim::SmokeSettings smoke_settings(const scene::SmokeOptions& smoke, std::uint32_
   return settings;
 }
 
-sim::HoleTimingMs timing_of(const scene::HoleTimes& times) {
-  return {milliseconds(times.reach), milliseconds(times.expand), milliseconds(times.stay),
-          milliseconds(times.fade)};
-}
-
 /// An angle in 1/65536 turn, [0, 65535].
 std::uint32_t turn_of(float radians) {
   const double turns = double{radians} / (2 * std::numbers::pi);
@@ -47,14 +36,57 @@ std::uint32_t turn_of(float radians) {
          sim::kFullTurn;
 }
 
+/// Metres, seconds, a fraction or radians in steps of a unit.
+std::uint32_t steps(sim::FieldUnit unit, float value) {
+  if (unit == sim::FieldUnit::turn_65536) return turn_of(value);
+  return static_cast<std::uint32_t>(std::lround(value * static_cast<float>(sim::steps_of(unit))));
+}
+
+/// Finds a field of a timeline's event by its key: a visitor of scene/event_fields.hpp.
+struct FieldFinder {
+  std::string_view key;
+  std::optional<float> number = {};
+  std::optional<glm::vec3> point = {};
+
+  void operator()(const scene::OptionInfo& info, float member) {
+    if (info.key == key) number = member;
+  }
+  void operator()(const scene::PointField& field, const glm::vec3& member) {
+    if (field.key == key) point = member;
+  }
+  void operator()(const auto&, const auto&...) {}
+};
+
+/// Sets the fields of an event of the simulation that a timeline's event has, too: its visitor.
+template <typename Event>
+struct Converter {
+  const Event& event;
+
+  void operator()(const sim::PositionField& field, sim::Position& member) const {
+    if (const auto point = found(field.key).point) member = position(*point);
+  }
+  void operator()(const sim::NumberField& field, std::uint32_t& member) const {
+    if (const auto number = found(field.key).number) member = steps(field.unit, *number);
+  }
+
+ private:
+  FieldFinder found(const char* key) const {
+    FieldFinder finder{key};
+    scene::visit_event(event, finder);
+    return finder;
+  }
+};
+
+template <typename SimEvent, typename Event>
+SimEvent convert(const Event& event, std::uint32_t tick) {
+  SimEvent made;
+  made.tick = tick;
+  sim::visit_fields(made, Converter<Event>{event});
+  return made;
+}
+
 sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick, const ShotMasks& masks) {
-  sim::Shot shot;
-  shot.tick = tick;
-  shot.origin = position(event.from_world);
-  shot.toward = position(event.toward_world);
-  shot.radius = units(event.radius);
-  shot.timing = timing_of(event.times);
-  shot.roll = turn_of(event.roll);
+  auto shot = convert<sim::Shot>(event, tick);
   switch (event.shape) {
     case scene::ShotShape::cylinder:
       break;
@@ -73,12 +105,8 @@ sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick, const ShotM
 std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t ticks_per_second,
                                 const ShotMasks& masks) {
   // The shot through the middle of the text.
-  sim::Shot middle;
-  middle.origin = position(event.from_world);
-  middle.toward = position(event.toward_world);
-  middle.timing = timing_of(event.times);
+  auto middle = convert<sim::Shot>(event, 0);
   middle.shape = sim::HoleShape::mask;
-  middle.roll = turn_of(event.roll);
   std::vector<sim::Shot> shots;
   if (middle.origin == middle.toward) {  // closer than 1/1024 m: check_event rejects it
     shots.push_back(middle);
@@ -96,7 +124,7 @@ std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t tic
     shot.tick = tick_at(time, ticks_per_second);
     shot.origin += units_aside;
     shot.toward += units_aside;
-    shot.radius = std::max(1u, units(event.size * letter.half_side));
+    shot.radius = std::max(1u, steps(sim::FieldUnit::metre_1024, event.size * letter.half_side));
     shot.mask = letter.mask;
     shots.push_back(shot);
     time += double{event.interval};
@@ -104,16 +132,52 @@ std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t tic
   return shots;
 }
 
-sim::Blast blast_of(const scene::BlastEvent& event, std::uint32_t tick) {
-  sim::Blast blast;
-  blast.tick = tick;
-  blast.at = position(event.at_world);
-  blast.radius = units(event.radius);
-  blast.speed = units(event.speed);
-  blast.remaining = static_cast<std::uint32_t>(std::lround(event.remaining * 255));
-  blast.refill_rim_ms = milliseconds(event.refill_rim);
-  blast.refill_middle_ms = milliseconds(event.refill_middle);
-  return blast;
+// The events of the simulation that an event of a timeline becomes.
+std::vector<sim::Event> make_events(const scene::SmokeEvent& event, const EventSettings& settings,
+                                    BodyNumbers&) {
+  const std::uint32_t rate = settings.ticks_per_second;
+  auto thrown = convert<sim::ThrowSmoke>(event, tick_at(event.time, rate));
+  if (event.from_world == event.at_world)
+    thrown.from = thrown.at = position(smoke_start(settings.level, event.at_world));
+  thrown.smoke = smoke_settings(settings.smoke, rate);
+  return {thrown};
+}
+
+std::vector<sim::Event> make_events(const scene::ShotEvent& event, const EventSettings& settings,
+                                    BodyNumbers&) {
+  return {shot_of(event, tick_at(event.time, settings.ticks_per_second), settings.masks)};
+}
+
+std::vector<sim::Event> make_events(const scene::TextEvent& event, const EventSettings& settings,
+                                    BodyNumbers&) {
+  const auto shots = shots_of(event, settings.ticks_per_second, settings.masks);
+  return {shots.begin(), shots.end()};
+}
+
+std::vector<sim::Event> make_events(const scene::BlastEvent& event, const EventSettings& settings,
+                                    BodyNumbers&) {
+  return {convert<sim::Blast>(event, tick_at(event.time, settings.ticks_per_second))};
+}
+
+std::vector<sim::Event> make_events(const scene::MoveEvent& event, const EventSettings& settings,
+                                    BodyNumbers& bodies) {
+  auto move = convert<sim::MoveBody>(event, tick_at(event.time, settings.ticks_per_second));
+  move.body = bodies[event.body];
+  return {move};
+}
+
+// Changes of the level, which come on their own.
+std::vector<sim::Event> make_events(const scene::EditEvent&, const EventSettings&, BodyNumbers&) {
+  return {};
+}
+std::vector<sim::Event> make_events(const scene::DoorEvent&, const EventSettings&, BodyNumbers&) {
+  return {};
+}
+
+template <typename Event>
+std::string place_of(const Event& event) {
+  if constexpr (requires { event.place; }) return event.place;
+  return {};
 }
 
 /// Collects events, checked one by one.
@@ -156,36 +220,22 @@ BodyNumbers number_bodies(const scene::Timeline& timeline) {
 Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline,
                                                  const std::vector<LevelEvent>& changes, BodyNumbers& bodies,
                                                  const EventSettings& settings) {
-  const std::uint32_t rate = settings.ticks_per_second;
-  const auto tick = [&](const auto& event) { return tick_at(event.time, rate); };
   EventList events(settings.layout);
 
   // Level changes.
   for (const LevelEvent& event : changes)
     if (!event.blocks.empty())
-      events.add(EventKind::level, event.time, sim::LevelEdit{tick(event), event.blocks}, {});
+      events.add(0, event.time, sim::LevelEdit{tick_at(event.time, settings.ticks_per_second), event.blocks},
+                 {});
 
-  // Smokes, shots and texts.
-  const sim::SmokeSettings smoke = smoke_settings(settings.smoke, rate);
-  for (const scene::SmokeEvent& event : timeline.smokes) {
-    const bool is_placed = event.from_world == event.at_world;
-    const glm::vec3 at = is_placed ? smoke_start(settings.level, event.at_world) : event.at_world;
-    const glm::vec3 from = is_placed ? at : event.from_world;
-    events.add(EventKind::smoke, event.time,
-               sim::ThrowSmoke{tick(event), position(from), position(at), smoke}, event.place);
-  }
-  for (const scene::ShotEvent& event : timeline.shots)
-    events.add(EventKind::shot, event.time, shot_of(event, tick(event), settings.masks), event.place);
-  for (const scene::TextEvent& event : timeline.texts)
-    for (const sim::Shot& shot : shots_of(event, rate, settings.masks))
-      events.add(EventKind::letter, event.time, shot, event.place);
-
-  // Blasts and moves.
-  for (const scene::BlastEvent& event : timeline.blasts)
-    events.add(EventKind::blast, event.time, blast_of(event, tick(event)), event.place);
-  for (const scene::MoveEvent& event : timeline.moves)
-    events.add(EventKind::move, event.time,
-               sim::MoveBody{tick(event), bodies[event.body], position(event.to_world)}, event.place);
+  // All others, of one tick in the order of the kinds.
+  EventKind kind = 0;
+  scene::for_each_event_list(timeline, [&](const char*, const auto& list) {
+    ++kind;
+    for (const auto& event : list)
+      for (sim::Event& made : make_events(event, settings, bodies))
+        events.add(kind, event.time, std::move(made), place_of(event));
+  });
   return std::move(events).sorted();
 }
 

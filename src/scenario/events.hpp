@@ -16,13 +16,14 @@ namespace brume::scenario {
 /// The tick at or before a time [s]; 0 for times before 0. The only place where seconds become ticks.
 std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
-/// Kinds of events in the order in which they happen within one tick.
-enum class EventKind : std::uint8_t { level, smoke, shot, letter, blast, move };
+/// The order of kinds of events within one tick: 0 for changes of the level, then from 1 on as
+/// scene::for_each_event_kind lists them.
+using EventKind = std::uint8_t;
 
 /// Sort key of an event. Events with equal keys keep their timeline order.
 struct EventOrder {
   std::uint32_t tick = 0;
-  EventKind kind = EventKind::level;
+  EventKind kind = 0;
   double time = 0;  ///< Time of the timeline's event [s]; the same for all letters of a text.
   auto operator<=>(const EventOrder&) const = default;
 };
@@ -62,9 +63,9 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
                                                  const std::vector<LevelEvent>& changes, BodyNumbers& bodies,
                                                  const EventSettings& settings);
 
-/// The timeline's events in the order of a world's log: by tick, and within one tick edits and doors, smokes,
-/// shots, letters of texts, blasts, moves. Bodies are numbered in the order of their first appearance. Fails
-/// with bad_input for an event outside the simulation's range, and as level_events.
+/// The timeline's events in the order of a world's log: by tick, and within one tick edits and doors,
+/// then all others in the order of EventKind. Bodies are numbered in the order of their first appearance.
+/// Fails with bad_input for an event outside the simulation's range, and as level_events.
 Result<std::vector<sim::Event>> events_of(
     const Scenario& scenario, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 

@@ -1,6 +1,6 @@
 // Every numeric setting of a timeline in one place: key, unit, range and description. The reader and writer
 // of timelines, the C interfaces, the program's options, the viewer's panels, Blender's add-on and the tables
-// of the documentation take their ranges from it or are tested against it.
+// of the documentation take their ranges from it or are tested against it. Events: scene/event_fields.hpp.
 #pragma once
 
 #include <cstdint>
@@ -215,47 +215,6 @@ void visit_camera_options(Options& o, Visitor&& visit) {
         o.lens.focus);
   visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);
   visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10}, o.shutter);
-}
-
-template <typename Options, typename Visitor>
-void visit_hole_times(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"reach", "s", "time until the front reaches the far end", 0, 60}, o.reach);
-  visit(OptionInfo{"expand", "s", "time to open, at each depth", 0, 60}, o.expand);
-  visit(OptionInfo{"stay", "s", "time fully open", 0, 600}, o.stay);
-  visit(OptionInfo{"fade", "s", "time to close", 0, 60}, o.fade);
-}
-
-/// Settings of ShotEvent, including its HoleTimes.
-template <typename Options, typename Visitor>
-void visit_shot_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"radius", "m", "radius of the hole; half the edge of a box or mask", 0.01, 10}, o.radius);
-  visit_hole_times(o.times, visit);
-  visit(OptionInfo{"roll", kDegrees, "rotates a box or mask clockwise as seen by the shooter", -360, 360},
-        o.roll);
-  visit(OptionInfo{"flash", "W/sr", "intensity of the muzzle flash, 0.06 s long", 0, 1e6}, o.flash);
-}
-
-/// Settings of TextEvent, including its HoleTimes.
-template <typename Options, typename Visitor>
-void visit_text_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"size", "m", "height of a capital letter", 0.02, 10}, o.size);
-  visit(OptionInfo{"spacing", "", "extra space between letters, in heights of a capital", -0.5, 10},
-        o.spacing);
-  visit(OptionInfo{"interval", "s", "time from letter to letter", 0, 10}, o.interval);
-  visit_hole_times(o.times, visit);
-  visit(OptionInfo{"roll", kDegrees, "rotates the row clockwise as seen by the shooter", -360, 360}, o.roll);
-}
-
-template <typename Options, typename Visitor>
-void visit_blast_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"radius", "m", "radius of the cavity", 0.1, 100}, o.radius);
-  visit(OptionInfo{"speed", "m/s", "speed of the front", 1, 10000}, o.speed);
-  visit(OptionInfo{"remaining", "", "fraction of the density that remains", 0, 1}, o.remaining);
-  visit(OptionInfo{"refill_rim", "s", "time until the rim is full again", 0.01, 60}, o.refill_rim);
-  visit(OptionInfo{"refill_middle", "s", "time until the middle is full again; at least `refill_rim`", 0.01,
-                   60},
-        o.refill_middle);
-  visit(OptionInfo{"flash", "W/sr", "intensity of the fireball, 0.3 s long", 0, 1e6}, o.flash);
 }
 
 /// The description of one setting: info_of<SkyOptions>("stars", [](auto& o, auto& v) { visit_sky_options(o,

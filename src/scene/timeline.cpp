@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "core/similar.hpp"
+#include "scene/event_fields.hpp"
 #include "scene/files.hpp"
 #include "scene/ray.hpp"
 #include "scene/text_reader.hpp"
@@ -13,6 +14,71 @@
 
 namespace brume::scene {
 namespace {
+
+/// "a", "b" or "c"
+std::string in_words(std::span<const char* const> names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + in_quotes(names[i]);
+  return text;
+}
+
+std::string kinds_in_words() {
+  std::vector<const char*> kinds;
+  for_each_event_kind([&](const char* kind, auto) { kinds.push_back(kind); });
+  return in_words(kinds);
+}
+
+/// Reads the fields of an event: the visitor of scene/event_fields.hpp.
+template <typename Event>
+struct EventReader {
+  TomlTable& table;
+  const std::filesystem::path& path;
+  Event& event;
+
+  void operator()(const OptionInfo& info, auto& member) { OptionReader{table}(info, member); }
+  void operator()(const PointField& field, glm::vec3& point) {
+    table.require(field.key);
+    table.read(field.key, point, -kFarthestEvent, kFarthestEvent);
+  }
+  void operator()(const TextField& field, std::string& text) {
+    table.require(field.key);
+    table.read(field.key, text);
+    if (const auto fault = fault_of(field, text)) fail(field.key, *fault);
+    if constexpr (requires { event.place; })
+      if (field.names_object) event.place = table.place(field.key);
+  }
+  void operator()(const FlagField& field, bool& flag) {
+    table.require(field.key);
+    table.read(field.key, flag);
+  }
+  void operator()(const FileField& field, std::filesystem::path& file) {
+    read_file_name(table, path, field.key, file);
+  }
+  template <typename Choice>
+  void operator()(const ChoiceField& field, Choice& choice) {
+    std::string name = field.names.front();
+    table.read(field.key, name);
+    const auto found = std::ranges::find(field.names, name);
+    if (found == field.names.end()) return fail(field.key, in_words(field.names));
+    choice = static_cast<Choice>(found - field.names.begin());
+  }
+  void operator()(const EventRule& rule, const auto& value, const auto& other) {
+    if (!holds(rule, value, other)) fail(rule.key, expectation(rule));
+  }
+  void operator()(const EventRule& rule, const std::filesystem::path& file, ShotShape shape) {
+    if (shape == ShotShape::mask) table.require(rule.key);
+    if (holds(rule, file, shape)) return;
+    const std::string key = rule.key;
+    if (shape == ShotShape::mask) return fail(rule.key, "the name of a picture");
+    table.fail(key, in_quotes(key) + ": belongs to " + rule.other + " = " + in_quotes(key));
+  }
+
+ private:
+  void fail(const char* key, const std::string& what) {
+    table.fail(key, in_quotes(key) + ": expected " + what);
+  }
+};
 
 class TimelineReader {
  public:
@@ -93,125 +159,16 @@ class TimelineReader {
     std::string type;
     for (const char* name : {"type", "time"}) table.require(name);
     table.read("type", type);
-    if (type == "smoke") return read_smoke_event(table);
-    if (type == "shot") return read_shot_event(table);
-    if (type == "text") return read_text_event(table);
-    if (type == "blast") return read_blast_event(table);
-    if (type == "move") return read_move_event(table);
-    if (type == "edit") return read_edit_event(table);
-    if (type == "door") return read_door_event(table);
-    table.fail("type",
-               "\"type\": expected \"smoke\", \"shot\", \"text\", \"blast\", \"move\", \"edit\" or \"door\"");
-    return table.finish();
-  }
-
-  Result<void> read_smoke_event(TomlTable& table) {
-    SmokeEvent event;
-    for (const char* name : {"from", "at"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
-    table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
-    event.place = table.place();
-    timeline_.smokes.push_back(event);
-    return table.finish();
-  }
-
-  Result<void> read_shot_event(TomlTable& table) {
-    ShotEvent event;
-    for (const char* name : {"from", "toward"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
-    table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
-    visit_shot_options(event, OptionReader{table});
-    read_shape(table, event);
-    if (event.from_world == event.toward_world)
-      table.fail("toward", "\"toward\": expected a point other than \"from\"");
-    event.place = table.place();
-    timeline_.shots.push_back(event);
-    return table.finish();
-  }
-
-  Result<void> read_text_event(TomlTable& table) {
-    TextEvent event;
-    for (const char* name : {"text", "from", "toward"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("text", event.text);
-    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
-    table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
-    visit_text_options(event, OptionReader{table});
-    read_file_name(table, path_, "font", event.font);
-    if (event.text.empty() || event.text.size() > kMaxTextBytes)
-      table.fail("text", "\"text\": expected 1 to 1024 bytes");
-    if (event.from_world == event.toward_world)
-      table.fail("toward", "\"toward\": expected a point other than \"from\"");
-    event.place = table.place();
-    timeline_.texts.push_back(std::move(event));
-    return table.finish();
-  }
-
-  void read_shape(TomlTable& table, ShotEvent& event) const {
-    std::string shape = "cylinder";
-    table.read("shape", shape);
-    read_file_name(table, path_, "mask", event.mask);
-    if (shape == "box") {
-      event.shape = ShotShape::box;
-    } else if (shape == "mask") {
-      event.shape = ShotShape::mask;
-      table.require("mask");
-    } else if (shape != "cylinder") {
-      table.fail("shape", "\"shape\": expected \"cylinder\", \"box\" or \"mask\"");
-    }
-    if (event.shape != ShotShape::mask && !event.mask.empty())
-      table.fail("mask", "\"mask\": belongs to shape = \"mask\"");
-    if (event.shape == ShotShape::mask && event.mask.empty())
-      table.fail("mask", "\"mask\": expected the name of a picture");
-  }
-
-  Result<void> read_blast_event(TomlTable& table) {
-    BlastEvent event;
-    table.require("at");
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
-    visit_blast_options(event, OptionReader{table});
-    if (event.refill_middle < event.refill_rim)
-      table.fail("refill_middle", "\"refill_middle\": expected no less than \"refill_rim\"");
-    event.place = table.place();
-    timeline_.blasts.push_back(event);
-    return table.finish();
-  }
-
-  Result<void> read_move_event(TomlTable& table) {
-    MoveEvent event;
-    for (const char* name : {"body", "to"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("body", event.body);
-    table.read("to", event.to_world, -kFarthestEvent, kFarthestEvent);
-    event.place = table.place();
-    timeline_.moves.push_back(event);
-    return table.finish();
-  }
-
-  Result<void> read_edit_event(TomlTable& table) {
-    EditEvent event;
-    for (const char* name : {"low", "high", "solid"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("low", event.low_world, -kFarthestEvent, kFarthestEvent);
-    table.read("high", event.high_world, -kFarthestEvent, kFarthestEvent);
-    table.read("solid", event.solid);
-    if (!glm::all(glm::lessThan(event.low_world, event.high_world)))
-      table.fail("high", "\"high\": expected more than \"low\" along every axis");
-    timeline_.edits.push_back(event);
-    return table.finish();
-  }
-
-  Result<void> read_door_event(TomlTable& table) {
-    DoorEvent event;
-    for (const char* name : {"object", "open"}) table.require(name);
-    table.read("time", event.time, 0, kLatestTime);
-    table.read("object", event.object);
-    table.read("open", event.open);
-    event.place = table.place("object");
-    timeline_.doors.push_back(std::move(event));
+    bool known = false;
+    for_each_event_kind([&](const char* kind, auto list) {
+      if (type != kind) return;
+      known = true;
+      auto& event = (timeline_.*list).emplace_back();
+      table.read("time", event.time, 0, kLatestTime);
+      if constexpr (requires { event.place; }) event.place = table.place();
+      visit_event(event, EventReader{table, path_, event});
+    });
+    if (!known) table.fail("type", "\"type\": expected " + kinds_in_words());
     return table.finish();
   }
 
@@ -254,6 +211,19 @@ Result<void> check_object(const Scene& scene, const std::string& name, const std
   return Failure{ErrorCode::bad_input, message + suggestion(name, names, "\"")};
 }
 
+/// Checks the objects that events name.
+template <typename Event>
+struct ObjectCheck {
+  const Scene& scene;
+  const Event& event;
+  Result<void>& outcome;
+  void operator()(const TextField& field, const std::string& name) {
+    if constexpr (requires { event.place; })
+      if (field.names_object && outcome) outcome = check_object(scene, name, event.place);
+  }
+  void operator()(const auto&, const auto&...) {}
+};
+
 }  // namespace
 
 Result<void> read_role(const toml::table& source, const std::filesystem::path& path, Timeline& timeline) {
@@ -276,8 +246,11 @@ Result<void> read_role(const toml::table& source, const std::filesystem::path& p
 }
 
 Result<void> check_objects(const Timeline& timeline, const Scene& scene) {
-  for (const DoorEvent& door : timeline.doors)
-    if (auto done = check_object(scene, door.object, door.place); !done) return done;
+  Result<void> outcome;
+  for_each_event_list(timeline, [&](const char*, const auto& events) {
+    for (const auto& event : events) visit_event(event, ObjectCheck{scene, event, outcome});
+  });
+  if (!outcome) return outcome;
   for (const RoleOptions& role : timeline.roles)
     if (auto done = check_object(scene, role.object, role.place); !done) return done;
   for (const Carrier& carrier : timeline.carriers)

@@ -16,7 +16,7 @@
 
 namespace brume::scene {
 
-// Units, ranges and meanings of all settings: scene/options.hpp.
+// Units, ranges and meanings: of settings scene/options.hpp, of events scene/event_fields.hpp.
 
 /// Placement of the voxel grid. Without size and origin the grid covers the scene's bounds and its smokes.
 struct GridOptions {
@@ -352,14 +352,11 @@ void sort_events(Timeline& timeline);
 /// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
 /// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
 /// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[role]] (object, role), and [[camera]]
-/// (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time,
-/// from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees,
-/// flash), "text" (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll),
-/// "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to),
-/// "edit" (time, low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those
-/// of events [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers exist.
-/// Fails with bad_input and file:line:column for malformed TOML, an unknown key (suggesting what was probably
-/// meant), and a value of the wrong type or out of range.
+/// (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type, time and the
+/// fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; those of events [-16384,
+/// 16384]. check_objects checks whether the objects of doors, roles and carriers exist. Fails with bad_input
+/// and file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value
+/// of the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/utf8.hpp"
-#include "scene/options.hpp"
+#include "scene/event_fields.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
@@ -68,65 +68,30 @@ class Checker {
   Failure failure_;
 };
 
-Result<void> check(const SmokeEvent& event) {
-  Checker look("smoke", event);
-  look.place("from", event.from_world);
-  look.place("at", event.at_world);
-  return look.done();
-}
+/// Checks the fields of an event: the visitor of scene/event_fields.hpp.
+struct EventCheck {
+  Checker& look;
 
-Result<void> check(const ShotEvent& event) {
-  Checker look("shot", event);
-  look.place("from", event.from_world);
-  look.place("toward", event.toward_world);
-  look.direction("toward", event.from_world, event.toward_world, "\"from\"");
-  visit_shot_options(event, look);
-  if ((event.shape == ShotShape::mask) == event.mask.empty())
-    look.fail("mask", "expected a picture if the shape is a mask, and only then");
-  look.text("mask", event.mask.string());
-  return look.done();
-}
+  void operator()(const OptionInfo& info, const auto& member) { look(info, member); }
+  void operator()(const PointField& field, const glm::vec3& point) { look.place(field.key, point); }
+  void operator()(const TextField& field, const std::string& text) {
+    if (const auto fault = fault_of(field, text)) look.fail(field.key, "expected " + *fault);
+    look.text(field.key, text);
+  }
+  void operator()(const FileField& field, const std::filesystem::path& file) {
+    look.text(field.key, file.string());
+  }
+  void operator()(const EventRule& rule, const auto& value, const auto& other) {
+    if (!holds(rule, value, other)) look.fail(rule.key, "expected " + expectation(rule));
+  }
+  void operator()(const FlagField&, bool) {}
+  void operator()(const ChoiceField&, const auto&) {}
+};
 
-Result<void> check(const TextEvent& event) {
-  Checker look("text", event);
-  if (event.text.empty() || event.text.size() > kMaxTextBytes) look.fail("text", "expected 1 to 1024 bytes");
-  look.text("text", event.text);
-  look.text("font", event.font.string());
-  look.place("from", event.from_world);
-  look.place("toward", event.toward_world);
-  look.direction("toward", event.from_world, event.toward_world, "\"from\"");
-  visit_text_options(event, look);
-  return look.done();
-}
-
-Result<void> check(const BlastEvent& event) {
-  Checker look("blast", event);
-  look.place("at", event.at_world);
-  visit_blast_options(event, look);
-  if (event.refill_middle < event.refill_rim)
-    look.fail("refill_middle", "expected no less than \"refill_rim\"");
-  return look.done();
-}
-
-Result<void> check(const MoveEvent& event) {
-  Checker look("move", event);
-  look.text("body", event.body);
-  look.place("to", event.to_world);
-  return look.done();
-}
-
-Result<void> check(const EditEvent& event) {
-  Checker look("edit", event);
-  look.place("low", event.low_world);
-  look.place("high", event.high_world);
-  if (!glm::all(glm::lessThan(event.low_world, event.high_world)))
-    look.fail("high", "expected more than \"low\" along every axis");
-  return look.done();
-}
-
-Result<void> check(const DoorEvent& event) {
-  Checker look("door", event);
-  look.text("object", event.object);
+template <typename Event>
+Result<void> check(const char* kind, const Event& event) {
+  Checker look(kind, event);
+  visit_event(event, EventCheck{look});
   return look.done();
 }
 
@@ -267,8 +232,9 @@ Result<void> check_count(const char* table, std::size_t count, std::size_t most)
 
 Result<void> check_events(const Timeline& timeline) {
   Result<void> outcome;
-  for_each_event_list(timeline, [&](const char*, const auto& events) {
-    for (auto event = events.begin(); event != events.end() && outcome; ++event) outcome = check(*event);
+  for_each_event_list(timeline, [&](const char* kind, const auto& events) {
+    for (auto event = events.begin(); event != events.end() && outcome; ++event)
+      outcome = check(kind, *event);
   });
   return outcome;
 }

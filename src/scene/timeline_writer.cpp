@@ -6,14 +6,53 @@
 #include <vector>
 
 #include "core/file.hpp"
+#include "scene/event_fields.hpp"
 #include "scene/file_collector.hpp"
-#include "scene/options.hpp"
 #include "scene/toml_text.hpp"
 
 namespace brume::scene {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The fields of an event as TOML: the visitor of scene/event_fields.hpp.
+struct EventTexts {
+  const fs::path& folder;
+  struct Line {
+    const char* key;
+    std::string text;
+    bool required;
+  };
+  std::vector<Line> lines = {};
+
+  void operator()(const OptionInfo& info, const auto& member) {
+    OptionTexts option;
+    option(info, member);
+    lines.push_back({info.key, option.texts.front().second, false});
+  }
+  void operator()(const FileField& field, const fs::path& file) {
+    lines.push_back(
+        {field.key, file.empty() ? "" : text_of(path_from(file, folder).generic_string()), false});
+  }
+  void operator()(const ChoiceField& field, const auto& choice) {
+    const std::string name = field.names[static_cast<std::size_t>(choice)];
+    lines.push_back({field.key, text_of(name), false});
+  }
+  void operator()(const EventRule&, const auto&, const auto&) {}
+  void operator()(const auto& field, const auto& member) {
+    lines.push_back({field.key, text_of(member), true});
+  }
+};
+
+/// Copies the files of events.
+struct EventFiles {
+  FileCollector& files;
+  Result<void>& outcome;
+  void operator()(const FileField&, fs::path& file) {
+    if (outcome) outcome = files.collect(file);
+  }
+  void operator()(const auto&, const auto&...) {}
+};
 
 class Writer : private TomlText {
  public:
@@ -158,43 +197,16 @@ class Writer : private TomlText {
     return std::is_same_v<Event, EditEvent> || std::is_same_v<Event, DoorEvent>;
   }
 
-  void write_event(const SmokeEvent& event) {
-    line("from", event.from_world);
-    line("at", event.at_world);
-  }
-  void write_event(const ShotEvent& event) {
-    line("from", event.from_world);
-    line("toward", event.toward_world);
-    if (event.shape == ShotShape::box) text_ += "shape = \"box\"\n";
-    if (event.shape == ShotShape::mask) {
-      text_ += "shape = \"mask\"\n";
-      line("mask", path_from(event.mask, folder_).generic_string());
-    }
-    options(event, ShotEvent(), "", [](auto& o, auto& v) { visit_shot_options(o, v); });
-  }
-  void write_event(const TextEvent& event) {
-    line("text", event.text);
-    line("from", event.from_world);
-    line("toward", event.toward_world);
-    if (!event.font.empty()) line("font", path_from(event.font, folder_).generic_string());
-    options(event, TextEvent(), "", [](auto& o, auto& v) { visit_text_options(o, v); });
-  }
-  void write_event(const BlastEvent& event) {
-    line("at", event.at_world);
-    options(event, BlastEvent(), "", [](auto& o, auto& v) { visit_blast_options(o, v); });
-  }
-  void write_event(const MoveEvent& event) {
-    line("body", event.body);
-    line("to", event.to_world);
-  }
-  void write_event(const EditEvent& event) {
-    line("low", event.low_world);
-    line("high", event.high_world);
-    line("solid", event.solid);
-  }
-  void write_event(const DoorEvent& event) {
-    line("object", event.object);
-    line("open", event.open);
+  /// Points, texts and flags always; what has a default where it differs.
+  template <typename Event>
+  void write_event(const Event& event) {
+    EventTexts texts{folder_}, defaults{folder_};
+    visit_event(event, texts);
+    static const Event kUsual;
+    visit_event(kUsual, defaults);
+    for (std::size_t i = 0; i < texts.lines.size(); ++i)
+      if (texts.lines[i].required || texts.lines[i].text != defaults.lines[i].text)
+        text_ += std::string(texts.lines[i].key) + " = " + texts.lines[i].text + "\n";
   }
 };
 
@@ -207,10 +219,11 @@ std::string format_timeline(const Timeline& timeline, const fs::path& folder) {
 Result<void> save_timeline(const fs::path& path, const Timeline& timeline) {
   Timeline saved = timeline;
   FileCollector files(path);
-  for (ShotEvent& shot : saved.shots)
-    if (auto done = files.collect(shot.mask); !done) return done;
-  for (TextEvent& text : saved.texts)
-    if (auto done = files.collect(text.font); !done) return done;
+  Result<void> outcome;
+  for_each_event_list(saved, [&](const char*, auto& events) {
+    for (auto& event : events) visit_event(event, EventFiles{files, outcome});
+  });
+  if (!outcome) return outcome;
   for (CameraKey& key : saved.camera)
     if (auto done = files.collect(key.camera.lens.opening); !done) return done;
   const std::string text = format_timeline(saved, path.parent_path());

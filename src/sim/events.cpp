@@ -1,8 +1,9 @@
 #include "sim/events.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <string>
+
+#include "sim/event_fields.hpp"
 
 namespace brume::sim {
 namespace {
@@ -35,58 +36,34 @@ class Check {
   std::string event_;
 };
 
-/// The first of several checks that failed.
-template <typename... Results>
-Result<void> all_of(Results... results) {
-  Result<void> first;
-  (void)((results ? true : (first = results, false)) && ...);
-  return first;
-}
+/// Checks the fields of an event, and keeps the first failure.
+struct FieldCheck {
+  const Check& check;
+  const voxel::GridLayout& layout;
+  Result<void> outcome = {};
 
-Result<void> check(const ThrowSmoke& e, const voxel::GridLayout&) {
-  const Check check("smoke", e.tick);
-  return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`from`", e.from),
-                check.position("`at`", e.at), check.number("voxels", e.smoke.voxels, 1, kMaxFillVoxels),
-                check.number("bloom ticks", e.smoke.bloom_ticks, 1, kMaxTick),
-                check.number("hold ticks", e.smoke.hold_ticks, 0, kMaxTick),
-                check.number("dissolve ticks", e.smoke.dissolve_ticks, 1, kMaxTick));
-}
+  void operator()(const PositionField& field, const Position& position) {
+    if (outcome) outcome = check.position(field.about, position);
+  }
+  void operator()(const NumberField& field, std::uint32_t number) {
+    if (outcome) outcome = check.number(field.about, number, field.low, high(field));
+  }
+  std::uint64_t high(const NumberField& field) const {
+    if (!field.in_voxels) return field.high;
+    const double metres = static_cast<double>(layout.voxel_size) * static_cast<double>(field.high);
+    return static_cast<std::uint64_t>(metres * kUnitsPerMetre);
+  }
+};
 
-Result<void> check(const Shot& e, const voxel::GridLayout&) {
-  const Check check("shot", e.tick);
+/// What is no range of a field.
+Result<void> check_rules(const Check& check, const Shot& e, const voxel::GridLayout&) {
   if (e.origin == e.toward) return check.expected("`toward` to differ from the muzzle");
   if (e.shape > HoleShape::mask) return check.expected("a cylinder, a box or a mask");
   if (e.shape != HoleShape::mask && e.mask != 0) return check.expected("no mask unless the shape is a mask");
-  return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("the muzzle", e.origin),
-                check.position("`toward`", e.toward), check.number("a radius", e.radius, 1, kMaxCoordinate),
-                check.number("a roll", e.roll, 0, kFullTurn - 1),
-                check.number("a mask", e.mask, 0, kMaxMasks - 1),
-                check.number("milliseconds", e.timing.reach_far, 0, kMaxMilliseconds),
-                check.number("milliseconds", e.timing.expand, 0, kMaxMilliseconds),
-                check.number("milliseconds", e.timing.stay_open, 0, kMaxMilliseconds),
-                check.number("milliseconds", e.timing.fade, 0, kMaxMilliseconds));
+  return {};
 }
 
-Result<void> check(const Blast& e, const voxel::GridLayout& layout) {
-  const Check check("blast", e.tick);
-  const auto max_radius =
-      static_cast<std::uint64_t>(static_cast<double>(layout.voxel_size) * kMaxBlastVoxels * kUnitsPerMetre);
-  return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`at`", e.at),
-                check.number("a radius", e.radius, 1, max_radius),
-                check.number("a speed", e.speed, kUnitsPerMetre, 1u << 24),
-                check.number("a remaining fraction", e.remaining, 0, 255),
-                check.number("milliseconds to refill the rim", e.refill_rim_ms, 1, kMaxMilliseconds),
-                check.number("milliseconds to refill the middle", e.refill_middle_ms, e.refill_rim_ms,
-                             kMaxMilliseconds));
-}
-
-Result<void> check(const MoveBody& e, const voxel::GridLayout&) {
-  const Check check("move", e.tick);
-  return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`to`", e.to));
-}
-
-Result<void> check(const LevelEdit& e, const voxel::GridLayout& layout) {
-  const Check check("edit", e.tick);
+Result<void> check_rules(const Check& check, const LevelEdit& e, const voxel::GridLayout& layout) {
   const glm::ivec3 blocks = (layout.size + kBlockSize - 1) / kBlockSize;
   for (std::size_t i = 0; i < e.blocks.size(); ++i) {
     const EditBlock& block = e.blocks[i];
@@ -100,7 +77,22 @@ Result<void> check(const LevelEdit& e, const voxel::GridLayout& layout) {
     if (block.all() == 0 || bits != std::popcount(block.all()))
       return check.expected("at least one change per block, and no voxel both solid and free");
   }
-  return check.number("a tick", e.tick, 0, kMaxTick);
+  return {};
+}
+
+template <typename Other>
+Result<void> check_rules(const Check&, const Other&, const voxel::GridLayout&) {
+  return {};
+}
+
+template <typename Kind>
+Result<void> check(const Kind& event, const voxel::GridLayout& layout) {
+  const Check check(name_of(event), event.tick);
+  if (auto outcome = check_rules(check, event, layout); !outcome) return outcome;
+  if (auto outcome = check.number("a tick", event.tick, 0, kMaxTick); !outcome) return outcome;
+  FieldCheck fields{check, layout};
+  visit_fields(event, fields);
+  return fields.outcome;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/file.hpp"
+#include "scene/event_fields.hpp"
 #include "scene/tank_options.hpp"
 
 namespace brume::scene {
@@ -90,6 +91,14 @@ void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows
   }
 }
 
+/// Calls meet(key) for every field of an event: a visitor of scene/event_fields.hpp.
+template <typename Meet>
+struct KeyMeeter {
+  const Meet& meet;
+  void operator()(const EventRule&, const auto&, const auto&) {}
+  void operator()(const auto& field, const auto&) { meet(field.key); }
+};
+
 TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/guides/timelines.md").value_or_throw();
@@ -117,13 +126,17 @@ TEST(Options, MatchTheTableInTheDocs) {
        {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &detail, &carrier, &decal, &camera})
     expect_rows(head, maker->rows);
 
-  RowMaker shot("... "), letters("... "), blast("... ");
-  visit_shot_options(static_cast<const ShotEvent&>(ShotEvent()), shot);
-  visit_text_options(static_cast<const TextEvent&>(TextEvent()), letters);
-  visit_blast_options(static_cast<const BlastEvent&>(BlastEvent()), blast);
-  expect_rows(part_of(text, "| `[[event]]` `type = \"shot\"`"), shot.rows);
-  expect_rows(part_of(text, "| `[[event]]` `type = \"text\"`"), letters.rows);
-  expect_rows(part_of(text, "| `[[event]]` `type = \"blast\"`"), blast.rows);
+  for_each_event_kind([&](const char* kind, auto list) {
+    const std::string part = part_of(text, std::string("| `[[event]]` `type = \"") + kind + "\"`");
+    const auto event = (Timeline().*list).emplace_back();
+    RowMaker rows("... ");
+    visit_event_numbers(event, rows);
+    expect_rows(part, rows.rows);
+    const auto expect_key = [&](const char* key) {
+      EXPECT_NE(part.find("`" + std::string(key) + "`"), std::string::npos) << kind << ": " << key;
+    };
+    visit_event(event, KeyMeeter<decltype(expect_key)>{expect_key});
+  });
 }
 
 TEST(Options, OfTanksMatchTheTableInTheDocs) {
@@ -198,9 +211,9 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(CarrierKey(), visit_carrier_options), 1u);
   EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 5u);
-  EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
-  EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);
-  EXPECT_EQ(MET(BlastEvent(), visit_blast_options), 6u);
+  EXPECT_EQ(MET(ShotEvent(), visit_event_numbers), 7u);
+  EXPECT_EQ(MET(TextEvent(), visit_event_numbers), 8u);
+  EXPECT_EQ(MET(BlastEvent(), visit_event_numbers), 6u);
   EXPECT_EQ(MET(TankScene(), visit_timeline_options), 2u);
   EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 4u);
   EXPECT_EQ(MET(spheres::PackOptions(), visit_pack_options), 5u);

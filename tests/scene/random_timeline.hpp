@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/options.hpp"
+#include "scene/event_fields.hpp"
 
 namespace brume::scene {
 
@@ -96,7 +96,7 @@ inline ShotEvent random_shot(Drawing& draw) {
   ShotEvent shot;
   shot.from_world = draw.place();
   shot.toward_world = shot.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
-  visit_shot_options(shot, draw);
+  visit_event_numbers(shot, draw);
   shot.shape = std::array{ShotShape::cylinder, ShotShape::box, ShotShape::mask}[draw.below(3)];
   if (shot.shape == ShotShape::mask) shot.mask = "scenes/masks/" + std::to_string(draw.below(3)) + ".png";
   return shot;
@@ -108,15 +108,15 @@ inline TextEvent random_letters(Drawing& draw) {
   text.from_world = draw.place();
   text.toward_world = text.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
   if (draw.below(2) == 0) text.font = "scenes/fonts/a b.ttf";
-  visit_text_options(text, draw);
+  visit_event_numbers(text, draw);
   return text;
 }
 
 inline BlastEvent random_blast(Drawing& draw) {
   BlastEvent blast;
   blast.at_world = draw.place();
-  visit_blast_options(blast, draw);
-  blast.refill_middle = std::max(blast.refill_middle, blast.refill_rim);
+  visit_event_numbers(blast, draw);
+  keep_rules(blast);
   return blast;
 }
 

@@ -6,8 +6,11 @@
 #include <cstdlib>
 #include <regex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/file.hpp"
+#include "scene/event_fields.hpp"
 #include "scene/tank_options.hpp"
 
 namespace brume::scene {
@@ -36,15 +39,11 @@ std::string real(float value) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// Tables of settings in Python: a visitor of scene/options.hpp.
-class PythonTables {
+/// Settings as a dictionary in Python: a visitor of scene/options.hpp.
+class PythonSettings {
  public:
-  template <typename Options, typename Visit>
-  void add(const char* table, const Options& defaults, Visit visit) {
-    text_ += std::string("    \"") + table + "\": {\n";
-    visit(defaults, *this);
-    text_ += "    },\n";
-  }
+  /// `indent`: blanks in front of its end.
+  explicit PythonSettings(std::size_t indent) : indent_(indent, ' ') {}
   void operator()(const OptionInfo& info, float member) {
     row(info,
         real(is_angle(info) ? static_cast<float>(std::round(double{member} / kRadiansOfDegree * 100) / 100)
@@ -58,31 +57,73 @@ class PythonTables {
   void operator()(const OptionInfo& info, const std::optional<Member>&) {
     row(info, "None");
   }
-  std::string text() const { return "SETTINGS = {\n" + text_ + "}\n"; }
+  std::string text() const { return text_.empty() ? "{}" : "{\n" + text_ + indent_ + "}"; }
 
  private:
   void row(const OptionInfo& info, const std::string& initial) {
-    const std::string start = std::string("        \"") + info.key + "\": Setting(";
+    const std::string start = indent_ + "    \"" + info.key + "\": Setting(";
     const std::string values = initial + ", " + decimal(info.low) + ", " + decimal(info.high) + ", \"" +
                                info.unit + "\", \"" + info.about + "\"";
     const bool fits = start.size() + values.size() + 2 <= kWidth;
-    text_ += start + (fits ? values : "\n            " + values + "\n        ") + "),\n";
+    text_ += start + (fits ? values : "\n        " + indent_ + values + "\n    " + indent_) + "),\n";
   }
-  std::string text_;
+  std::string indent_, text_;
+};
+
+/// Texts in Python: ("a", "b").
+std::string tuple_of(const std::vector<std::string>& texts) {
+  std::string text;
+  for (const std::string& one : texts) text += (text.empty() ? "" : ", ") + one;
+  return "(" + text + (texts.size() == 1 ? ",)" : ")");
+}
+
+/// Fields and rules of an event in Python: a visitor of scene/event_fields.hpp.
+class PythonEvent {
+ public:
+  void operator()(const OptionInfo&, const auto&) {}
+  void operator()(const PointField& field, const auto&) { points_.push_back(quoted(field.key)); }
+  void operator()(const TextField& field, const auto&) {
+    if (field.most_bytes < SIZE_MAX)
+      bytes_.push_back(
+          tuple_of({quoted(field.key), std::to_string(field.least_bytes), std::to_string(field.most_bytes)}));
+  }
+  void operator()(const EventRule& rule, const auto&, const auto&) {
+    static constexpr const char* kKinds[] = {"differs", "at_least", "above", "goes_with"};
+    rules_.push_back(
+        tuple_of({quoted(kKinds[static_cast<int>(rule.kind)]), quoted(rule.key), quoted(rule.other)}));
+  }
+  void operator()(const auto&, const auto&) {}
+  std::string text() const { return tuple_of(points_) + ", " + tuple_of(bytes_) + ", " + tuple_of(rules_); }
+
+ private:
+  static std::string quoted(const char* text) { return '"' + std::string(text) + '"'; }
+  std::vector<std::string> points_, bytes_, rules_;
 };
 
 /// What follows the hand-written head of the add-on's settings.py.
 std::string tables_for_blender() {
-  PythonTables tables;
-  tables.add("timeline", Timeline(), [](auto& o, auto& v) { visit_timeline_options(o, v); });
-  tables.add("grid", GridOptions(), [](auto& o, auto& v) { visit_grid_options(o, v); });
-  tables.add("smoke", SmokeOptions(), [](auto& o, auto& v) { visit_smoke_options(o, v); });
-  tables.add("volume", VolumeOptions(), [](auto& o, auto& v) { visit_volume_options(o, v); });
-  tables.add("camera", Camera(), [](auto& o, auto& v) { visit_camera_options(o, v); });
-  tables.add("shot", ShotEvent(), [](auto& o, auto& v) { visit_shot_options(o, v); });
-  tables.add("text", TextEvent(), [](auto& o, auto& v) { visit_text_options(o, v); });
-  tables.add("blast", BlastEvent(), [](auto& o, auto& v) { visit_blast_options(o, v); });
-  return tables.text();
+  std::string text = "SETTINGS = {\n";
+  const auto add = [&](const char* table, const auto& defaults, auto visit) {
+    PythonSettings settings(4);
+    visit(defaults, settings);
+    text += std::string("    \"") + table + "\": " + settings.text() + ",\n";
+  };
+  add("timeline", Timeline(), [](auto& o, auto& v) { visit_timeline_options(o, v); });
+  add("grid", GridOptions(), [](auto& o, auto& v) { visit_grid_options(o, v); });
+  add("smoke", SmokeOptions(), [](auto& o, auto& v) { visit_smoke_options(o, v); });
+  add("volume", VolumeOptions(), [](auto& o, auto& v) { visit_volume_options(o, v); });
+  add("camera", Camera(), [](auto& o, auto& v) { visit_camera_options(o, v); });
+  text += "}\n\nEVENT_FIELDS = {\n";
+  for_each_event_kind([&](const char* kind, auto list) {
+    const auto event = (Timeline().*list).emplace_back();
+    PythonSettings numbers(8);
+    visit_event_numbers(event, numbers);
+    PythonEvent fields;
+    visit_event(event, fields);
+    text += std::string("    \"") + kind + "\": EventFields(\n        " + fields.text() + ",\n        " +
+            numbers.text() + ",\n    ),\n";
+  });
+  return text + "}\n";
 }
 
 TEST(Ranges, AreThoseOfTheAddon) {

@@ -99,9 +99,9 @@ void spoil(Timeline& t, Spoiler& s) {
   for (DecalOptions& decal : t.decals) s.place(decal.position_world), visit_decal_options(decal, s);
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
   for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
-  for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_shot_options(e, s);
-  for (TextEvent& e : t.texts) s.time(e.time), s.place(e.from_world), visit_text_options(e, s);
-  for (BlastEvent& e : t.blasts) s.time(e.time), s.place(e.at_world), visit_blast_options(e, s);
+  for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_event_numbers(e, s);
+  for (TextEvent& e : t.texts) s.time(e.time), s.place(e.from_world), visit_event_numbers(e, s);
+  for (BlastEvent& e : t.blasts) s.time(e.time), s.place(e.at_world), visit_event_numbers(e, s);
   for (MoveEvent& e : t.moves) s.time(e.time), s.place(e.to_world);
   for (EditEvent& e : t.edits) s.time(e.time), s.place(e.low_world), s.place(e.high_world);
   for (DoorEvent& e : t.doors) s.time(e.time);

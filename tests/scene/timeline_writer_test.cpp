@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "core/file.hpp"
-#include "scene/options.hpp"
+#include "scene/event_fields.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scene/random_timeline.hpp"
 
@@ -44,30 +44,18 @@ class Bits {
   std::vector<std::uint64_t> bits;
 };
 
-void add_event(Bits& b, const SmokeEvent& e) {
-  b.add(e.from_world), b.add(e.at_world);
-}
-void add_event(Bits& b, const ShotEvent& e) {
-  b.add(e.from_world), b.add(e.toward_world), b.add(e.mask.string()), b.add(e.shape == ShotShape::box);
-  b.add(e.shape == ShotShape::mask);
-  visit_shot_options(e, b);
-}
-void add_event(Bits& b, const TextEvent& e) {
-  b.add(e.text), b.add(e.from_world), b.add(e.toward_world), b.add(e.font.string());
-  visit_text_options(e, b);
-}
-void add_event(Bits& b, const BlastEvent& e) {
-  b.add(e.at_world);
-  visit_blast_options(e, b);
-}
-void add_event(Bits& b, const MoveEvent& e) {
-  b.add(e.body), b.add(e.to_world);
-}
-void add_event(Bits& b, const EditEvent& e) {
-  b.add(e.low_world), b.add(e.high_world), b.add(e.solid);
-}
-void add_event(Bits& b, const DoorEvent& e) {
-  b.add(e.object), b.add(e.open);
+/// The fields of an event: a visitor of scene/event_fields.hpp.
+struct EventBits {
+  Bits& b;
+  void operator()(const FileField&, const fs::path& file) { b.add(file.string()); }
+  void operator()(const ChoiceField&, const auto& choice) { b.add(static_cast<std::uint32_t>(choice)); }
+  void operator()(const EventRule&, const auto&, const auto&) {}
+  void operator()(const auto&, const auto& member) { b.add(member); }
+};
+
+template <typename Event>
+void add_event(Bits& b, const Event& e) {
+  visit_event(e, EventBits{b});
 }
 
 void add_transfer(Bits& b, const VolumeOptions& volume) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/viewer/option_labels.hpp"
+#include "scene/event_fields.hpp"
 #include "tests/viewer/foggy_room.hpp"
 
 namespace brume::viewer {
@@ -255,9 +256,9 @@ TEST(OptionLabelsTest, EverySettingHasALabelOfItsOwn) {
   expect_labels(scene::SkyOptions(), [](auto& o, auto&& v) { scene::visit_sky_options(o, v); });
   expect_labels(scene::Timeline(), [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); });
   expect_labels(scene::Camera(), [](auto& o, auto&& v) { scene::visit_camera_options(o, v); });
-  expect_labels(scene::ShotEvent(), [](auto& o, auto&& v) { scene::visit_shot_options(o, v); });
-  expect_labels(scene::TextEvent(), [](auto& o, auto&& v) { scene::visit_text_options(o, v); });
-  expect_labels(scene::BlastEvent(), [](auto& o, auto&& v) { scene::visit_blast_options(o, v); });
+  expect_labels(scene::ShotEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
+  expect_labels(scene::TextEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
+  expect_labels(scene::BlastEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
   expect_labels(scenario::WalkerOptions(), [](auto& o, auto&& v) { scenario::visit_walker_options(o, v); });
 }
 

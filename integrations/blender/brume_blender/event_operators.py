@@ -5,21 +5,14 @@ from bpy.props import EnumProperty
 
 from . import markers
 from .conversion import metres_per_unit
+from .kinds import KINDS
 from .properties import EVENTS
 
-# Name and display of a new empty, and its size [m]; sizes of events themselves are drawn by gizmos.py.
-_EMPTIES = {
-    "SMOKE": ("Brume smoke", "SPHERE", 0.15),
-    "SHOT": ("Brume shot", "SINGLE_ARROW", 0.5),
-    "WORD": ("Brume word", "SINGLE_ARROW", 0.5),
-    "BLAST": ("Brume blast", "SPHERE", 0.15),
-    "DOOR": ("Brume door", "PLAIN_AXES", 0.5),
-}
 
 
 def add_event(scene, collection, kind, frame):
     """Adds an empty that is an event, at the origin."""
-    name, display, size = _EMPTIES[kind]
+    name, display, size = KINDS[kind].empty
     empty = bpy.data.objects.new(name, None)
     empty.empty_display_type, empty.empty_display_size = display, size / metres_per_unit(scene)
     empty.brume_event.type = kind

@@ -1,4 +1,4 @@
-"""Sizes and paths of events in the 3D view: balls of smokes and blasts, lines of throws, shots and words."""
+"""Sizes and paths of events in the 3D view: balls of smokes and explosions, lines of throws, shots and words."""
 
 import math
 
@@ -8,14 +8,8 @@ from mathutils import Matrix, Vector
 from . import checks, messages
 from .clock import events_of
 from .conversion import metres_per_unit, radius_of_voxels
+from .kinds import KINDS
 
-_COLORS = {
-    "SMOKE": (0.75, 0.8, 0.85),
-    "SHOT": (1.0, 0.75, 0.25),
-    "WORD": (1.0, 0.75, 0.25),
-    "BLAST": (1.0, 0.4, 0.2),
-    "DOOR": (0.4, 0.8, 1.0),
-}
 _SIDES = 48
 # Mean width of the capitals of DejaVu Sans Bold, with their gaps, in heights of a capital.
 _LETTER_WIDTH = 1.05
@@ -71,8 +65,8 @@ def lines(scene, thing):
         radius = radius_of_voxels(scene.brume.smoke_voxels, scene.brume.voxel) / metres
         start = event.thrown_from.matrix_world.translation if event.thrown_from else here
         return _ball(center, radius) + [start, here, here, center]
-    if event.type == "BLAST":
-        return _ball(here, event.blast_radius / metres)
+    if KINDS[event.type].ball:
+        return _ball(here, getattr(event, KINDS[event.type].ball) / metres)
     if event.type == "DOOR":
         return [here, event.door.matrix_world.translation] if event.door else []
     target = here + thing.matrix_world.col[2].to_3d().normalized() * (10 / metres)
@@ -95,11 +89,11 @@ def label(scene, thing):
     found = [message.text for message in messages.last() if message.thing == thing.name]
     if found and _checked_end(thing) is not None:
         return found[0]
-    radius = {
-        "SMOKE": radius_of_voxels(scene.brume.smoke_voxels, scene.brume.voxel),
-        "BLAST": event.blast_radius,
-    }.get(event.type)
-    if radius is None:
+    if event.type == "SMOKE":
+        radius = radius_of_voxels(scene.brume.smoke_voxels, scene.brume.voxel)
+    elif KINDS[event.type].ball:
+        radius = getattr(event, KINDS[event.type].ball)
+    else:
         return thing.name
     size = bpy.utils.units.to_string(scene.unit_settings.system, "LENGTH", radius, precision=3)
     return f"{thing.name}: radius {size}"
@@ -132,7 +126,7 @@ def _draw_lines():
         for depth_test, alpha in (("NONE", 0.15), ("LESS_EQUAL", 1.0 if chosen else 0.5)):
             gpu.state.depth_test_set(depth_test)
             shader.bind()
-            shader.uniform_float("color", (*_COLORS[thing.brume_event.type], alpha))
+            shader.uniform_float("color", (*KINDS[thing.brume_event.type].color, alpha))
             batch.draw(shader)
     gpu.state.line_width_set(1.0)
     gpu.state.depth_test_set("NONE")
@@ -156,7 +150,7 @@ def _draw_labels():
             blf.size(0, size)
         else:
             blf.size(0, round(size), 72)
-        blf.color(0, *_COLORS[thing.brume_event.type], 1.0)
+        blf.color(0, *KINDS[thing.brume_event.type].color, 1.0)
         blf.position(0, place.x + 12, place.y + 8, 0)
         blf.draw(0, label(context.scene, thing))
 

@@ -8,23 +8,15 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 from mathutils import Vector
 
-from . import conversion, markers, names, timeline
+from . import conversion, markers, names
 from .clock import frames_per_second
 from .event_operators import add_event
+from .kinds import PROPERTIES, TYPES
 from .messages import BrumeError, Warnings, fail
-from .properties import HOLE_TIMES
+from .settings import EVENT_FIELDS
 
-# Keys of a timeline that are properties of the same name, or of another.
-_KEYS = {
-    "smoke": {},
-    "shot": {key: key for key in ("radius", "flash") + HOLE_TIMES},
-    "text": {key: key for key in ("text", "size", "spacing", "interval") + HOLE_TIMES},
-    "blast": {"radius": "blast_radius", "flash": "blast_flash"}
-    | {key: key for key in ("speed", "remaining", "refill_rim", "refill_middle")},
-    "door": {"open": "open"},
-}
 _COLLECTION = "Brume events"
-_TYPES = {name: kind for kind, name in timeline.NAMES.items()}
+_PLAIN = ("text", "open")  # Keys that are properties of the same name, besides numbers.
 
 
 def _read(path):
@@ -55,7 +47,7 @@ class _Import:
         skipped = {}
         for entry in content.get("event", []):
             kind = entry.get("type")
-            if kind in _KEYS:
+            if kind in TYPES:
                 self._add(entry, kind)
             else:
                 skipped[kind] = skipped.get(kind, 0) + 1
@@ -73,15 +65,25 @@ class _Import:
 
     def _add(self, entry, kind):
         frame = self._scene.frame_start + entry["time"] * frames_per_second(self._scene)
-        empty = add_event(self._scene, self._collection, _TYPES.get(kind, kind.upper()), frame)
+        empty = add_event(self._scene, self._collection, TYPES[kind], frame)
         event = empty.brume_event
-        for key, name in _KEYS[kind].items():
+        for key, setting in EVENT_FIELDS[kind].numbers.items():
             if key in entry:
-                setattr(event, name, entry[key])
-        getattr(self, "_place_" + kind)(empty, event, entry)
+                value = math.radians(entry[key]) if setting.unit == "degrees" else entry[key]
+                setattr(event, PROPERTIES[kind, key], value)
+        for key in _PLAIN:
+            if key in entry:
+                setattr(event, key, entry[key])
+        place = {
+            ("from", "at"): self._place_throw,
+            ("from", "toward"): self._place_shot,
+            ("at",): self._place_here,
+            (): self._place_door,
+        }
+        place[EVENT_FIELDS[kind].points](empty, event, entry)
         self.count += 1
 
-    def _place_smoke(self, empty, event, entry):
+    def _place_throw(self, empty, event, entry):
         empty.location = self._point(entry["at"])
         if entry["from"] != entry["at"]:
             event.thrown_from = self._helper("Brume thrower", entry["from"])
@@ -97,14 +99,11 @@ class _Import:
         empty.location = start
         empty.rotation_euler = (target - start).to_track_quat("Z", "Y").to_euler()
         event.aim = self._helper("Brume aim", entry["toward"])
-        event.roll = math.radians(entry.get("roll", 0.0))
         event.shape = entry.get("shape", "cylinder").upper()
         event.mask = self._file(entry.get("mask"))
         event.font = self._file(entry.get("font"))
 
-    _place_text = _place_shot
-
-    def _place_blast(self, empty, _event, entry):
+    def _place_here(self, empty, _event, entry):
         empty.location = self._point(entry["at"])
 
     def _place_door(self, empty, event, entry):

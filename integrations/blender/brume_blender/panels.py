@@ -5,16 +5,9 @@ import textwrap
 import bpy
 
 from . import checks, messages
+from .kinds import KINDS
 from .presets import PRESETS
-from .properties import HOLE_TIMES
 
-_FIELDS = {
-    "SMOKE": ("thrown_from",),
-    "SHOT": ("aim", "shape", "shown_radius", "roll", "flash") + HOLE_TIMES,
-    "WORD": ("text", "aim", "shown_size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
-    "BLAST": ("shown_blast_radius", "shown_speed", "blast_flash", "remaining", "refill_rim", "refill_middle"),
-    "DOOR": ("door", "open"),
-}
 _SMOKE_FIELDS = ("smoke_radius", "smoke_voxels", "smoke_bloom", "smoke_hold", "smoke_dissolve", "smoke_extinction")
 _ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR", "INFO": "INFO"}
 
@@ -88,7 +81,7 @@ class BRUME_PT_object(_Panel, bpy.types.Panel):
         if event.type in PRESETS:
             layout.menu("BRUME_MT_presets")
         column = layout.column()
-        for name in _FIELDS[event.type]:
+        for name in KINDS[event.type].fields:
             column.prop(event, name)
             if name == "shape" and event.shape == "MASK":
                 column.prop(event, "mask")

@@ -18,9 +18,8 @@ from bpy.props import (
 
 from .clock import frames_per_second
 from .conversion import metres_per_unit, radius_of_voxels, voxels_of_radius
-from .settings import SETTINGS
-
-HOLE_TIMES = ("reach", "expand", "stay", "fade")
+from .kinds import KINDS, PROPERTIES
+from .settings import EVENT_FIELDS, SETTINGS
 
 # Identifier, name, description, number in .blend files.
 ROLES = (
@@ -36,21 +35,16 @@ ROLES = (
 BRUME_ROLES = {"PASSABLE": "ghost", "GRILLE": "grille", "GLASS": "glass", "WALL": "wall"}
 
 # Identifier, name, description, number in .blend files, which have no identifiers.
-EVENTS = (
-    ("NONE", "None", "An ordinary empty", 0),
-    ("SMOKE", "Smoke Grenade", "A grenade goes off here", 1),
-    ("SHOT", "Shot", "A shot is fired from here along the arrow", 2),
-    ("WORD", "Word", "Letters are shot from here along the arrow", 3),
-    ("BLAST", "Blast", "An explosion", 4),
-    ("DOOR", "Door Event", "A door opens or closes", 5),
+EVENTS = (("NONE", "None", "An ordinary empty", 0),) + tuple(
+    (identifier, kind.label, kind.description, kind.number) for identifier, kind in KINDS.items()
 )
 
+_SMOKE = SETTINGS["smoke"]
 _FIXED = set()  # Options of a property without keyframes.
 
 
-def _number(table, key, name, **more):
-    """A setting of a table of timelines, or of a type of events."""
-    setting = SETTINGS[table][key]
+def _number(setting, name, **more):
+    """A setting of timelines or of their events."""
     if setting.unit == "s":
         more["unit"] = "TIME_ABSOLUTE"
     kind, default = FloatProperty, setting.default
@@ -136,7 +130,6 @@ class BrumeEvent(bpy.types.PropertyGroup):
     aim: PointerProperty(
         type=bpy.types.Object, name="Aim", description="Target that the shot passes through; empty: along the arrow"
     )
-    radius: _number("shot", "radius", "Radius")
     shape: EnumProperty(
         items=(
             ("CYLINDER", "Cylinder", "A round hole"),
@@ -150,34 +143,32 @@ class BrumeEvent(bpy.types.PropertyGroup):
     mask: StringProperty(
         name="Mask", description="Image of the cross-section", subtype="FILE_PATH", options=_FIXED
     )
-    roll: _number(
-        "shot", "roll", "Roll", description="Rotates a box, mask or word clockwise as seen by the shooter"
-    )
-    flash: _number("shot", "flash", "Flash (W/sr)")
-    reach: _number("shot", "reach", "Bore Time")
-    expand: _number("shot", "expand", "Open Time")
-    stay: _number("shot", "stay", "Stay Open")
-    fade: _number("shot", "fade", "Close Time")
     text: StringProperty(name="Word", description="One line of letters", default="SMOKE", options=_FIXED)
-    size: _number("text", "size", "Height")
     font: StringProperty(
         name="Font", description="Font file; empty: DejaVu Sans Bold", subtype="FILE_PATH", options=_FIXED
     )
-    spacing: _number("text", "spacing", "Spacing")
-    interval: _number("text", "interval", "Interval")
-    blast_radius: _number("blast", "radius", "Radius")
-    blast_flash: _number("blast", "flash", "Flash (W/sr)")
-    speed: _number("blast", "speed", "Speed")
-    remaining: _number("blast", "remaining", "Remaining", subtype="FACTOR")
-    refill_rim: _number("blast", "refill_rim", "Rim Refills In")
-    refill_middle: _number("blast", "refill_middle", "Middle Refills In")
     door: PointerProperty(
         type=bpy.types.Object, name="Door", description="The door to open or close; its role must be Door"
     )
     open: BoolProperty(name="Open", default=True, description="Opens the door; otherwise closes it", options=_FIXED)
 
 
-_show(BrumeEvent, {"radius": "LENGTH", "size": "LENGTH", "blast_radius": "LENGTH", "speed": "VELOCITY"})
+def _add_numbers():
+    """The numbers of all kinds."""
+    lengths, more = {}, {"remaining": {"subtype": "FACTOR"}}
+    for kind in KINDS.values():
+        numbers = EVENT_FIELDS[kind.name].numbers
+        for key, label in kind.labels.items():
+            name = PROPERTIES[kind.name, key]
+            if name not in BrumeEvent.__annotations__:
+                BrumeEvent.__annotations__[name] = _number(numbers[key], label, **more.get(key, {}))
+            unit = {"m": "LENGTH", "m/s": "VELOCITY"}.get(numbers[key].unit)
+            if unit:
+                lengths[name] = unit
+    _show(BrumeEvent, lengths)
+
+
+_add_numbers()
 
 
 def _read_smoke_radius(self):
@@ -186,7 +177,7 @@ def _read_smoke_radius(self):
 
 def _write_smoke_radius(self, radius):
     metres = min(max(radius * metres_per_unit(_scene_of(self)), 0.0), 1e4)
-    self.smoke_voxels = min(voxels_of_radius(metres, self.voxel), SETTINGS["smoke"]["voxels"].high)
+    self.smoke_voxels = min(voxels_of_radius(metres, self.voxel), _SMOKE["voxels"].high)
 
 
 class BrumeScene(bpy.types.PropertyGroup):
@@ -199,8 +190,8 @@ class BrumeScene(bpy.types.PropertyGroup):
         description="Intermediate format for rendering and voxelizing",
         options=_FIXED,
     )
-    voxel: _number("grid", "voxel", "Voxel Size")
-    smoke_voxels: _number("smoke", "voxels", "Voxels")
+    voxel: _number(SETTINGS["grid"]["voxel"], "Voxel Size")
+    smoke_voxels: _number(_SMOKE["voxels"], "Voxels")
     smoke_radius: FloatProperty(
         name="Radius",
         description="Radius of a fully grown smoke in open air, as a ball; walls and floors make it wider",
@@ -209,12 +200,11 @@ class BrumeScene(bpy.types.PropertyGroup):
         set=_write_smoke_radius,
         options=_FIXED,
     )
-    smoke_bloom: _number("smoke", "bloom", "Grow Time")
-    smoke_hold: _number("smoke", "hold", "Stay Time")
-    smoke_dissolve: _number("smoke", "dissolve", "Dissolve Time")
+    smoke_bloom: _number(_SMOKE["bloom"], "Grow Time")
+    smoke_hold: _number(_SMOKE["hold"], "Stay Time")
+    smoke_dissolve: _number(_SMOKE["dissolve"], "Dissolve Time")
     smoke_extinction: _number(
-        "smoke",
-        "extinction",
+        _SMOKE["extinction"],
         "Density (1/m)",
         description="Extinction coefficient of dense smoke: at 3 one sees 1 m far",
     )
@@ -266,7 +256,7 @@ class BrumeScene(bpy.types.PropertyGroup):
     gizmos: BoolProperty(
         name="Sizes and Paths",
         default=True,
-        description="Shows the size of smokes and blasts and the paths of shots in the 3D view",
+        description="Shows the size of smokes and explosions and the paths of shots in the 3D view",
         options=_FIXED,
     )
 

@@ -1,4 +1,4 @@
-"""Settings of timelines: default, range, unit and meaning, as src/scene/options.hpp states them."""
+"""Settings of timelines as src/scene/options.hpp states them, events as src/scene/event_fields.hpp does."""
 
 from typing import NamedTuple
 
@@ -17,6 +17,15 @@ class Setting(NamedTuple):
     def description(self):
         """As Blender shows it."""
         return self.about[0].upper() + self.about[1:].replace("`", "")
+
+
+class EventFields(NamedTuple):
+    """A type of events."""
+
+    points: tuple
+    bytes: tuple  # Texts with the fewest and the most bytes.
+    rules: tuple  # What must hold between two keys: its kind, and them.
+    numbers: dict  # Settings.
 
 
 # All below is written by BRUME_UPDATE=1 scene_tests --gtest_filter=*OfTheAddon.
@@ -74,31 +83,59 @@ SETTINGS = {
         "blades": Setting(0, 0, 64, "", "edges of the lens's opening; below 3: round"),
         "shutter": Setting(0.0, 0, 10, "s", "how long the shutter stays open, for motion blur"),
     },
-    "shot": {
-        "radius": Setting(0.25, 0.01, 10, "m", "radius of the hole; half the edge of a box or mask"),
-        "reach": Setting(0.25, 0, 60, "s", "time until the front reaches the far end"),
-        "expand": Setting(0.05, 0, 60, "s", "time to open, at each depth"),
-        "stay": Setting(0.6, 0, 600, "s", "time fully open"),
-        "fade": Setting(0.35, 0, 60, "s", "time to close"),
-        "roll": Setting(0.0, -360, 360, "degrees", "rotates a box or mask clockwise as seen by the shooter"),
-        "flash": Setting(25.0, 0, 1e+06, "W/sr", "intensity of the muzzle flash, 0.06 s long"),
-    },
-    "text": {
-        "size": Setting(0.5, 0.02, 10, "m", "height of a capital letter"),
-        "spacing": Setting(0.0, -0.5, 10, "", "extra space between letters, in heights of a capital"),
-        "interval": Setting(0.0, 0, 10, "s", "time from letter to letter"),
-        "reach": Setting(0.25, 0, 60, "s", "time until the front reaches the far end"),
-        "expand": Setting(0.05, 0, 60, "s", "time to open, at each depth"),
-        "stay": Setting(0.6, 0, 600, "s", "time fully open"),
-        "fade": Setting(0.35, 0, 60, "s", "time to close"),
-        "roll": Setting(0.0, -360, 360, "degrees", "rotates the row clockwise as seen by the shooter"),
-    },
-    "blast": {
-        "radius": Setting(5.0, 0.1, 100, "m", "radius of the cavity"),
-        "speed": Setting(32.0, 1, 10000, "m/s", "speed of the front"),
-        "remaining": Setting(0.02, 0, 1, "", "fraction of the density that remains"),
-        "refill_rim": Setting(0.5, 0.01, 60, "s", "time until the rim is full again"),
-        "refill_middle": Setting(5.0, 0.01, 60, "s", "time until the middle is full again; at least `refill_rim`"),
-        "flash": Setting(250.0, 0, 1e+06, "W/sr", "intensity of the fireball, 0.3 s long"),
-    },
+}
+
+EVENT_FIELDS = {
+    "smoke": EventFields(
+        ("from", "at"), (), (),
+        {},
+    ),
+    "shot": EventFields(
+        ("from", "toward"), (), (("differs", "toward", "from"), ("goes_with", "mask", "shape")),
+        {
+            "radius": Setting(0.25, 0.01, 10, "m", "radius of the hole; half the edge of a box or mask"),
+            "reach": Setting(0.25, 0, 60, "s", "time until the front reaches the far end"),
+            "expand": Setting(0.05, 0, 60, "s", "time to open, at each depth"),
+            "stay": Setting(0.6, 0, 600, "s", "time fully open"),
+            "fade": Setting(0.35, 0, 60, "s", "time to close"),
+            "roll": Setting(0.0, -360, 360, "degrees", "rotates a box or mask clockwise as seen by the shooter"),
+            "flash": Setting(25.0, 0, 1e+06, "W/sr", "intensity of the muzzle flash, 0.06 s long"),
+        },
+    ),
+    "text": EventFields(
+        ("from", "toward"), (("text", 1, 1024),), (("differs", "toward", "from"),),
+        {
+            "size": Setting(0.5, 0.02, 10, "m", "height of a capital letter"),
+            "spacing": Setting(0.0, -0.5, 10, "", "extra space between letters, in heights of a capital"),
+            "interval": Setting(0.0, 0, 10, "s", "time from letter to letter"),
+            "reach": Setting(0.25, 0, 60, "s", "time until the front reaches the far end"),
+            "expand": Setting(0.05, 0, 60, "s", "time to open, at each depth"),
+            "stay": Setting(0.6, 0, 600, "s", "time fully open"),
+            "fade": Setting(0.35, 0, 60, "s", "time to close"),
+            "roll": Setting(0.0, -360, 360, "degrees", "rotates the row clockwise as seen by the shooter"),
+        },
+    ),
+    "blast": EventFields(
+        ("at",), (), (("at_least", "refill_middle", "refill_rim"),),
+        {
+            "radius": Setting(5.0, 0.1, 100, "m", "radius of the cavity"),
+            "speed": Setting(32.0, 1, 10000, "m/s", "speed of the front"),
+            "remaining": Setting(0.02, 0, 1, "", "fraction of the density that remains"),
+            "refill_rim": Setting(0.5, 0.01, 60, "s", "time until the rim is full again"),
+            "refill_middle": Setting(5.0, 0.01, 60, "s", "time until the middle is full again; at least `refill_rim`"),
+            "flash": Setting(250.0, 0, 1e+06, "W/sr", "intensity of the fireball, 0.3 s long"),
+        },
+    ),
+    "move": EventFields(
+        ("to",), (), (),
+        {},
+    ),
+    "edit": EventFields(
+        ("low", "high"), (), (("above", "high", "low"),),
+        {},
+    ),
+    "door": EventFields(
+        (), (), (),
+        {},
+    ),
 }

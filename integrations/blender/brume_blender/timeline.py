@@ -9,9 +9,9 @@ from mathutils import Vector
 from . import conversion, files, names, world
 from .clock import events_of, frames_per_second, moves
 from .conversion import number
+from .kinds import KINDS, PROPERTIES
 from .messages import BrumeError
-from .properties import HOLE_TIMES
-from .settings import SETTINGS
+from .settings import EVENT_FIELDS, SETTINGS
 from .toml_text import quoted, vector
 from .volumes import Tables
 
@@ -22,9 +22,7 @@ _AHEAD = 5.0  # Distance from the camera to its target [m].
 
 
 # Events of one tick happen in this order.
-_ORDER = ("DOOR", "SMOKE", "SHOT", "WORD", "BLAST")
-# Event types whose names in timelines differ from those of empties.
-NAMES = {"WORD": "text"}
+_ORDER = ["DOOR"] + [kind for kind in KINDS if kind != "DOOR"]
 
 
 def events(scene, level):
@@ -160,17 +158,16 @@ class Writer:
         if event.type == "DOOR":
             return self._door(thing, event, time)
         here = self._clock.matrix_at(thing, time).translation
-        keys = {"type": quoted(NAMES.get(event.type, event.type.lower())), "time": number(time)}
+        kind = KINDS[event.type].name
+        keys = {"type": quoted(kind), "time": number(time)}
         if event.type == "SMOKE":
             start = self._clock.matrix_at(event.thrown_from, time).translation if event.thrown_from else here
             keys |= {"from": self._point(thing, start), "at": self._point(thing, here)}
-        elif event.type == "BLAST":
+        elif EVENT_FIELDS[kind].points == ("at",):
             keys["at"] = self._point(thing, here)
-            keys |= {"radius": number(event.blast_radius), "flash": number(event.blast_flash)}
-            keys |= {key: number(getattr(event, key)) for key in ("speed", "remaining", "refill_rim")}
-            keys["refill_middle"] = number(max(event.refill_middle, event.refill_rim))
         else:
             keys |= self._aimed(thing, event, here)
+        keys |= _numbers(event, kind)
         return ["", "[[event]]"] + [f"{key} = {value}" for key, value in keys.items()]
 
     def _point(self, thing, blender_point):
@@ -185,17 +182,15 @@ class Writer:
         if (Vector(toward) - here).length < 1e-6:
             raise BrumeError(f'the event "{thing.name}" aims at its own position; move it or its target')
         keys = {"from": self._point(thing, here), "toward": self._point(thing, toward)}
-        keys["roll"] = number(math.degrees(event.roll))
-        keys |= {key: number(getattr(event, key)) for key in HOLE_TIMES}
+        for key, least, most in EVENT_FIELDS[KINDS[event.type].name].bytes:
+            text = getattr(event, key)
+            if not least <= len(text.encode("utf-8")) <= most:
+                raise BrumeError(f'the {key} of "{thing.name}" must be {least} to {most} bytes long')
+            keys[key] = quoted(text)
         if event.type == "WORD":
-            if not 1 <= len(event.text.encode("utf-8")) <= 1024:
-                raise BrumeError(f'the text of "{thing.name}" must be 1 to 1024 bytes long')
-            keys["text"] = quoted(event.text)
-            keys |= {key: number(getattr(event, key)) for key in ("size", "spacing", "interval")}
             if event.font:
                 keys["font"] = self._copy_of(thing, event.font, "Fonts")
             return keys
-        keys |= {"radius": number(event.radius), "flash": number(event.flash)}
         keys["shape"] = quoted(event.shape.lower())
         if event.shape == "MASK":
             if not event.mask:
@@ -227,6 +222,18 @@ class Writer:
             lines += ["", "[[event]]", 'type = "door"', f"time = {number(time)}"]
             lines += [f"object = {quoted(name)}", f"open = {'true' if event.open else 'false'}"]
         return lines
+
+
+def _numbers(event, kind):
+    """The keys of the numbers of an event, in the units of timelines."""
+    values = {}
+    for key, setting in EVENT_FIELDS[kind].numbers.items():
+        value = getattr(event, PROPERTIES[kind, key])
+        values[key] = math.degrees(value) if setting.unit == "degrees" else value
+    for rule, key, other in EVENT_FIELDS[kind].rules:
+        if rule == "at_least":
+            values[key] = max(values[key], values[other])
+    return {key: number(value) for key, value in values.items()}
 
 
 def vertical_fov(camera, scene):
