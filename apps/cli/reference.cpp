@@ -122,7 +122,7 @@ std::vector<planning::FrameInput> ReferenceFrames::frames_after(double seconds,
   std::vector<planning::FrameInput> later;
   const double shutter = double{frame.view.camera.shutter};
   if (shutter <= 0) return later;
-  constexpr std::size_t kSteps = reference::surfaces::kMostSteps - 1;
+  constexpr std::size_t kSteps = surfaces::kMostSteps - 1;
   for (std::size_t step = 1; step <= kSteps; ++step) {
     later.push_back(frame);
     planning::move_frame(scenario_, seconds, seconds + shutter * static_cast<double>(step) / kSteps,
