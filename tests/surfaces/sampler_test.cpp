@@ -8,6 +8,8 @@
 namespace brume::surfaces {
 namespace {
 
+using reference::expect_distribution;
+
 TEST(SamplerTest, EachBlockOfAPixelIsStratified) {
   for (const glm::uvec2 pixel : {glm::uvec2(0), glm::uvec2(5, 3), glm::uvec2(1919, 1079)})
     for (std::uint32_t dimension = 0; dimension < 7; ++dimension)
