@@ -21,6 +21,7 @@
 #include "palettes/choice.hpp"
 #include "scenario/tank.hpp"
 #include "scene/tank_options.hpp"
+#include "scene/tank_scene.hpp"
 #include "scene/text_reader.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
