@@ -1,6 +1,7 @@
 #include "apps/cli/info.hpp"
 
 #include "apps/cli/command.hpp"
+#include "apps/cli/tank_options.hpp"
 #include "apps/cli/tanks.hpp"
 #include "apps/command_line/console.hpp"
 #include "core/error.hpp"
@@ -8,7 +9,6 @@
 #include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
-#include "scenario/tank.hpp"
 #include "scene/load.hpp"
 #include "spheres/file.hpp"
 #include "vxl/file.hpp"
@@ -127,9 +127,7 @@ Command add_info(CommandLine& program) {
       arguments.refuse("--check", "is for timelines and scenes of tanks (.toml)");
     if (!is_scene_file(options->input))
       arguments.refuse("--objects", "is for scenes (.glb, .gltf, .obj, .txt)");
-    common->outputs.reads(std::filesystem::path(options->input));
-    if (scenario::is_tank_input(options->input))
-      common->outputs.reads(scenario::files_of_tank_input(options->input));
+    declare_input(common->outputs, options->input);
     common->outputs.writes("--json", options->json, FileKind::json);
     // The same facts as JSON and as text.
     const Summary summary = summarize(options->input, options->choices, common->outputs);

@@ -26,8 +26,10 @@ std::vector<glm::vec3> corners_of(const scenario::Scenario& scenario) {
 
 Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Camera>& chosen, double degrees,
              FrameRange range, float aspect)
-    : scenario_(scenario), still_(chosen), radians_(degrees * scene::kRadiansOfDegree), range_(range) {
-  // What it circles, and from where.
+    : Orbit([&scenario](
+                double seconds) { return scene::camera_at(scenario.timeline, scenario.camera, seconds); },
+            chosen, degrees, range) {
+  // What it circles, and from where, unless that is chosen.
   if (!still_ && scenario.timeline.camera.empty()) {
     still_ = scenario.camera;
     const Box<float> bounds = scene::world_bounds(scenario.scene);
@@ -37,7 +39,17 @@ Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Came
     }
   }
 
-  // A camera on the axis would only roll, which a position and a target cannot express.
+  check();
+}
+
+Orbit::Orbit(planning::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
+             FrameRange range)
+    : path_(std::move(path)), still_(chosen), radians_(degrees * scene::kRadiansOfDegree), range_(range) {
+  check();
+}
+
+// A camera on the axis would only roll, which a position and a target cannot express.
+void Orbit::check() const {
   if (!still_) return;
   const glm::vec3 off = still_->position_world - centre_world_.value_or(still_->target_world);
   if (std::hypot(off.x, off.z) < kLeastReach * glm::length(off))
@@ -46,8 +58,7 @@ Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Came
 }
 
 scene::Camera Orbit::at(double seconds, double frame) const {
-  const scene::Camera camera =
-      still_ ? *still_ : scene::camera_at(scenario_.timeline, scenario_.camera, seconds);
+  const scene::Camera camera = still_ ? *still_ : path_(seconds);
   const double first = range_.first, count = range_.last - first + 1, fraction = (frame - first) / count;
   return scene::orbited(camera, centre_world_.value_or(camera.target_world), fraction * radians_);
 }

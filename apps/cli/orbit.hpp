@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "apps/command_line/parse.hpp"
+#include "planning/scenario_frame.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::cli {
@@ -22,6 +23,9 @@ class Orbit {
   /// `scenario` must outlive it.
   Orbit(const scenario::Scenario& scenario, const std::optional<scene::Camera>& chosen, double degrees,
         FrameRange range, float aspect);
+  /// A turn around the target of `chosen`, or of a camera that moves along `path`.
+  Orbit(planning::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
+        FrameRange range);
 
   /// The camera of a frame: after (frame - first) / count of the angle. Frames outside of the range go on;
   /// fractions are times between frames.
@@ -30,7 +34,9 @@ class Orbit {
   const std::optional<scene::Camera>& still_camera() const { return still_; }
 
  private:
-  const scenario::Scenario& scenario_;
+  void check() const;
+
+  planning::CameraAt path_;
   std::optional<scene::Camera> still_;
   std::optional<glm::vec3> centre_world_;  ///< Empty: the camera's target.
   double radians_;

@@ -3,17 +3,17 @@
 #include <span>
 
 #include "apps/cli/command.hpp"
+#include "apps/cli/tank_options.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
-#include "scenario/tank.hpp"
 
 namespace brume::cli {
 namespace {
 
 // The files that are known before any is read.
 void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
-  outputs.reads({options.input, options.timeline});
-  if (scenario::is_tank_input(options.input)) outputs.reads(scenario::files_of_tank_input(options.input));
+  declare_input(outputs, options.input);
+  outputs.reads(options.timeline);
   outputs.writes("--json", options.json, FileKind::json);
   outputs.writes("--checkpoint", options.reference.checkpoint, FileKind::checkpoint);
   const FileKind kind = target_file_kind(options.output);

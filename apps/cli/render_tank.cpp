@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "apps/cli/orbit.hpp"
 #include "apps/cli/render_output.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/tank_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "gpu/context.hpp"
@@ -15,35 +17,6 @@
 namespace brume::cli {
 namespace {
 
-// What is for levels and their smoke.
-void refuse_options_of_levels(const Arguments& arguments) {
-  for (const char* option : {"--timeline",
-                             "--background",
-                             "--flipbook",
-                             "--march",
-                             "--raycast",
-                             "--temporal",
-                             "--step",
-                             "--resolve-error-scale",
-                             "--light-update-fraction",
-                             "--volume-memory",
-                             "--view",
-                             "--slice",
-                             "--shutter",
-                             "--orbit",
-                             "--color-map",
-                             "--opacity",
-                             "--range",
-                             "--voxel",
-                             "--scale",
-                             "--smoke",
-                             "--throw",
-                             "--smoke-size",
-                             "--sun",
-                             "--bounces"})
-    arguments.refuse(option, "is not for a tank of spheres");
-}
-
 // What is drawn, and how.
 struct TankJob {
   const RenderOptions& options;
@@ -51,7 +24,15 @@ struct TankJob {
   CommonOptions& common;
   const scenario::TankScenario& scenario;
 
+  std::optional<Orbit> orbit = std::nullopt;
+
   double duration() const { return double{scenario.scene.duration}; }
+  scene::Camera camera_of_scene(double seconds) const {
+    return scene::camera_at(scenario.scene, planning::size_of(scenario.tank), seconds);
+  }
+  scene::Camera camera_at(double seconds, std::uint32_t frame) const {
+    return orbit ? orbit->at(seconds, frame) : plan.camera.value_or(camera_of_scene(seconds));
+  }
   Film film(std::vector<std::string> device) const {
     return {duration(), scenario::files_of(scenario.scene), std::move(device)};
   }
@@ -60,11 +41,11 @@ struct TankJob {
 Json render_on_device(const TankJob& job) {
   gpu::Context context({job.options.device, false});
   render::TankPictures pictures(context, job.scenario, job.plan.renderer.size_px);
-  pictures.set_camera(job.plan.camera);
   if (job.options.samples) pictures.set_samples(*job.options.samples);
   const Stopwatch drawing;
   write(job.options, job.plan, job.common, job.film({context.info().name, context.info().driver}),
-        [&](double seconds, std::uint32_t) -> Picture {
+        [&](double seconds, std::uint32_t frame) -> Picture {
+          pictures.set_camera(job.camera_at(seconds, frame));
           Picture picture = job.plan.has_layers ? Picture(pictures.draw_layers(seconds, is_interrupted))
                                                 : Picture(pictures.draw(seconds, is_interrupted));
           stop_if_interrupted();
@@ -86,13 +67,13 @@ Json render_by_paths(const TankJob& job) {
   double drawn = 0;
   RenderOptions without_limits = job.options;
   without_limits.reference = {};
+  without_limits.reference.max_bounces = job.options.reference.max_bounces;
   without_limits.samples.reset();
   write(job.options, job.plan, job.common, job.film({"reference"}),
-        [&](double seconds, std::uint32_t) -> Picture {
+        [&](double seconds, std::uint32_t frame) -> Picture {
           const scene::TankScene now = reference::scene_at(job.scenario.scene, seconds);
           const reference::TankModel model(job.scenario.tank, now);
-          const scene::Camera camera =
-              job.plan.camera.value_or(scene::camera_at(now, planning::size_of(job.scenario.tank), seconds));
+          const scene::Camera camera = job.camera_at(seconds, frame);
           reference::RenderSettings settings;
           settings.size_px = size_px;
           settings.blades = camera.lens.blades;
@@ -119,14 +100,14 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
                  CommonOptions& common) {
   const Stopwatch watch;
   refuse_options_of_levels(arguments);
-  for (const char* option : {"--max-bounces", "--clamp", "--matte"})
-    arguments.refuse(option, "is not for a tank of spheres; its [tank] says \"bounces\"");
-  scenario::TankScenario scenario =
-      scenario::load_tank_scenario(options.input, is_interrupted).value_or_throw();
-  if (plan.scene.exposure) scenario.scene.exposure = *plan.scene.exposure;
-  if (plan.scene.tone) scenario.scene.tone = *plan.scene.tone;
+  scenario::TankScenario scenario = load_tank(options.input, plan.scene, is_interrupted);
+  if (options.reference.max_bounces) scenario.scene.bounces = *options.reference.max_bounces;
   stop_if_interrupted();
-  const TankJob job{options, plan, common, scenario};
+  TankJob job{options, plan, common, scenario};
+  if (options.orbit)
+    job.orbit.emplace([&](double seconds) { return job.camera_of_scene(seconds); },
+                      plan.camera || scenario.scene.camera.size() > 1 ? plan.camera : job.camera_of_scene(0),
+                      *options.orbit, frames_of(plan, job.duration()));
   if (plan.kind == TargetKind::sequence && !plan.frames)
     declare_frames(options, plan, frames_of(plan, job.duration()), common.outputs);
   warn_of_times(options, plan, job.duration());

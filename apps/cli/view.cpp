@@ -1,8 +1,6 @@
-
 #include "apps/cli/command.hpp"
 #include "apps/cli/scene_options.hpp"
-#include "apps/cli/view_options.hpp"
-#include "apps/cli/view_tank.hpp"
+#include "apps/cli/tank_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/parse.hpp"
@@ -12,9 +10,20 @@
 #include "core/data_files.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
-#include "scenario/tank.hpp"
 
 namespace brume::cli {
+namespace {
+
+struct ViewOptions {
+  std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
+                           picture, folder = ".", screenshot, record, frame_log, json;
+  std::string shaders;
+  SceneOptions scene;
+  std::uint32_t volume_memory = 0;  // [MiB]
+  double frames_per_second = 60;
+  std::optional<double> time, exit_after, lose_device, lose_surface;
+  bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
+};
 
 viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer::ViewerOptions viewer;
@@ -51,15 +60,6 @@ viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   return viewer;
 }
 
-void expect_no_messages(const std::vector<std::string>& validation_messages) {
-  if (validation_messages.empty()) return;
-  throw Error(ErrorCode::internal, "the validation layers reported " +
-                                       std::to_string(validation_messages.size()) +
-                                       " errors; the first: " + validation_messages.front());
-}
-
-namespace {
-
 std::vector<std::string> quality_names() {
   std::vector<std::string> names{"auto"};
   for (const viewer::Quality& quality : viewer::quality_levels()) names.emplace_back(quality.name);
@@ -70,28 +70,38 @@ std::vector<std::string> view_names() {
   return {passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()};
 }
 
+Json json_of(const viewer::LevelReport& level) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(level.state_hash));
+  Json passes = Json::object();
+  for (const auto& [name, milliseconds] : level.passes_ms) passes.set(name, milliseconds);
+  return {{"frames_per_second", level.frames_per_second},
+          {"work_ms", level.work_ms},
+          {"latency_ms", level.latency_ms},
+          {"simulation_ms", level.tick_ms},
+          {"passes_ms", passes},
+          {"quality", level.quality},
+          {"tick", level.tick},
+          {"state_hash", hash}};
+}
+
+Json json_of(const viewer::TankReport& tank) {
+  return {{"spheres", tank.spheres},
+          {"samples_per_pixel", tank.samples},
+          {"size", Json::list({tank.picture_px.x, tank.picture_px.y})},
+          {"packings", tank.packings}};
+}
+
 void write_report(const std::string& target, const viewer::ViewerReport& report) {
   if (target.empty()) return;
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(report.state_hash));
-  Json passes = Json::object();
-  for (const auto& [name, milliseconds] : report.passes_ms) passes.set(name, milliseconds);
-  write_json(target, Json{{"device", report.device},
-                          {"frames", report.frames},
-                          {"seconds", report.seconds},
-                          {"frames_per_second", report.frames_per_second},
-                          {"work_ms", report.work_ms},
-                          {"latency_ms", report.latency_ms},
-                          {"simulation_ms", report.tick_ms},
-                          {"passes_ms", passes},
-                          {"quality", report.quality},
-                          {"tick", report.tick},
-                          {"state_hash", hash},
-                          {"process_bytes", report.process_bytes},
-                          {"device_bytes", report.device_bytes},
-                          {"shader_reloads", report.shader_reloads},
-                          {"devices_lost", report.devices_lost},
-                          {"validation_messages", report.validation_messages}});
+  Json json{{"device", report.device}, {"frames", report.frames}, {"seconds", report.seconds}};
+  json.update(std::visit([](const auto& document) { return json_of(document); }, report.document));
+  json.update(Json{{"process_bytes", report.process_bytes},
+                   {"device_bytes", report.device_bytes},
+                   {"shader_reloads", report.shader_reloads},
+                   {"devices_lost", report.devices_lost},
+                   {"validation_messages", report.validation_messages}});
+  write_json(target, json);
 }
 
 /// What the window reads and writes only later must not fail then.
@@ -122,12 +132,14 @@ void view(const Arguments& arguments, const ViewOptions& options, Outputs& outpu
   const std::filesystem::path input = plays                   ? options.play
                                       : options.input.empty() ? data_file("scenes/demo.toml").string()
                                                               : options.input;
-  if (scenario::is_tank_input(input)) return view_tank(arguments, options, input, outputs);
+  const bool is_tank = scenario::is_tank_input(input);
+  if (is_tank) refuse_options_of_levels(arguments);
   viewer::ViewerOptions viewer = viewer_options(options);
   scenario::FirstViewOptions first_view = parse_scene_options(options.scene);
   first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
   viewer.level_name = input.filename().string();
-  outputs.reads({input, options.picture});
+  declare_input(outputs, input);
+  outputs.reads(options.picture);
   outputs.writes("--screenshot", options.screenshot, FileKind::png);
   if (!options.screenshot.empty())
     outputs.writes("--screenshot", viewer::snapshot_timeline(options.screenshot), FileKind::timeline);
@@ -140,9 +152,16 @@ void view(const Arguments& arguments, const ViewOptions& options, Outputs& outpu
     outputs.reads(scenario::files_of(scenario));
     return scenario;
   };
-  const viewer::ViewerReport report = viewer::run_viewer(load, plays, viewer);
+  const auto make = [&](const std::function<bool()>& stopped) {
+    return load_tank(input, first_view, stopped);
+  };
+  const viewer::ViewerReport report =
+      is_tank ? viewer::run_viewer(make, plays, viewer) : viewer::run_viewer(load, plays, viewer);
   write_report(options.json, report);
-  expect_no_messages(report.validation_messages);
+  if (report.validation_messages.empty()) return;
+  throw Error(ErrorCode::internal, "the validation layers reported " +
+                                       std::to_string(report.validation_messages.size()) +
+                                       " errors; the first: " + report.validation_messages.front());
 }
 
 /// What the window starts with, and what it leaves behind.

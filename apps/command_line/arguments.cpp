@@ -263,7 +263,8 @@ bool Arguments::parsed() const {
 }
 
 bool Arguments::given(const std::string& option) const {
-  return app_->count(option) > 0;
+  const CLI::Option* const found = app_->get_option_no_throw(option);
+  return found != nullptr && found->count() > 0;
 }
 
 std::vector<std::string> Arguments::given_texts(const std::vector<std::string>& except) const {

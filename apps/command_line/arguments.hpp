@@ -54,7 +54,7 @@ class Arguments {
 
   /// Whether the command line selects this command.
   bool parsed() const;
-  /// Whether it gives this option, such as "--fps".
+  /// Whether it gives this option, such as "--fps"; not one that the command does not have.
   bool given(const std::string& option) const;
   /// All options that it gives and their values, in the order of their declarations, but for these. Without
   /// the arguments that are no options.

@@ -212,8 +212,7 @@ void Game::choose(Action action) {
     notify_("still flying: there is no floor below");
   if (action == Action::steer_carrier) set_steering(!flight_);
   if (action == Action::decals) show_decals(!choices_.decals);
-  if (action == Action::panels) choices_.panels = !choices_.panels;
-  if (action == Action::overlay) choices_.overlay = !choices_.overlay;
+  choices_.act(action);
   if (action == Action::help) show_help(!choices_.help);
   if (action == Action::toggle_cursor && flight_) return set_steering(false);
   if (action == Action::toggle_cursor) choices_.free_cursor = !choices_.free_cursor;

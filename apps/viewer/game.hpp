@@ -12,13 +12,13 @@
 #include "apps/viewer/player.hpp"
 #include "apps/viewer/probe.hpp"
 #include "apps/viewer/session.hpp"
+#include "apps/viewer/window_choices.hpp"
 #include "passes/debug_view.hpp"
 
 namespace brume::viewer {
 
 /// Settings that the player chooses by keys and panels.
-struct Choices {
-  bool panels = false, help = false, overlay = true;
+struct Choices : WindowChoices {
   bool free_cursor = false;  ///< The mouse moves the cursor instead of turning the view.
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;  ///< Empty: through the middle of the smoke.
@@ -27,8 +27,7 @@ struct Choices {
   Probe probe;
   std::optional<std::size_t> level;  ///< Index into quality_levels(); empty: adaptive.
   double frames_per_second = 60;
-  bool temporal = true;  ///< Smooths smoke and edges over frames.
-  bool vertical_sync = true;
+  bool temporal = true;     ///< Smooths smoke and edges over frames.
   bool decals = true;       ///< Decals are shown.
   std::size_t carrier = 0;  ///< The one to steer and to edit; of Timeline::carriers, unless there is none.
 };

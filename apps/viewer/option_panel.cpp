@@ -13,7 +13,6 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kLabelWidth = 0.42f;  // of the panel
 const ImVec4 kChanged(0.98f, 0.74f, 0.40f, 1);
 
 // Angles are stored in radians and shown in degrees.
@@ -108,6 +107,14 @@ bool pick_colour(glm::vec3& colour, float strength) {
 }
 
 }  // namespace
+
+void begin_row(const char* label, const char* about) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  if (about && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", about);
+  ImGui::SameLine(kLabelWidth * ImGui::GetWindowWidth());
+  ImGui::SetNextItemWidth(-1);
+}
 
 bool color_patch(glm::vec3& color) {
   return pick_colour(color, 1);

@@ -118,7 +118,7 @@ void lay_out_glass(TankState& state) {
   }
 }
 
-void lay_out_lens(TankState& state, TankRequests& requests) {
+void lay_out_lens(TankState& state, UiRequests& requests) {
   scene::Camera camera = state.camera();
   const scene::Camera file = scene::camera_at(state.file(), state.size(), state.seconds());
   // The pictures of tanks have no motion blur.

@@ -1,14 +1,13 @@
-// Status, messages and marks over the picture of a tank.
+// Status and marks over the picture of a tank, and the buttons of its time bar.
 #include <imgui.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cstdio>
 #include <glm/gtc/color_space.hpp>
 #include <numbers>
 
 #include "apps/viewer/tank_ui.hpp"
-#include "apps/viewer/ui_parts.hpp"
+#include "apps/viewer/widgets.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -73,58 +72,68 @@ void draw_mark(ImDrawList& list, const TankState& state, const TankHandle& handl
     label_mark(list, at, display.x, is_light ? "light " + std::to_string(handle.index + 1) : "glass");
 }
 
-const ImVec4 kNoticeText(1, 0.8f, 0.5f, 1), kFaultText(1, 0.45f, 0.4f, 1);
-
-void lay_out_samples(const TankState& state, const TankStatus& status) {
+void lay_out_samples(const TankState& state, const TankFigures& figures) {
   const std::uint32_t limit = state.scene().samples;
-  const std::uint32_t done = std::min(status.samples, limit);
-  if (status.moves) {
-    ImGui::Text("preview of %u x %u pixels", status.picture_px.x, status.picture_px.y);
+  const std::uint32_t done = std::min(figures.samples, limit);
+  if (figures.moves) {
+    ImGui::Text("preview of %u x %u pixels", figures.picture_px.x, figures.picture_px.y);
   } else if (done >= limit) {
     ImGui::Text("%u samples: done", limit);
   } else {
-    const Progress::State progress{"samples", done, limit, status.seconds};
+    const Progress::State progress{"samples", done, limit, figures.seconds};
     char rest[64] = "";
     if (progress.seconds_left() >= 0)
       std::snprintf(rest, sizeof rest, "  %.3g/s  %.0f s left", progress.rate(), progress.seconds_left());
     ImGui::Text("%u of %u samples%s", done, limit, rest);
   }
-  lay_out_bar(static_cast<double>(done) / static_cast<double>(limit), 4);
+  lay_out_progress(static_cast<double>(done) / static_cast<double>(limit), 4);
 }
 
 }  // namespace
 
-void lay_out_tank_marks(const TankState& state, const TankChoices& choices, const TankStatus& status) {
+void lay_out_tank_marks(const TankState& state, const TankChoices& choices,
+                        const std::optional<TankHandle>& hovered) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const TankHandle& handle : handles_of(state.scene()))
-    draw_mark(list, state, handle, status.hovered == handle || choices.selected == handle);
+    draw_mark(list, state, handle, hovered == handle || choices.selected == handle);
 }
 
-void lay_out_tank_overlay(const TankState& state, const TankChoices& choices, const TankStatus& status) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float room = display.x - 2 * kMargin - (choices.panels ? panel_width() + kMargin : 0);
-  const float usual = std::min(room, 20 * ImGui::GetFontSize());
-  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(usual, 0), ImVec2(std::max(room, usual), FLT_MAX));
-  ImGui::SetNextWindowBgAlpha(0.55f);
-  ImGui::Begin("figures", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNav);
-  ImGui::PushTextWrapPos(room - ImGui::GetStyle().WindowPadding.x);
-  lay_out_samples(state, status);
-  ImGui::Text("%s %s%s", grouped(status.spheres).c_str(),
+void lay_out_tank_status(const TankState& state, const TankFigures& figures) {
+  lay_out_samples(state, figures);
+  ImGui::Text("%s %s%s", grouped(figures.spheres).c_str(),
               state.scene().view == scene::TankView::voxels ? "spheres as voxels" : "spheres",
               state.is_complete() ? "" : ", packing was stopped");
   ImGui::Text("%.2f s, %s", state.seconds(),
               !state.follows_path() ? "free camera"
               : state.has_path()    ? "along the camera's path"
                                     : "the scene's camera");
-  if (!status.shader_errors.empty()) ImGui::TextColored(kFaultText, "shader error: see the panels");
-  for (const std::string& line : status.lines) ImGui::TextColored(kNoticeText, "%s", line.c_str());
-  if (!choices.help && !choices.panels) ImGui::TextDisabled("H: help   Tab: settings");
-  ImGui::PopTextWrapPos();
-  ImGui::End();
+}
+
+void lay_out_tank_buttons(const TankState& state, UiRequests& requests) {
+  const auto act = [&](const char* label, const char* tooltip, Action action) {
+    if (bar_button(label, tooltip)) requests.actions.push_back(action);
+  };
+  act(state.is_playing() ? "pause###play" : "play###play", "let the time run, or stop it (P)", Action::pause);
+  act("to start", "back to the start (R)", Action::rewind);
+  act("undo", "take back the last setting (Ctrl+Z)", Action::undo);
+  act("redo", "do again what was undone (Ctrl+Y)", Action::redo);
+  act("save scene", "save all settings as a file (F5)", Action::save_recording);
+  act("save picture", "save the picture and its scene (F12)", Action::screenshot);
+  bool follows = state.follows_path();
+  if (checkbox("scene's camera", &follows)) requests.actions.push_back(Action::camera_path);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", state.has_path() ? "follow the camera's path, or look around freely (C)"
+                                             : "the camera of the scene, or a free one (C)");
+  ImGui::SameLine();
+}
+
+void mark_keys(const scene::TankScene& scene, const TimeMark& mark) {
+  const auto marks = [&](const auto& keys, ImU32 colour) {
+    for (const auto& key : keys) mark(key.time, colour);
+  };
+  marks(scene.camera, IM_COL32(120, 160, 220, 255));
+  for (const scene::TankLight& light : scene.lights) marks(light.keys, IM_COL32(255, 200, 110, 255));
+  if (scene.glass) marks(scene.glass->keys, IM_COL32(150, 220, 210, 255));
 }
 
 }  // namespace brume::viewer

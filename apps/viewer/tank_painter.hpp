@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "apps/viewer/frame_log.hpp"
+#include "apps/viewer/screen.hpp"
 #include "apps/viewer/tank_photons.hpp"
 #include "apps/viewer/tank_schedule.hpp"
-#include "apps/viewer/tank_screen.hpp"
 #include "apps/viewer/tank_state.hpp"
 #include "planning/tank_plan.hpp"
-#include "spheres/tank.hpp"
+#include "render/tank_renderer.hpp"
 
 namespace brume::viewer {
 
@@ -29,16 +29,24 @@ bool same_samples(const TankPictureKey& a, const TankPictureKey& b);
 
 class TankPainter {
  public:
+  explicit TankPainter(Screen& screen) : screen_(screen) {}
+
+  /// Uploads a tank in the place of the one before, if any, whose picture shows until there is another. May
+  /// run in another thread while nobody uses the device. Throws what TankRenderer throws; then there is none.
+  void load(const spheres::Tank& tank, glm::uvec2 size_px);
+  bool is_loaded() const { return renderer_.has_value(); }
+
   /// Shows a frame with `ui` over it, and returns true; false if the window currently shows nothing. The
-  /// device must have finished the previous frame. Throws what TankScreen::set_view throws.
-  bool draw(TankScreen& screen, const TankState& state, const spheres::Tank& tank, const ImDrawData& ui);
+  /// device must have finished the previous frame. `tank` is the same until load(). Throws what
+  /// TankRenderer::set_kind throws.
+  bool draw(const TankState& state, const spheres::Tank& tank, const ImDrawData& ui);
   /// To be called when the device has finished the frame.
-  void measure(const TankScreen& screen);
-  /// Adds samples until the picture has the window's size and `samples` of each pixel, or `stopped` returns
-  /// true; at least one. Without showing them.
-  void complete(TankScreen& screen, const TankState& state, const spheres::Tank& tank, glm::uvec2 window_px,
-                std::uint32_t samples, const std::function<bool()>& stopped = {});
-  /// The next picture begins again: tank, device or shaders are others.
+  void measure();
+  /// The picture in this size, with at least `samples` of each pixel, unless `check`, which is called after
+  /// every few, throws.
+  image::Image8 picture(const TankState& state, const spheres::Tank& tank, glm::uvec2 size_px,
+                        std::uint32_t samples, const std::function<void()>& check = {});
+  /// The next picture begins again: the shaders are others.
   void restart();
 
   PictureKind kind() const {
@@ -49,20 +57,30 @@ class TankPainter {
   bool is_moving() const { return schedule_.is_moving(); }
   /// Since the picture began, of it at its size now [s]: for rates.
   double seconds() const { return seconds_; }
+  glm::uvec2 picture_px() const;
+  /// Samples of each pixel so far.
+  std::uint32_t samples() const { return renderer_ ? renderer_->samples() : 0; }
 
  private:
-  void begin_picture(TankScreen& screen, const TankState& state, const spheres::Tank& tank,
-                     glm::uvec2 size_px);
-  void set_display(TankScreen& screen, const TankState& state);
-  void set_photons(TankScreen& screen, const std::optional<TankPhotons::Change>& change);
-  /// Of `slice`, what may be drawn with the light paths that the screen has.
-  TankSlice limited(const TankSlice& slice, std::uint32_t samples) const;
+  void begin_picture(const TankState& state, const spheres::Tank& tank, glm::uvec2 size_px);
+  void set_display(const TankState& state);
+  void set_photons(const std::optional<TankPhotons::Change>& change);
+  void choose_slice(std::uint32_t limit);
+  void record_slice(gpu::Recorder& recorder);
+  void record_shown(gpu::Recorder& recorder);
+  void show(const ImDrawData& ui);
+
+  Screen& screen_;
+  std::optional<render::TankRenderer> renderer_;
+  std::optional<scene::TankView> kind_;  ///< The renderer's; none after a failure.
+  scene::TankLighting lighting_ = scene::TankLighting::maps;
+  gpu::Image shown_;              ///< The newest complete picture; none before the first.
+  bool display_changed_ = false;  ///< The picture so far has another exposure than it shall have.
 
   TankSchedule schedule_;
   TankPhotons photons_;
   std::optional<TankPictureKey> drawn_;  ///< At the window's size, whatever that of the picture.
-  float exposure_ = 0, dither_ = 1;
-  scene::ToneCurve tone_ = scene::ToneCurve::neutral;
+  planning::TankDisplay display_;
   TankSlice slice_;  ///< The last one.
   bool is_best_ = false;
   double seconds_ = 0;

@@ -6,7 +6,6 @@
 
 #include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/tank_ui.hpp"
-#include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
 #include "palettes/choice.hpp"
 #include "scene/tank_options.hpp"
@@ -14,13 +13,18 @@
 namespace brume::viewer {
 namespace {
 
-const ImVec4 kTankFault(1, 0.45f, 0.4f, 1), kTankChanged(0.98f, 0.74f, 0.40f, 1);
 constexpr std::uint32_t kMostSeeds = 999;
 
-/// Names of a choice in a row of buttons. Returns whether another one was chosen.
+/// Names of a choice in a row of buttons behind its label, if any. Returns whether another one was chosen.
 template <typename Value>
-bool radios(const char* id, Value& value, std::initializer_list<std::pair<const char*, Value>> choices) {
+bool radios(const char* id, const char* of, Value& value,
+            std::initializer_list<std::pair<const char*, Value>> choices) {
   bool changed = false;
+  if (of) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(of);
+    ImGui::SameLine();
+  }
   ImGui::PushID(id);
   for (const auto& [label, choice] : choices) {
     if (choice != choices.begin()->second) ImGui::SameLine();
@@ -35,33 +39,18 @@ bool radios(const char* id, Value& value, std::initializer_list<std::pair<const 
 
 void lay_out_picture(TankState& state, TankChoices& choices) {
   scene::TankScene scene = state.scene();
-  bool changed = radios("view", scene.view,
+  bool changed = radios("view", nullptr, scene.view,
                         {{"spheres", scene::TankView::spheres}, {"voxels", scene::TankView::voxels}});
-  if (scene.view == scene::TankView::voxels) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("their light:");
-    ImGui::SameLine();
-    changed = radios("lighting", scene.lighting,
-                     {{"maps", scene::TankLighting::maps}, {"exact", scene::TankLighting::exact}}) ||
-              changed;
-  }
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("points of the lens:");
-  ImGui::SameLine();
-  changed = radios("lens points", scene.lens_points,
-                   {{"remap", scene::LensPoints::remap}, {"rejection", scene::LensPoints::rejection}}) ||
-            changed;
-  changed =
-      tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_tank_picture_options(o, v); }) ||
-      changed;
-  changed = tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); }) ||
-            changed;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("tone curve:");
-  ImGui::SameLine();
-  changed = radios("tone", scene.tone,
-                   {{"neutral", scene::ToneCurve::neutral}, {"standard", scene::ToneCurve::standard}}) ||
-            changed;
+  if (scene.view == scene::TankView::voxels)
+    changed |= radios("lighting", "their light:", scene.lighting,
+                      {{"maps", scene::TankLighting::maps}, {"exact", scene::TankLighting::exact}});
+  changed |= radios("lens points", "points of the lens:", scene.lens_points,
+                    {{"remap", scene::LensPoints::remap}, {"rejection", scene::LensPoints::rejection}});
+  changed |=
+      tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_tank_picture_options(o, v); });
+  changed |= tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); });
+  changed |= radios("tone", "tone curve:", scene.tone,
+                    {{"neutral", scene::ToneCurve::neutral}, {"standard", scene::ToneCurve::standard}});
   if (changed) state.edit() = scene;
   checkbox("wait for the display", &choices.vertical_sync);
 }
@@ -74,9 +63,8 @@ void lay_out_sky(TankState& state) {
       [](const std::string& key) { return key != "stars" && key != "bounce"; });
   ImGui::PushID("fog");
   ImGui::TextDisabled("fog in the tank");
-  changed =
-      tank_rows(scene.fog, state.file().fog, [](auto& o, auto&& v) { scene::visit_fog_options(o, v); }) ||
-      changed;
+  changed |=
+      tank_rows(scene.fog, state.file().fog, [](auto& o, auto&& v) { scene::visit_fog_options(o, v); });
   ImGui::PopID();
   if (changed) state.edit() = scene;
 }
@@ -84,9 +72,7 @@ void lay_out_sky(TankState& state) {
 /// The numbers of voxels of a tank, in a row.
 bool size_row(glm::uvec3& size) {
   bool changed = false;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("size [voxels]");
-  ImGui::SameLine(0.42f * ImGui::GetWindowWidth());
+  begin_row("size [voxels]");
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   constexpr const char* kNames[]{"##size x", "##size y", "##size z"};
   for (int axis = 0; axis < 3; ++axis) {
@@ -137,10 +123,7 @@ std::string shown_name(std::string name) {
 template <typename Choice>
 bool choice_row(const std::string& key, Choice& chosen, std::uint32_t count, const char* (*name_of)(Choice)) {
   bool changed = false;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(key.c_str());
-  ImGui::SameLine(0.42f * ImGui::GetWindowWidth());
-  ImGui::SetNextItemWidth(-1);
+  begin_row(key.c_str());
   if (!begin_combo(("##" + key).c_str(), shown_name(name_of(chosen)).c_str())) return false;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto choice = Choice{i};
@@ -169,21 +152,22 @@ void space_row(TankState& state) {
   if (changed) state.edit().palette_space = space;
 }
 
-void lay_out_pack_button(const TankState& state, const TankStatus& status, TankRequests& requests) {
+void lay_out_pack_button(const TankState& state, const TankFigures& figures, const Status& status,
+                         UiRequests& requests) {
   // While it packs, the window over the picture stops it.
   if (status.work) return ImGui::TextDisabled("packing...");
   if (button("Pack")) requests.pack = true;
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("in the background; the picture stays until it is done");
   ImGui::SameLine();
   if (state.differs_from_packed()) {
-    ImGui::TextColored(kTankChanged, "the picture shows the spheres before");
+    ImGui::TextColored(kChangedText, "the picture shows the spheres before");
   } else {
-    ImGui::TextDisabled("%s spheres%s", grouped(status.spheres).c_str(),
+    ImGui::TextDisabled("%s spheres%s", grouped(figures.spheres).c_str(),
                         state.is_complete() ? "" : ", stopped");
   }
 }
 
-void lay_out_tank_files(const TankState& state, TankRequests& requests) {
+void lay_out_tank_files(const TankState& state, UiRequests& requests) {
   const auto act = [&](const char* label, const char* tooltip, Action action) {
     if (button(label)) requests.actions.push_back(action);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
@@ -195,21 +179,20 @@ void lay_out_tank_files(const TankState& state, TankRequests& requests) {
     ImGui::TextWrapped("the tank is from %s", state.scene().file.filename().c_str());
 }
 
-void lay_out_tank_figures(const TankState& state, const TankStatus& status) {
+void lay_out_tank_figures(const TankState& state, const TankFigures& figures, const Status& status) {
   constexpr double kMiB = 1024.0 * 1024.0;
   ImGui::TextWrapped("%s", status.device.c_str());
   ImGui::Text("GPU memory: %.0f MiB", static_cast<double>(status.device_bytes) / kMiB);
-  ImGui::Text("picture: %u x %u pixels, %zu spheres", status.picture_px.x, status.picture_px.y,
-              status.spheres);
+  ImGui::Text("picture: %u x %u pixels, %zu spheres", figures.picture_px.x, figures.picture_px.y,
+              figures.spheres);
   const glm::vec3 size = state.size();
   ImGui::Text("tank: %.2f x %.2f x %.2f m", double{size.x}, double{size.y}, double{size.z});
   for (const auto& scope : status.timings)
     ImGui::Text("%.*s: %.2f ms", static_cast<int>(scope.name.size()), scope.name.data(), scope.milliseconds);
 }
 
-}  // namespace
-
-void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& requests) {
+void lay_out_packing(TankState& state, const TankFigures& figures, const Status& status,
+                     UiRequests& requests) {
   scene::TankScene scene = state.scene();
   if (!scene.file.empty()) {
     ImGui::TextWrapped("The spheres are those of %s.", scene.file.filename().c_str());
@@ -221,27 +204,26 @@ void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& r
   bool changed = false;
   const auto rows = [&](const std::string& key) {
     const auto visit = [](auto& o, auto&& v) { scene::visit_pack_options(o, v); };
-    changed = tank_rows(pack, file, visit, [&](const std::string& each) { return each == key; }) || changed;
+    changed |= tank_rows(pack, file, visit, [&](const std::string& each) { return each == key; });
   };
   rows("spheres");
-  changed = radius_rows(pack, file) || changed;
+  changed |= radius_rows(pack, file);
   rows("distribution");
-  changed =
-      choice_row("arrangement", pack.arrangement, scene::kArrangements, scene::arrangement_name) || changed;
-  changed = choice_row("coloring", pack.coloring, scene::kColorings, scene::coloring_name) || changed;
+  changed |= choice_row("arrangement", pack.arrangement, scene::kArrangements, scene::arrangement_name);
+  changed |= choice_row("coloring", pack.coloring, scene::kColorings, scene::coloring_name);
   if (pack.arrangement == spheres::Arrangement::noise || pack.coloring == spheres::Coloring::noise)
     rows("noise_size");
-  changed = seed_row(pack, file) || changed;
+  changed |= seed_row(pack, file);
   rows("opacity");
-  changed = size_row(pack.size) || changed;
+  changed |= size_row(pack.size);
   rows("voxel");
   if (changed) state.edit() = scene;
 
-  lay_out_pack_button(state, status, requests);
+  lay_out_pack_button(state, figures, status, requests);
 }
 
-void lay_out_palette(TankState& state, TankChoices& choices, const TankStatus& status,
-                     TankRequests& requests) {
+void lay_out_palette(TankState& state, TankChoices& choices, const TankFigures& figures, const Status& status,
+                     UiRequests& requests) {
   if (!state.scene().file.empty()) return ImGui::TextDisabled("the spheres have the colours of their file");
   // What the text chooses, once for each text: a file may be behind it.
   std::string palette = state.scene().palette;
@@ -263,34 +245,22 @@ void lay_out_palette(TankState& state, TankChoices& choices, const TankStatus& s
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("NAME, NAME:0.2-0.6 for a part of it, or a .gpl or .json file; empty: white");
   space_row(state);
-  lay_out_pack_button(state, status, requests);
+  lay_out_pack_button(state, figures, status, requests);
 }
 
-void lay_out_tank_panels(TankState& state, TankChoices& choices, const TankStatus& status,
-                         TankRequests& requests) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = panel_width();
-  ImGui::SetNextWindowPos(ImVec2(display.x - width - kMargin, kMargin), ImGuiCond_Always);
-  ImGui::SetNextWindowSize(ImVec2(width, std::max(display.y - kTimeBarHeight - 3 * kMargin, 80.0f)),
-                           ImGuiCond_Always);
-  ImGui::Begin("Settings", nullptr,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysVerticalScrollbar);
-  if (!status.shader_errors.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, kTankFault);
-    ImGui::TextWrapped("%s", status.shader_errors.c_str());
-    ImGui::PopStyleColor();
-  }
+}  // namespace
+
+void lay_out_tank_sections(TankState& state, TankChoices& choices, const TankFigures& figures,
+                           const Status& status, UiRequests& requests) {
   if (header("Picture", true)) lay_out_picture(state, choices);
   if (header("Lights", true)) lay_out_lights(state, choices);
   if (header("Glass", false)) lay_out_glass(state);
   if (header("Camera and lens", false)) lay_out_lens(state, requests);
   if (header("Sky and fog", false)) lay_out_sky(state);
-  if (header("Packing", false)) lay_out_packing(state, status, requests);
-  if (header("Palette", false)) lay_out_palette(state, choices, status, requests);
+  if (header("Packing", false)) lay_out_packing(state, figures, status, requests);
+  if (header("Palette", false)) lay_out_palette(state, choices, figures, status, requests);
   if (header("Files", false)) lay_out_tank_files(state, requests);
-  if (header("Figures", false)) lay_out_tank_figures(state, status);
-  ImGui::End();
+  if (header("Figures", false)) lay_out_tank_figures(state, figures, status);
 }
 
 }  // namespace brume::viewer

@@ -34,15 +34,13 @@ class TankSchedule {
 
   /// The time that a slice took on the device [s].
   void measured(double seconds, glm::uvec2 size_px, const TankSlice& slice);
-  /// Of a sample of a pixel [s].
-  double seconds_per_sample() const { return seconds_per_sample_; }
-  /// The same is unknown after changes of what is drawn.
+  /// The time of a sample is unknown after changes of what is drawn.
   void restart() { seconds_per_sample_ = kFirstGuess; }
 
  private:
   /// Of a slow device: the first frame of a fast one is merely smaller than it could be.
   static constexpr double kFirstGuess = 1e-6;
-  double seconds_per_sample_ = kFirstGuess;
+  double seconds_per_sample_ = kFirstGuess;  ///< Time of a pixel's sample.
   int still_frames_ = 0;
 };
 

@@ -16,9 +16,8 @@ class TankState {
   TankState(scene::TankScene scene, const glm::vec3& size);
 
   const scene::TankScene& scene() const { return scene_; }
-  /// As loaded, or last saved.
+  /// As loaded.
   const scene::TankScene& file() const { return file_; }
-  void set_file(const scene::TankScene& file) { file_ = file; }
   /// To change it; ends with settle(), which makes a step of undo() of all changes since the last.
   scene::TankScene& edit();
   void settle();

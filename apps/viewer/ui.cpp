@@ -3,6 +3,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -28,6 +29,22 @@ void choose_style() {
   style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.93f, 0.66f, 0.30f, 0.55f);
   style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.98f, 0.74f, 0.40f, 0.75f);
   style.Colors[ImGuiCol_CheckMark] = ImVec4(0.93f, 0.66f, 0.30f, 1);
+}
+
+/// Work that cannot be stopped, in the middle of an empty window.
+void lay_out_steps(const std::string& name, const Work& work) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float row = 1.5f * ImGui::GetFontSize();
+  const auto line = [&](const std::string& text, float rows, ImU32 colour) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list.AddText(ImVec2(0.5f * (display.x - size.x), 0.5f * display.y + rows * row), colour, text.c_str());
+  };
+  char time[32];
+  std::snprintf(time, sizeof time, "%.0f s", std::floor(work.seconds));
+  line("loading " + name, -1.5f, IM_COL32(235, 235, 235, 255));
+  line(work.title, -0.5f, IM_COL32(160, 165, 175, 255));
+  if (work.seconds >= 1) line(time, 0.5f, IM_COL32(160, 165, 175, 255));
 }
 
 }  // namespace
@@ -60,35 +77,32 @@ void Ui::begin_frame() {
   widgets_.begin_frame();
 }
 
-UiRequests Ui::lay_out(Game& game, const Figures& figures, const Notices& notices) {
+UiRequests Ui::lay_out(Document& document, const Status& status) {
   UiRequests requests;
-  const Choices& choices = game.choices();
-  if (choices.overlay) lay_out_shot_marks(game);
-  lay_out_marks(game);
-  if (choices.overlay) lay_out_overlay(game, figures, notices);
+  const WindowChoices& choices = document.choices();
+  document.lay_out_marks();
+  if (choices.overlay) lay_out_overlay(document, status);
   if (choices.panels) {
-    lay_out_panels(game, figures, notices, requests);
-    lay_out_time_bar(game.session(), requests);
+    lay_out_panels(document, status, requests);
+    lay_out_time_bar(document, requests);
   }
-  if (choices.help) lay_out_help(KeyMap::level, "Time stands still while this is open. H closes it.");
+  if (status.work) requests.stop = lay_out_work(*status.work);
+  if (choices.help) lay_out_help(document.keys(), document.help_note());
   ImGui::Render();
   return requests;
 }
 
-void Ui::lay_out_loading(const std::string& level, const std::string& work, double seconds) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float row = 1.5f * ImGui::GetFontSize();
-  const auto line = [&](const std::string& text, float rows, ImU32 colour) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    list.AddText(ImVec2(0.5f * (display.x - size.x), 0.5f * display.y + rows * row), colour, text.c_str());
-  };
-  char time[32];
-  std::snprintf(time, sizeof time, "%.0f s", seconds);
-  line("loading " + level, -1.5f, IM_COL32(235, 235, 235, 255));
-  line(work, -0.5f, IM_COL32(160, 165, 175, 255));
-  if (seconds >= 1) line(time, 0.5f, IM_COL32(160, 165, 175, 255));
+bool Ui::lay_out_loading(const std::string& name, const Work& work, bool overlay) {
+  bool stops = false;
+  if (overlay && work.can_stop) {
+    Work named = work;
+    named.title = name + ": " + work.title;
+    stops = lay_out_work(named);
+  } else if (overlay) {
+    lay_out_steps(name, work);
+  }
   ImGui::Render();
+  return stops;
 }
 
 bool Ui::takes_mouse() const {

@@ -9,18 +9,17 @@ namespace brume::viewer {
 namespace {
 
 bool decal_rows(scene::DecalOptions& decal, const scene::DecalOptions& file) {
-  const auto visit = [&](auto& options, auto&& visitor) {
-    scene::visit_decal_options(options, [&](scene::OptionInfo info, auto& member) {
-      // The range of the file is too wide for a slider.
-      if (std::string_view(info.key) == "scale") {
-        info.low = std::max(info.low, 0.1 * double{file.scale});
-        info.high = std::min(info.high, 10 * double{file.scale});
-      }
-      visitor(info, member);
-    });
-  };
-  // Where it lies is not tuned here.
-  return option_rows(decal, file, visit, [](const std::string& key) { return key != "rotation"; });
+  const auto visit = [](auto& options, auto&& visitor) { scene::visit_decal_options(options, visitor); };
+  return each_row(decal, file, visit, [&](scene::OptionInfo info, auto& member, const auto& standard) {
+    const std::string_view key = info.key;
+    if (key == "rotation") return false;  // where it lies is not tuned here
+    // The range of the file is too wide for a slider.
+    if (key == "scale") {
+      info.low = std::max(info.low, 0.1 * double{file.scale});
+      info.high = std::min(info.high, 10 * double{file.scale});
+    }
+    return option_row(info, member, standard);
+  });
 }
 
 }  // namespace

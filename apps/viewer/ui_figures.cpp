@@ -74,13 +74,13 @@ void lay_out_times(const Figures& figures) {
   ImGui::EndTable();
 }
 
-void lay_out_state(const Session& session, const Figures& figures, const Notices& notices) {
+void lay_out_state(const Session& session, const Figures& figures, const Status& status) {
   const sim::State& state = session.simulation().world().state();
   constexpr double kMiB = 1024.0 * 1024.0;
-  ImGui::Text("%s", notices.device.c_str());
+  ImGui::Text("%s", status.device.c_str());
   ImGui::Text("simulation: %.3f ms CPU", figures.median(&FrameFigures::tick_ms));
   ImGui::Text("from the input to the image: %.1f ms", figures.median(&FrameFigures::latency_ms));
-  ImGui::Text("memory: GPU %.0f MiB, process %.0f MiB", static_cast<double>(notices.device_bytes) / kMiB,
+  ImGui::Text("memory: GPU %.0f MiB, process %.0f MiB", static_cast<double>(status.device_bytes) / kMiB,
               static_cast<double>(resident_bytes()) / kMiB);
   ImGui::Text("tick %u; clouds %zu, holes %zu, explosions %zu", state.tick, state.clouds.size(),
               state.holes.size(), state.blasts.size());
@@ -94,9 +94,9 @@ void lay_out_state(const Session& session, const Figures& figures, const Notices
 
 }  // namespace
 
-void lay_out_figures(const Session& session, const Figures& figures, const Notices& notices) {
+void lay_out_figures(const Session& session, const Figures& figures, const Status& status) {
   lay_out_times(figures);
-  lay_out_state(session, figures, notices);
+  lay_out_state(session, figures, status);
 }
 
 }  // namespace brume::viewer

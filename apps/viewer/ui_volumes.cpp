@@ -10,17 +10,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kLabelWidth = 0.42f;  // of the panel
 constexpr const char* kUsualNames = "by the usual names";
-
-/// The label of a row, before its widgets.
-void begin_row(const char* label, const char* about) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", about);
-  ImGui::SameLine(kLabelWidth * ImGui::GetWindowWidth());
-  ImGui::SetNextItemWidth(-1);
-}
 
 /// A choice among grids; an empty name is the usual one.
 bool grid_row(const char* label, const char* about, std::string& chosen,
@@ -57,27 +47,20 @@ bool grid_rows(scene::VolumeOptions& options, const volumes::VolumeFrame& frame)
 }
 
 bool look_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file, bool has_heat) {
-  bool changed = false;
   const auto shows = [&](std::string_view key) {
     return key == "extinction" || key == "albedo" || key == "anisotropy" || key == "emission" ||
            key == "glow" || (key == "kelvin" && has_heat);
   };
-  std::vector<const void*> initial;
-  scene::visit_volume_options(
-      file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
-  std::size_t i = 0;
-  scene::visit_volume_options(options, [&](scene::OptionInfo info, auto& member) {
-    using Member = std::remove_reference_t<decltype(member)>;
-    const auto& standard = *static_cast<const Member*>(initial[i++]);
-    if (!shows(info.key)) return;
+  const auto visit = [](auto& o, auto&& visitor) { scene::visit_volume_options(o, visitor); };
+  return each_row(options, file, visit, [&](scene::OptionInfo info, auto& member, const auto& standard) {
+    if (!shows(info.key)) return false;
     // The range of the file is too wide for a slider.
     if (std::string_view(info.key) == "extinction" && file.extinction > 0)
       info.high = std::min(info.high, 100 * double{file.extinction});
     if (std::string_view(info.key) == "emission") info.high = 1000;
     if (std::string_view(info.key) == "kelvin") info.high = 20000;
-    changed = option_row(info, member, standard) || changed;
+    return option_row(info, member, standard);
   });
-  return changed;
 }
 
 /// The values that the curves span: those of the first frame, or chosen.
@@ -105,17 +88,6 @@ bool range_row(scene::VolumeOptions& options, const volumes::VolumeFrame& frame)
   return changed;
 }
 
-/// Rows of settings whose ranges in the file are too wide for sliders: `narrow` changes what is shown.
-template <typename Options, typename Visit, typename Narrow>
-bool narrow_rows(Options& options, const Options& file, Visit visit, Narrow narrow) {
-  return option_rows(options, file, [&](auto& members, auto&& visitor) {
-    visit(members, [&](scene::OptionInfo info, auto& member) {
-      narrow(info);
-      visitor(info, member);
-    });
-  });
-}
-
 /// Colour and brightness of what the masks emit.
 bool mask_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file) {
   bool changed = false;
@@ -126,12 +98,11 @@ bool mask_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file) 
     if (mask.keys.empty()) {
       const auto visit = [](auto& o, auto&& visitor) { scene::visit_mask_options(o, visitor); };
       const double most = 10 * std::max(double{file.masks[i].intensity}, 1.0);
-      changed = narrow_rows(mask, file.masks[i], visit,
-                            [&](scene::OptionInfo& info) {
-                              if (std::string_view(info.key) == "intensity")
-                                info.high = std::min(info.high, most);
-                            }) ||
-                changed;
+      const auto row = [&](scene::OptionInfo info, auto& member, const auto& standard) {
+        if (std::string_view(info.key) == "intensity") info.high = std::min(info.high, most);
+        return option_row(info, member, standard);
+      };
+      changed = each_row(mask, file.masks[i], visit, row) || changed;
     } else {
       ImGui::SameLine();
       ImGui::TextDisabled("colour and brightness by its %zu keys", mask.keys.size());
@@ -150,22 +121,17 @@ bool noise_rows(const char* name, Noise& noise, const Noise& file, const volumes
   const glm::vec3 size = frame.bounds.high - frame.bounds.low;
   const double edge = std::max({double{size.x}, double{size.y}, double{size.z}, 1e-3});
   if (!begin_tree(name)) return false;
-  bool changed = false;
-  std::vector<const void*> initial;
-  visit(file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
-  std::size_t i = 0;
-  visit(noise, [&](scene::OptionInfo info, auto& member) {
-    using Member = std::remove_reference_t<decltype(member)>;
-    const auto& standard = *static_cast<const Member*>(initial[i++]);
-    if constexpr (std::is_same_v<Member, glm::vec3>) {
-      changed = vector_row(info, member, standard) || changed;
-    } else {
-      // At least up to what the file has.
-      info.high = std::min(info.high, std::max(2 * edge, double{standard}));
-      if (info.low > 0) info.low = std::min(1e-3 * edge, double{standard});
-      changed = option_row(info, member, standard) || changed;
-    }
-  });
+  const bool changed =
+      each_row(noise, file, visit, [&](scene::OptionInfo info, auto& member, const auto& standard) {
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, glm::vec3>) {
+          return vector_row(info, member, standard);
+        } else {
+          // At least up to what the file has.
+          info.high = std::min(info.high, std::max(2 * edge, double{standard}));
+          if (info.low > 0) info.low = std::min(1e-3 * edge, double{standard});
+          return option_row(info, member, standard);
+        }
+      });
   ImGui::TreePop();
   return changed;
 }

@@ -5,9 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "apps/viewer/session.hpp"
 #include "passes/debug_view.hpp"
+#include "scenario/tank.hpp"
 
 namespace brume::viewer {
 
@@ -36,25 +38,46 @@ struct ViewerOptions {
   std::optional<double> lose_device, lose_surface;  ///< For tests: session times of simulated losses [s].
 };
 
-/// Statistics of a viewer run.
-struct ViewerReport {
-  std::string device, quality;
-  std::uint64_t frames = 0;
-  double seconds = 0;                                                      ///< Session time at the end.
+/// Statistics of a level.
+struct LevelReport {
+  std::string quality;
   double frames_per_second = 0, work_ms = 0, latency_ms = 0, tick_ms = 0;  ///< Medians of the last frames.
   std::vector<std::pair<std::string, double>> passes_ms;                   ///< Median GPU time of each pass.
   std::uint32_t tick = 0;
   std::uint64_t state_hash = 0;
+};
+
+/// Statistics of a tank.
+struct TankReport {
+  std::size_t spheres = 0;    ///< At the end.
+  std::uint32_t samples = 0;  ///< Samples of each pixel of the last picture.
+  glm::uvec2 picture_px{0};   ///< Its size.
+  std::size_t packings = 0;   ///< After the first tank.
+};
+
+/// Statistics of a viewer run.
+struct ViewerReport {
+  std::string device;
+  std::uint64_t frames = 0;  ///< Frames of the running film; all frames of a tank.
+  double seconds = 0;        ///< Session time at the end.
+  std::variant<LevelReport, TankReport> document;
   std::uint64_t process_bytes = 0, device_bytes = 0;  ///< Memory at the end.
   std::size_t shader_reloads = 0, devices_lost = 0;
   std::vector<std::string> validation_messages;
 };
 
 using ScenarioLoader = std::function<scenario::Scenario()>;
+/// Makes a tank with its scene; packing ends early, with what is packed so far, when its argument returns
+/// true. Throws Error.
+using TankMaker = std::function<scenario::TankScenario(const std::function<bool()>& stopped)>;
 
 /// Opens a window, loads a scenario in another thread, and returns when the window is closed. With `play` the
 /// events of its timeline take place. Throws what `load` throws, no_device without a display or device, and
 /// bad_input for an invalid timeline.
 ViewerReport run_viewer(const ScenarioLoader& load, bool play, const ViewerOptions& options);
+
+/// Makes a tank in another thread, and shows it; with `play` its time runs from the start. Quality, volumes,
+/// view, weapons and record are options of levels alone. The screenshot has all samples of the scene.
+ViewerReport run_viewer(const TankMaker& make, bool play, const ViewerOptions& options);
 
 }  // namespace brume::viewer

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/viewer/option_labels.hpp"
-#include "scene/event_fields.hpp"
 #include "tests/viewer/foggy_room.hpp"
 
 namespace brume::viewer {
@@ -240,26 +238,6 @@ TEST_F(GameTest, FileListShowsFoldersAndImages) {
   EXPECT_EQ(list.files().size(), 2u);
   list.open(folder_.path() / "none");
   EXPECT_EQ(list.folders(), std::vector<std::string>{".."});
-}
-
-TEST(OptionLabelsTest, EverySettingHasALabelOfItsOwn) {
-  const auto expect_labels = [](auto options, auto visit) {
-    std::set<std::string> labels;
-    visit(options, [&](const scene::OptionInfo& info, const auto&) {
-      const std::string label = label_of(info);
-      EXPECT_NE(label, "") << info.key;
-      EXPECT_EQ(label.find('_'), std::string::npos) << label;
-      EXPECT_TRUE(labels.insert(label).second) << label;
-    });
-  };
-  expect_labels(scene::SmokeOptions(), [](auto& o, auto&& v) { scene::visit_smoke_options(o, v); });
-  expect_labels(scene::SkyOptions(), [](auto& o, auto&& v) { scene::visit_sky_options(o, v); });
-  expect_labels(scene::Timeline(), [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); });
-  expect_labels(scene::Camera(), [](auto& o, auto&& v) { scene::visit_camera_options(o, v); });
-  expect_labels(scene::ShotEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
-  expect_labels(scene::TextEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
-  expect_labels(scene::BlastEvent(), [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); });
-  expect_labels(scenario::WalkerOptions(), [](auto& o, auto&& v) { scenario::visit_walker_options(o, v); });
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cstdio>
 #include <string>
 
@@ -11,9 +10,6 @@
 namespace brume::viewer {
 namespace {
 
-constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr ImU32 kMark = IM_COL32(255, 190, 90, 255), kShade = IM_COL32(0, 0, 0, 160);
 constexpr ImU32 kVisible = IM_COL32(110, 220, 130, 255), kHidden = IM_COL32(240, 90, 80, 255);
 
@@ -64,16 +60,32 @@ void lay_out_probe(const Choices& choices, const Session& session, const scene::
           result ? probe_text(*result) : result.failure().message);
 }
 
-const ImVec4 kAccent(1, 0.8f, 0.5f, 1), kFault(1, 0.45f, 0.4f, 1);
+}  // namespace
+
+std::optional<glm::vec2> on_display(const scene::Camera& camera, glm::vec3 world) {
+  return in_picture(camera, display_size(), world);
+}
+
+void lay_out_level_marks(const Game& game) {
+  const Choices& choices = game.choices();
+  const glm::vec2 middle = 0.5f * display_size();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (!choices.panels && !choices.help && choices.overlay) {
+    const ImVec2 at(middle.x, middle.y);
+    list.AddCircle(at, 4.5f, IM_COL32(0, 0, 0, 140), 0, 2.5f);
+    list.AddCircle(at, 4.5f, IM_COL32(255, 255, 255, 190), 0, 1.2f);
+  }
+  lay_out_probe(choices, game.session(), game.player().camera());
+}
 
 /// What the window shows: frames of a film, or a still.
-void lay_out_status(const Game& game, const Figures& figures, const Notices& notices) {
+void lay_out_level_status(const Game& game, const Figures& figures, const Notices& notices) {
   if (notices.refinement == Refinement::drawing) {
     ImGui::TextUnformatted("paused, drawing the best image...");
   } else if (notices.refinement == Refinement::done) {
     ImGui::TextUnformatted("paused, best image");
   } else if (figures.count() > 0) {
-    ImGui::Text("%.0f frames/s, quality %s%s", figures.frames_per_second(), notices.quality->name,
+    ImGui::Text("%.0f frames/s, quality %s%s", figures.frames_per_second(), notices.quality.name,
                 notices.automatic ? " (auto)" : "");
   } else {
     ImGui::TextUnformatted("begins...");
@@ -87,47 +99,40 @@ void lay_out_status(const Game& game, const Figures& figures, const Notices& not
               name_of(game.choices().weapons.kind));
   if (notices.pace < 0.95 && !game.session().paused()) {
     ImGui::SameLine();
-    ImGui::TextColored(kAccent, " slowed: %.1fx", notices.pace);
+    ImGui::TextColored(kAccentText, " slowed: %.1fx", notices.pace);
   }
-}
-
-}  // namespace
-
-std::optional<glm::vec2> on_display(const scene::Camera& camera, glm::vec3 world) {
-  return in_picture(camera, display_size(), world);
-}
-
-void lay_out_marks(const Game& game) {
   const Choices& choices = game.choices();
-  const glm::vec2 middle = 0.5f * display_size();
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  if (!choices.panels && !choices.help && choices.overlay) {
-    const ImVec2 at(middle.x, middle.y);
-    list.AddCircle(at, 4.5f, IM_COL32(0, 0, 0, 140), 0, 2.5f);
-    list.AddCircle(at, 4.5f, IM_COL32(255, 255, 255, 190), 0, 1.2f);
-  }
-  lay_out_probe(choices, game.session(), game.player().camera());
-}
-
-void lay_out_overlay(const Game& game, const Figures& figures, const Notices& notices) {
-  const Choices& choices = game.choices();
-  // Beside the panels, not under them; as wide as its usual lines, so that it does not jump.
-  const float room = display_size().x - 2 * kMargin - (choices.panels ? panel_width() + kMargin : 0);
-  const float usual = std::min(room, 20 * ImGui::GetFontSize());
-  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(usual, 0), ImVec2(std::max(room, usual), FLT_MAX));
-  ImGui::SetNextWindowBgAlpha(0.55f);
-  ImGui::Begin("figures", nullptr, kPlain);
-  ImGui::PushTextWrapPos(room - ImGui::GetStyle().WindowPadding.x);
-  lay_out_status(game, figures, notices);
   if (choices.view != passes::DebugView::none)
     ImGui::Text("view: %s", std::string(passes::debug_view_name(choices.view)).c_str());
   if (!choices.decals) ImGui::TextUnformatted("decals hidden (B)");
-  if (!notices.shader_errors.empty()) ImGui::TextColored(kFault, "shader error: see the panels");
-  for (const std::string& line : notices.lines) ImGui::TextColored(kAccent, "%s", line.c_str());
-  if (figures.count() < 600 && !choices.help) ImGui::TextDisabled("H: help   Tab: settings");
-  ImGui::PopTextWrapPos();
-  ImGui::End();
+}
+
+void mark_events(const scene::Timeline& timeline, const TimeMark& mark) {
+  const auto marks = [&](const auto& events, ImU32 colour) {
+    for (const auto& event : events) mark(event.time, colour);
+  };
+  for (const scene::Carrier& carrier : timeline.carriers) marks(carrier.keys, IM_COL32(180, 130, 240, 255));
+  marks(timeline.smokes, IM_COL32(200, 205, 215, 255));
+  marks(timeline.shots, IM_COL32(255, 190, 90, 255));
+  marks(timeline.texts, IM_COL32(255, 220, 140, 255));
+  marks(timeline.blasts, IM_COL32(240, 90, 80, 255));
+  marks(timeline.doors, IM_COL32(120, 190, 120, 255));
+  marks(timeline.edits, IM_COL32(120, 160, 220, 255));
+}
+
+void lay_out_level_buttons(const Session& session, UiRequests& requests) {
+  const auto act = [&](const char* label, const char* tooltip, Action action) {
+    if (bar_button(label, tooltip)) requests.actions.push_back(action);
+  };
+  act(session.paused() ? "resume###pause" : "pause###pause", "stop the time, or let it run (P)",
+      Action::pause);
+  act("to start", "back to the start: all actions happen again while you walk (R)", Action::rewind);
+  if (bar_button("replay", "from the start, with all actions, along the recorded camera path"))
+    requests.play = true;
+  act("undo", "take back the last action or setting (Ctrl+Z)", Action::undo);
+  act("redo", "do again what was undone (Ctrl+Y)", Action::redo);
+  act("remove all", "remove all actions of this session (Shift+R); undo brings them back", Action::empty);
+  act("save", "save the session as a timeline (F5)", Action::save_recording);
 }
 
 }  // namespace brume::viewer

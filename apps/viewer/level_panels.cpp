@@ -12,8 +12,6 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kPanelWidth = 400;
-
 bool is_shape(const std::string& key) {
   return key.starts_with("noise") || key == "erosion" || key.starts_with("swirl") || key == "rise";
 }
@@ -33,15 +31,16 @@ void smoke_rows(Game& game, const char* what, const std::function<bool(const std
   const scenario::Scenario& scenario = game.session().live().scenario();
   scene::SmokeOptions smoke = scenario.timeline.smoke;
   const scene::SmokeOptions& file = game.session().file().smoke;
-  bool changed = false;
-  if (selects("voxels"))
-    scene::visit_smoke_options(smoke, [&](const scene::OptionInfo& info, auto& member) {
-      if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, std::uint32_t>)
-        changed = volume_row(info, member, file.voxels, scenario.voxels.grid.layout().voxel_size) || changed;
-    });
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_smoke_options(options, visitor); };
-  const auto others = [&](const std::string& key) { return key != "voxels" && selects(key); };
-  changed = option_rows(smoke, file, visit, others) || changed;
+  const bool changed =
+      each_row(smoke, file, visit, [&](const scene::OptionInfo& info, auto& member, const auto& standard) {
+        if (!selects(info.key)) return false;
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, std::uint32_t>) {
+          return volume_row(info, member, standard, scenario.voxels.grid.layout().voxel_size);
+        } else {
+          return option_row(info, member, standard);
+        }
+      });
   if (changed) apply(game, what, game.session().set_smoke(smoke));
 }
 
@@ -142,7 +141,7 @@ void lay_out_quality(Choices& choices, const Notices& notices) {
   checkbox("wait for the display", &choices.vertical_sync);
   checkbox("smooth over frames", &choices.temporal);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("smoke and edges: the mean of up to 16 frames");
-  const Quality& now = *notices.quality;
+  const Quality& now = notices.quality;
   ImGui::Text("now: %s, image of %ux%u pixels", now.name, notices.picture_px.x, notices.picture_px.y);
   ImGui::Text("one ray of smoke per %ux%u pixels", now.march_scale, now.march_scale);
   ImGui::Text("steps through smoke %.1f times as long", double{now.step_scale});
@@ -238,19 +237,8 @@ void lay_out_camera(Game& game, UiRequests& requests) {
 
 }  // namespace
 
-void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, UiRequests& requests) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = panel_width();
-  ImGui::SetNextWindowPos(ImVec2(display.x - width - 8, 8), ImGuiCond_Always);
-  ImGui::SetNextWindowSize(ImVec2(width, std::max(display.y - kTimeBarHeight - 24, 80.0f)), ImGuiCond_Always);
-  ImGui::Begin("Settings", nullptr,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysVerticalScrollbar);
-  if (!notices.shader_errors.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.45f, 0.4f, 1));
-    ImGui::TextWrapped("%s", notices.shader_errors.c_str());
-    ImGui::PopStyleColor();
-  }
+void lay_out_level_sections(Game& game, const Figures& figures, const Notices& notices, const Status& status,
+                            UiRequests& requests) {
   if (header("Smoke", true))
     smoke_rows(game, "smoke", [](const std::string& key) { return !is_shape(key) && !is_lighting(key); });
   if (header("Shots and explosions", false)) lay_out_shots(game);
@@ -262,12 +250,7 @@ void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, 
   if (header("Camera", false)) lay_out_camera(game, requests);
   if (header("Quality", false)) lay_out_quality(game.choices(), notices);
   if (header("Debug views", false)) lay_out_views(game);
-  if (header("Figures", false)) lay_out_figures(game.session(), figures, notices);
-  ImGui::End();
-}
-
-float panel_width() {
-  return std::min(kPanelWidth, 0.5f * ImGui::GetIO().DisplaySize.x);
+  if (header("Figures", false)) lay_out_figures(game.session(), figures, status);
 }
 
 }  // namespace brume::viewer

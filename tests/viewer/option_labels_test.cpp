@@ -1,0 +1,67 @@
+// Every setting that the panels show has a label.
+#include "apps/viewer/option_labels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "scenario/walker.hpp"
+#include "scene/event_fields.hpp"
+#include "scene/tank_options.hpp"
+
+namespace brume::viewer {
+namespace {
+
+using VisitInfo = std::function<void(const scene::OptionInfo&)>;
+
+/// The settings of a struct, and a name for them.
+struct Table {
+  const char* name;
+  std::function<void(const VisitInfo&)> visit;
+};
+
+template <typename Options, typename Visit>
+Table table(const char* name, Visit visit) {
+  return {name, [visit](const VisitInfo& info) {
+            const Options options;
+            visit(options, [&](const scene::OptionInfo& each, const auto&) { info(each); });
+          }};
+}
+
+class OptionLabelsTest : public testing::TestWithParam<Table> {};
+
+TEST_P(OptionLabelsTest, EverySettingHasALabelOfItsOwn) {
+  std::set<std::string> labels;
+  GetParam().visit([&](const scene::OptionInfo& info) {
+    const std::string label = label_of(info);
+    EXPECT_NE(label, "") << info.key;
+    EXPECT_EQ(label.find('_'), std::string::npos) << label;
+    EXPECT_TRUE(labels.insert(label).second) << label;
+  });
+  EXPECT_FALSE(labels.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Panels, OptionLabelsTest,
+    testing::Values(
+        table<scene::SmokeOptions>("Smoke", [](auto& o, auto&& v) { scene::visit_smoke_options(o, v); }),
+        table<scene::SkyOptions>("Sky", [](auto& o, auto&& v) { scene::visit_sky_options(o, v); }),
+        table<scene::Timeline>("Timeline", [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); }),
+        table<scene::Camera>("Camera", [](auto& o, auto&& v) { scene::visit_camera_options(o, v); }),
+        table<scene::ShotEvent>("Shots", [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); }),
+        table<scene::TextEvent>("Words", [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); }),
+        table<scene::BlastEvent>("Blasts", [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); }),
+        table<scenario::WalkerOptions>("Body",
+                                       [](auto& o, auto&& v) { scenario::visit_walker_options(o, v); }),
+        table<scene::TankScene>("TankPicture",
+                                [](auto& o, auto&& v) { scene::visit_tank_picture_options(o, v); }),
+        table<spheres::PackOptions>("Packing", [](auto& o, auto&& v) { scene::visit_pack_options(o, v); }),
+        table<scene::TankFog>("Fog", [](auto& o, auto&& v) { scene::visit_fog_options(o, v); }),
+        table<scene::TankLight>("TankLights",
+                                [](auto& o, auto&& v) { scene::visit_tank_light_options(o, v); }),
+        table<scene::TankGlass>("Glass", [](auto& o, auto&& v) { scene::visit_glass_options(o, v); })),
+    [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace brume::viewer
