@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "image/decode.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
 #include "tests/cli/run_program.hpp"
@@ -228,6 +229,65 @@ TEST_F(Spheres, OfDamagedFilesAreRefused) {
     expect_failure(folder_, with("text.spheres"), 3, {"text.spheres: not a .spheres file"});
     expect_failure(folder_, with("none.spheres"), 3, {"none.spheres"});
   }
+}
+
+/// A scene of a tank, path-traced.
+class TankScene : public Spheres {
+ protected:
+  TankScene() {
+    write("tank.toml", 2);
+    write("direct.toml", 0);
+  }
+  void write(const std::string& name, int bounces) const {
+    folder_.write(name,
+                  "version = 1\n[tank]\nsize = [24, 24, 12]\nvoxel = 0.05\nspheres = 60\nradius = [1, 4]\n"
+                  "palette = \"viridis\"\nbounces = " +
+                      std::to_string(bounces) +
+                      "\n[[light]]\nposition = [0.5, 0.8, 1.5]\nintensity = 4\n"
+                      "[[camera]]\ntime = 0\nposition = [0, 0.4, 2]\ntarget = [0, 0, 0]\nfov = 42\n");
+  }
+  /// The bytes of each pixel's channels.
+  std::vector<std::uint8_t> render(const std::string& scene, const Arguments& more,
+                                   const std::string& output = "p.png",
+                                   const std::string& file = "p.png") const {
+    Arguments arguments{"render",    scene,    "-o",    output,      "--mode",
+                        "reference", "--size", "48x32", "--samples", "4"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome done = run(arguments);
+    EXPECT_EQ(done.exit_code, 0) << done.error;
+    return image::load_image(folder_.path() / file).value_or_throw().rgba;
+  }
+  static double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(int{a[i]} - int{b[i]});
+    return sum;
+  }
+};
+
+TEST_F(TankScene, TakesBouncesFromTheCommandLine) {
+  const auto few = render("tank.toml", {"--time", "0", "--max-bounces", "0"});
+  EXPECT_EQ(few, render("direct.toml", {"--time", "0"}));
+  EXPECT_NE(few, render("tank.toml", {"--time", "0"}));
+}
+
+TEST_F(TankScene, TheCameraOrbitsItsTarget) {
+  render("tank.toml", {"--orbit", "360", "--frames", "0-1"}, "f_%04d.png", "f_0001.png");
+  const auto frame = [&](const char* name) {
+    return image::load_image(folder_.path() / name).value_or_throw().rgba;
+  };
+  const auto front = render("tank.toml", {"--time", "0"});
+  EXPECT_EQ(frame("f_0000.png"), front);
+  // From behind: the same camera but for roundings, which few pixels show.
+  const auto behind = render("tank.toml", {"--time", "0", "--camera", "0,0.4,-2 0,0,0 42"});
+  EXPECT_LT(difference(frame("f_0001.png"), behind), 0.05 * difference(front, behind));
+}
+
+TEST_F(TankScene, RefusesOptionsOfLevels) {
+  for (const char* option :
+       {"--shutter=0.1", "--march=half", "--step=2", "--volume-memory=64", "--view=depth", "--voxel=0.1",
+        "--scale=2", "--kelvin=900", "--smoke-size=2", "--color-map=viridis"})
+    expect_failure(folder_, {"render", "tank.toml", "-o", "p.png", option}, 2,
+                   {"is not for a tank of spheres"});
 }
 
 }  // namespace
