@@ -57,11 +57,11 @@ class Field {
   /// The same with the state and the grids of a world of the level, which are not copied: the world must stay
   /// as it is while the field is read.
   void update(const sim::World& world);
-  /// The surfaces of edits whose geometry is known, the oldest first; none is null. They come into effect at
-  /// the next update, which rebuilds the cells of those that came or went.
+  /// The surfaces of edits whose geometry is known, the oldest first; none is null. An update has to follow,
+  /// which rebuilds the cells of those that came or went.
   void set_patches(std::vector<std::shared_ptr<const voxel::PlanePatch>> patches);
   /// To be called where the world or the masks change before the next update: holes and sights that are kept
-  /// are found anew when they are next asked for.
+  /// are made again on their next use.
   void forget_sights();
 
   const sim::State& state() const { return *state_; }
@@ -101,7 +101,7 @@ class Field {
   voxel::PatchedPlanes patched_;                                   // with those that are not covered
   const PlaneSource planes_;
   SmokeVolume volume_;
-  // Found when they are first asked for.
+  // Made on their first use.
   mutable std::mutex mutex_;
   mutable std::optional<std::vector<shared::Hole>> holes_;
   mutable std::array<KeptSight, 2> sights_;  // without noise, with noise

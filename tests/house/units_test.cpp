@@ -23,7 +23,7 @@ const Groups kKnownCircles{
     {"src/planning/scenario_frame", "src/planning/volume_inputs"},
     {"src/reference/emission_cells", "src/reference/medium"},
     {"src/scenario/scenario", "src/scenario/smoke_report"},
-    {"src/scenario/volume_extent", "src/scenario/volume_frame", "src/scenario/volume_grids"},
+    {"src/volumes/volume_extent", "src/volumes/volume_frame", "src/volumes/volume_grids"},
     {"src/scene/options", "src/scene/timeline", "src/scene/timeline_parts"},
 };
 

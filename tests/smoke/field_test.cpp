@@ -288,7 +288,7 @@ TEST(Field, KeepsSightsUntilTheNextUpdate) {
   EXPECT_NE(field.sight(other), noisy);
   EXPECT_NE(field.sight({.extinction = 1}), plain);
 
-  // They depend on the look alone, not on which was asked for before, nor on the thread.
+  // They depend on the look alone, not on which came before, nor on the thread.
   const auto lines = segments(3, 40);
   const auto expected = depths(field, {}, lines), with_noise = depths(field, drawn(), lines);
   EXPECT_NE(expected, with_noise);
