@@ -34,7 +34,7 @@ class TankSchedule {
 
   /// The time that a slice took on the device [s].
   void measured(double seconds, glm::uvec2 size_px, const TankSlice& slice);
-  /// The time of a sample is unknown after changes of what is drawn.
+  /// What was measured no longer holds: what is drawn has changed.
   void restart() { seconds_per_sample_ = kFirstGuess; }
 
  private:

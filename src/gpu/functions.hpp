@@ -34,8 +34,8 @@
 
 // Only for presentation in a window.
 #define BRUME_VK_SURFACE_FUNCTIONS(X) \
-  X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceSupportKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) \
-  X(GetPhysicalDeviceSurfaceFormatsKHR) X(GetPhysicalDeviceSurfacePresentModesKHR)
+  X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) X(GetPhysicalDeviceSurfaceFormatsKHR) \
+  X(GetPhysicalDeviceSurfacePresentModesKHR)
 
 #define BRUME_VK_SWAPCHAIN_FUNCTIONS(X) \
   X(CreateSwapchainKHR) X(DestroySwapchainKHR) X(GetSwapchainImagesKHR) X(AcquireNextImageKHR) X(QueuePresentKHR)

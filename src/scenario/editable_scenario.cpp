@@ -276,14 +276,6 @@ Result<void> EditableScenario::set_bounces(std::uint32_t bounces) {
   return {};
 }
 
-Result<void> EditableScenario::set_duration(float duration) {
-  scene::Timeline chosen;
-  chosen.duration = duration;
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.duration = duration;
-  return {};
-}
-
 Result<void> EditableScenario::set_camera(std::vector<scene::CameraKey> keys) {
   scene::Timeline chosen;
   chosen.camera = std::move(keys);

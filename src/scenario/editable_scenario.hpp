@@ -55,8 +55,6 @@ class EditableScenario {
   Result<void> set_exposure(float exposure);
   /// How often surfaces and smoke pass light on to each other; 0: never.
   Result<void> set_bounces(std::uint32_t bounces);
-  /// Length of the film [s].
-  Result<void> set_duration(float duration);
   /// The path of the camera; sorted by time, no two times equal.
   Result<void> set_camera(std::vector<scene::CameraKey> keys);
 

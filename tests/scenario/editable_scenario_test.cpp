@@ -268,7 +268,6 @@ TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
   EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
   EXPECT_TRUE(live->set_exposure(2));
   EXPECT_TRUE(live->set_bounces(8));
-  EXPECT_TRUE(live->set_duration(9));
   EXPECT_TRUE(live->set_camera({{1, {}}, {2, {}}}));
   EXPECT_EQ(reloaded(live->scenario().timeline).timeline.camera.size(), 2u);
   EXPECT_EQ(reloaded(live->scenario().timeline).timeline.bounces, 8u);

@@ -265,7 +265,7 @@ TEST(TankRestartTest, AnyVisibleChangeBeginsThePictureAgain) {
 
 TEST(TankScheduleTest, DrawsLessWhileSomethingMovesAndAllAtRest) {
   constexpr glm::uvec2 kWindow(640, 360);
-  constexpr double kSeconds = 0.25;  // of a sample of each pixel
+  constexpr double kSeconds = 0.25;
   TankSchedule schedule;
   schedule.measured(kSeconds, kWindow, {1, 0});
   schedule.begin_frame(true);
