@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "core/utf8.hpp"
 #include "scenario/aim.hpp"
 #include "scenario/doors.hpp"
 #include "scene/options.hpp"
@@ -12,14 +14,6 @@ namespace {
 
 constexpr float kReach = 100;       // [m]: range of an action
 constexpr float kBlastBack = 0.3f;  // [m]: an explosion is in front of the surface that it hits
-
-/// Number of bytes that the UTF-8 lead byte at `at` announces, clamped to the text. Does not validate: a
-/// stray continuation byte (0x80-0xBF) counts as the lead of two bytes; the font refuses the letter later.
-std::size_t character_bytes(const std::string& text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t bytes = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  return std::min(bytes, text.size() - at);
-}
 
 /// The time of the last event or camera key [s].
 double last_event(const scene::Timeline& timeline) {
@@ -234,9 +228,12 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
     const std::string word = text.text;
     for (std::size_t tries = 0; tries < word.size(); ++tries) {
       if (next_letter_ >= word.size()) next_letter_ = 0;
-      const std::size_t bytes = character_bytes(word, next_letter_);
-      text.text = word.substr(next_letter_, bytes);
-      next_letter_ += bytes;
+      std::string_view rest = std::string_view(word).substr(next_letter_);
+      // The check of the text refuses what is not UTF-8.
+      if (!take_character(rest)) rest.remove_prefix(1);
+      const std::size_t end = word.size() - rest.size();
+      text.text = word.substr(next_letter_, end - next_letter_);
+      next_letter_ = end;
       if (text.text != " ") break;
     }
   }
