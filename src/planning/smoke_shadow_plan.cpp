@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/row_packer.hpp"
+
 namespace brume::planning {
 namespace {
 
@@ -130,16 +132,13 @@ bool pack(std::span<const FacePart> parts, float texel_metres, glm::uvec2 atlas,
   std::sort(rectangles.begin(), rectangles.end(), [](const FaceRectangle& a, const FaceRectangle& b) {
     return a.face.size.y != b.face.size.y ? a.face.size.y > b.face.size.y : a.part < b.part;
   });
-  glm::uvec2 at(0);
-  std::uint32_t row = 0;
+  RowPacker packer(atlas);
   for (auto& [face, part] : rectangles) {
-    if (at.x + face.size.x > atlas.x) at = {0, at.y + row};
-    if (at.x == 0) row = face.size.y;
-    if (face.size.x > atlas.x || at.y + face.size.y > atlas.y) return false;
-    face.first_texel = at;
-    face.offset = glm::vec2(at) + 1.0f - part->low * face.scale;
+    const auto low = packer.place(face.size);
+    if (!low) return false;
+    face.first_texel = *low;
+    face.offset = glm::vec2(*low) + 1.0f - part->low * face.scale;
     plan.faces[part->index] = face;
-    at.x += face.size.x;
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/hash.hpp"
+#include "core/row_packer.hpp"
 
 namespace brume::smoke {
 namespace {
@@ -24,20 +25,13 @@ struct Layout {
 std::optional<Layout> lay_out(std::span<const Mask> masks, std::span<const std::uint32_t> by_height,
                               std::uint32_t width) {
   Layout layout{width, 0, std::vector<glm::uvec2>(masks.size())};
-  std::uint32_t x = 0, y = 0, row_height = 0;
+  RowPacker packer({width, kMaxMaskAtlasAxis});
   for (const std::uint32_t i : by_height) {
-    const std::uint32_t w = masks[i].width + 2 * kPad, h = masks[i].height + 2 * kPad;
-    if (w > width) return std::nullopt;
-    if (x + w > width) {
-      y += row_height;
-      x = row_height = 0;
-    }
-    if (y + h > kMaxMaskAtlasAxis) return std::nullopt;
-    layout.corners[i] = {x + kPad, y + kPad};
-    x += w;
-    row_height = std::max(row_height, h);
+    const auto low = packer.place({masks[i].width + 2 * kPad, masks[i].height + 2 * kPad});
+    if (!low) return std::nullopt;
+    layout.corners[i] = *low + kPad;
   }
-  layout.height = std::bit_ceil(y + row_height);
+  layout.height = std::bit_ceil(packer.height());
   return layout;
 }
 
