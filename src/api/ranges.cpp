@@ -1,5 +1,6 @@
 #include "api/ranges.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>

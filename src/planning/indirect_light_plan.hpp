@@ -41,7 +41,9 @@ class IndirectLightCache {
   /// The device lost its light.
   void invalidate() {
     State& state = state_.reset();
-    state = State{.version = state.version + 1};
+    const std::uint64_t version = state.version + 1;
+    state = {};
+    state.version = version;
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "scenario/smoke_start.hpp"
 #include "scene/event_fields.hpp"

@@ -32,15 +32,15 @@ struct EventTexts {
   }
   void operator()(const FileField& field, const fs::path& file) {
     lines.push_back(
-        {field.key, file.empty() ? "" : text_of(path_from(file, folder).generic_string()), false});
+        {field.key, file.empty() ? "" : to_text(path_from(file, folder).generic_string()), false});
   }
   void operator()(const ChoiceField& field, const auto& choice) {
     const std::string name = field.names[static_cast<std::size_t>(choice)];
-    lines.push_back({field.key, text_of(name), false});
+    lines.push_back({field.key, to_text(name), false});
   }
   void operator()(const EventRule&, const auto&, const auto&) {}
   void operator()(const auto& field, const auto& member) {
-    lines.push_back({field.key, text_of(member), true});
+    lines.push_back({field.key, to_text(member), true});
   }
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/log.hpp"
+#include "grids/files.hpp"
 #include "grids/metadata.hpp"
 #include "spheres/color.hpp"
 #include "spheres/file.hpp"

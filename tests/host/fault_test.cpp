@@ -269,7 +269,9 @@ void FaultTest::fail_each_call() {
         EXPECT_STRNE(brume_last_error(), "");
       }
     // A frame that failed costs what it allocated, not the renderer.
-    if (fails_at > calls_of_first) EXPECT_LE(Faults::calls, calls + kMoreCalls);
+    if (fails_at > calls_of_first) {
+      EXPECT_LE(Faults::calls, calls + kMoreCalls);
+    }
     // A plan that was given up leaves nothing up to date. Bricks that are placed again lie elsewhere in
     // their image, where coordinates round otherwise.
     EXPECT_TRUE(picture() == second || picture() == second_alone);

@@ -28,7 +28,8 @@ TEST_F(ShadowTest, LayersShareSubmissions) {
   constexpr int kLights = 51;
   scene::Scene scene;
   render::add_box(scene.meshes.emplace_back(), {0.9f, -0.1f, -0.1f}, {1.1f, 0.1f, 0.1f});
-  scene.objects.emplace_back().mesh = 0;
+  scene.materials.resize(1);
+  scene.objects = {{"box", 0, 0, glm::mat4(1)}};
   for (int i = 0; i < kLights; ++i) {
     scene::Light& light = scene.lights.emplace_back();
     light.position_world = {2 * i, 0, 0};

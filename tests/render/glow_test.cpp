@@ -87,7 +87,7 @@ class GlowFieldTest : public VolumeFixture {
     input_.view.camera = {{0, 0, 6}, {0, 0, 0}, 0.6f};
     renderer_.emplace(context(), runner(), scene_, RendererOptions{.size_px = {8, 8}});
     renderer_->draw(input_);
-    texels_ = read_back<passes::Half4>(renderer_->smoke().glow_field());
+    texels_ = read_back<passes::Half4>(renderer_->volumes().glow_field());
   }
   /// Green.
   double at(glm::ivec3 cell, std::uint32_t part) const {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tuple>
-
 #include "core/same_bytes.hpp"
 #include "tests/render/boxes.hpp"
 

@@ -13,8 +13,11 @@ namespace brume::vxl {
 namespace {
 
 using voxel::BitGrid;
+using voxel::Plane;
+using voxel::Solids;
 using voxel::SurfacePlanes;
 using voxel::Triangle;
+using voxel::TrianglesByRole;
 using voxel::voxelize;
 
 using glm::ivec3;
