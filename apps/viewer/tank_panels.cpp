@@ -17,12 +17,12 @@ constexpr std::uint32_t kMostSeeds = 999;
 
 /// Names of a choice in a row of buttons behind its label, if any. Returns whether another one was chosen.
 template <typename Value>
-bool radios(const char* id, const char* of, Value& value,
+bool radios(const char* id, const char* title, Value& value,
             std::initializer_list<std::pair<const char*, Value>> choices) {
   bool changed = false;
-  if (of) {
+  if (title) {
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(of);
+    ImGui::TextUnformatted(title);
     ImGui::SameLine();
   }
   ImGui::PushID(id);

@@ -29,7 +29,7 @@ class RowPacker {
     row_height_ = std::max(row_height_, rectangle.y);
     return low;
   }
-  /// Of all rows.
+  /// The height of all rows.
   std::uint32_t height() const { return at_.y + row_height_; }
 
  private:

@@ -108,9 +108,7 @@ class Context {
   RecordingId begin_recording();
   /// They will not be executed: see Recorded.
   void drop_recording(RecordingId recording) noexcept;
-  bool is_dropped(RecordingId recording) const {
-    return !dropped_.empty() && is_in_dropped_range(recording);
-  }
+  bool is_dropped(RecordingId recording) const { return !dropped_.empty() && is_in_dropped_range(recording); }
 
   // Only when owns_device():
   VkInstance instance() const { return instance_->handle(); }

@@ -16,12 +16,11 @@ HostRecording::Slot& HostRecording::take_slot(bool is_frame) {
   return slot;
 }
 
-/// Of the newest completed frame, before its slot is used again.
+/// Keeps the times of the newest completed frame before its slot is used again.
 void HostRecording::read_timings() {
   const Slot* newest = nullptr;
   for (const Slot& slot : slots_)
-    if (slot.is_frame && slot.frame <= completed_ && (!newest || slot.frame > newest->frame))
-      newest = &slot;
+    if (slot.is_frame && slot.frame <= completed_ && (!newest || slot.frame > newest->frame)) newest = &slot;
   if (newest) newest->resources.timings().read_available(timings_);
 }
 

@@ -47,7 +47,7 @@ class HostRecording : public CommandStream {
   };
   /// Commands that are collected.
   struct Part {
-    Part(Context& context, Slot& of) : slot(&of), recorder(context, of.resources) {}
+    Part(Context& context, Slot& own_slot) : slot(&own_slot), recorder(context, own_slot.resources) {}
     Slot* slot;
     Recorder recorder;
   };
@@ -56,9 +56,9 @@ class HostRecording : public CommandStream {
 
   Context& context_;
   std::list<Slot> slots_;                      // as many as frames and preparations were in flight, and one
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the frame; null: outside of a frame
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // the frame's; null: outside of a frame
   std::uint64_t frame_ = 0, completed_ = 0;
-  std::optional<Part> preparations_, own_;  // of the frame
+  std::optional<Part> preparations_, own_;  // the frame's
   std::vector<Timings::Scope> timings_;
 };
 

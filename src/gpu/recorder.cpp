@@ -7,7 +7,6 @@
 namespace brume::gpu {
 namespace {
 
-constexpr std::uint32_t kSetsPerFrame = 4096;
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
@@ -42,37 +41,7 @@ Dependency advance(LastUse& last, VkPipelineStageFlags2 stages, VkAccessFlags2 a
   return after_all;
 }
 
-VkDescriptorPool make_descriptor_pool(Context& context) {
-  const VkDescriptorPoolSize sizes[] = {{kBuffer, 4 * kSetsPerFrame},
-                                        {kUniform, kSetsPerFrame},
-                                        {kSampled, 4 * kSetsPerFrame},
-                                        {kStored, kSetsPerFrame}};
-  VkDescriptorPoolCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  info.maxSets = kSetsPerFrame;
-  info.poolSizeCount = 4;
-  info.pPoolSizes = sizes;
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(context.vk().CreateDescriptorPool(context.device(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-  return pool;
-}
-
 }  // namespace
-
-FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
-  add_descriptors();
-}
-
-VkDescriptorPool FrameSlot::add_descriptors() {
-  context_.expect_retirement();
-  descriptors_.reserve(descriptors_.size() + 1);
-  descriptors_.push_back(make_descriptor_pool(context_));
-  return descriptors_.back();
-}
-
-FrameSlot::~FrameSlot() {
-  for (const VkDescriptorPool pool : descriptors_) context_.retire({.descriptors = pool});
-}
 
 Recorder::Recorder(Context& context, FrameSlot& slot)
     : context_(context),

@@ -14,37 +14,12 @@
 #include "core/frame_memory.hpp"
 #include "gpu/bindings.hpp"
 #include "gpu/command_list.hpp"
+#include "gpu/frame_slot.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
 
 namespace brume::gpu {
-
-/// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
-/// Reused when the device is done with the frame.
-class FrameSlot {
- public:
-  explicit FrameSlot(Context& context);
-  ~FrameSlot();
-  FrameSlot(const FrameSlot&) = delete;
-  FrameSlot& operator=(const FrameSlot&) = delete;
-  const Timings& timings() const { return timings_; }
-
- private:
-  friend class Recorder;
-  VkDescriptorPool add_descriptors();
-
-  Context& context_;
-  // Filled in order, as staging is.
-  std::vector<VkDescriptorPool> descriptors_;
-  std::size_t descriptors_index_ = 0;
-  std::deque<Buffer> staging_;  // Filled in order; a new one is added when all are full.
-  std::size_t staging_index_ = 0;
-  std::uint32_t spare_frames_ = 0;  // in a row that left the last staging buffer empty
-  VkDeviceSize staging_used_ = 0;
-  Timings timings_;
-  FrameMemory memory_;  // of a recording
-};
 
 class Recorder {
  public:

@@ -89,9 +89,10 @@ void BrickAtlas::make_images(glm::ivec3 bricks) {
 }
 
 bool BrickAtlas::is_reserved(VolumeList volumes) const {
-  return std::ranges::equal(volumes, entries_.get(context_), [](const volume::SparseVolume* volume, const Entry& entry) {
-    return volume->id() == entry.id && volume->structure_generation() == entry.reserved_generation;
-  });
+  return std::ranges::equal(
+      volumes, entries_.get(context_), [](const volume::SparseVolume* volume, const Entry& entry) {
+        return volume->id() == entry.id && volume->structure_generation() == entry.reserved_generation;
+      });
 }
 
 /// Lays the volumes out one behind the other. A volume has room to grow, so that those behind it rarely move.

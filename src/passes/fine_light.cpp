@@ -76,8 +76,7 @@ void FineLightPass::record(gpu::Recorder& recorder, const planning::FineLightPla
                 });
   constexpr std::uint32_t kEdge{shared::kFinePageTexels};
   constexpr std::uint32_t kGroups = (kEdge + 3) / 4;
-  recorder.dispatch_threads(pipeline_, 4 * kGroups * kGroups, 4 * kGroups,
-                            4 * page_count_);
+  recorder.dispatch_threads(pipeline_, 4 * kGroups * kGroups, 4 * kGroups, 4 * page_count_);
 }
 
 }  // namespace brume::passes

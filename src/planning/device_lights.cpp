@@ -43,8 +43,8 @@ glm::uvec4 planned_lights(std::span<const shared::Light> planned, std::span<cons
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const std::size_t place = lights[i];
     const shared::Light& light = place < scene.size() ? scene[place] : flashes[place - scene.size()];
-    const auto found = std::ranges::find_if(
-        planned, [&](const shared::Light& other) { return same_bytes(light, other); });
+    const auto found =
+        std::ranges::find_if(planned, [&](const shared::Light& other) { return same_bytes(light, other); });
     if (found != planned.end())
       places[static_cast<int>(i)] = static_cast<std::uint32_t>(found - planned.begin());
   }

@@ -14,8 +14,8 @@ namespace brume::planning {
 /// up to `max_layers`.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
 
-/// Of up to four lights, by their places among those of the scene and then the flashes of a frame, their places
-/// in the frame's plan; shared::kNoLight: it reaches nothing in view, or there is none.
+/// The places in a frame's plan of up to four lights, which are numbered through the scene's and then the
+/// frame's flashes; shared::kNoLight: it reaches nothing in view, or there is none.
 glm::uvec4 planned_lights(std::span<const shared::Light> planned, std::span<const shared::Light> scene,
                           std::span<const shared::Light> flashes, std::span<const std::uint32_t> lights);
 

@@ -30,7 +30,7 @@ struct PlanRoom {
   std::uint32_t most_bricks = ResidentSmoke::kUnlimited;
   SmokeLightRoom smoke_light{};
   VolumeLightRoom volume_light{};
-  bool holds_indirect_light = true;  ///< Of the last committed frame.
+  bool holds_indirect_light = true;  ///< The light of the last committed frame.
 };
 
 /// What plans follow from besides the frame's input: the scene, and what the renderer draws into.
@@ -91,7 +91,7 @@ struct FramePlan {
 
 /// What frames remember: what the device holds of those that were recorded, and their level.
 struct PlanHistory {
-  std::unique_ptr<FrameMemory> memory = std::make_unique<FrameMemory>();  ///< Of the plan.
+  std::unique_ptr<FrameMemory> memory = std::make_unique<FrameMemory>();  ///< For the plan.
   NoiseUpdates noise;
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;

@@ -9,8 +9,8 @@
 namespace brume::planning {
 namespace {
 
-InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media,
-                const HolePlan& holes, std::span<const shared::Light> lights, Allocator memory) {
+InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan& media, const HolePlan& holes,
+                std::span<const shared::Light> lights, Allocator memory) {
   InputKey key(memory);
   key.add(bounces);
   key.add(input.environment.sky.ambient);

@@ -51,9 +51,9 @@ class IndirectLightCache {
     LevelView level;
     std::vector<std::uint32_t> hidden_objects;
     bool has_level = false;
-    InputKey shown;    ///< All other inputs of the light that shows; empty: there is none.
-    InputKey solving;  ///< The inputs of the light that is being found; empty: none is.
-    std::uint32_t next_slice = 0;  ///< Of what is being found.
+    InputKey shown;                ///< All other inputs of the light that shows; empty: there is none.
+    InputKey solving;              ///< The inputs of the light that is being found; empty: none is.
+    std::uint32_t next_slice = 0;  ///< The next one of what is being found.
     std::uint32_t bounces = 0;
     std::uint64_t version = 0;
   };

@@ -20,9 +20,7 @@ class InputKey {
 
   template <typename T>
   requires std::is_trivially_copyable_v<T>
-  void add(const T& value) {
-    append(std::as_bytes(std::span(&value, 1)));
-  }
+  void add(const T& value) { append(std::as_bytes(std::span(&value, 1))); }
   template <typename List>
   void add_list(const List& values) {
     add(values.size());

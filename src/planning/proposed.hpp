@@ -10,9 +10,9 @@ namespace brume::planning {
 template <typename State>
 class Proposed {
  public:
-  /// Of the last frame that was committed.
+  /// The state of the last frame that was committed.
   const State& now() const { return now_; }
-  /// Of the last plan, whatever became of it.
+  /// The state of the last plan, whatever became of it.
   const State& latest() const { return is_proposed_ ? next_ : now_; }
   /// A copy of now(), to be changed by the plan. An earlier proposal is dropped. Lists keep their memory.
   State& propose() {

@@ -40,7 +40,8 @@ struct SmokeShadowUpdate {
 /// texels one a frame.
 class SmokeShadowCache {
  public:
-  /// The update of a frame that has `plan`; nothing where all texels hold. From `commit` on it counts as done.
+  /// The update of a frame that has `plan`; nothing where all texels hold. From `commit` on it counts as
+  /// done.
   std::optional<SmokeShadowUpdate> update(const SmokeShadowPlan& plan, const SmokeShadowInputs& inputs,
                                           Allocator memory = {});
   /// The frame of the last update was recorded.

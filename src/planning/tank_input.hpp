@@ -1,10 +1,13 @@
 // Tanks of spheres in a frame.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
 
-#include "planning/tank_plan.hpp"
+#include "scene/tank_scene.hpp"
 #include "spheres/brick_lists.hpp"
+#include "spheres/light_paths.hpp"
+#include "spheres/tank.hpp"
 
 namespace brume::planning {
 
@@ -19,6 +22,14 @@ struct TankLight {
   spheres::LightPaths paths;
 };
 
+/// Where a tank is in a world: turned, scaled and moved.
+struct TankPlacement {
+  glm::mat3 axes{1};  ///< Unit vectors at right angles, right-handed: those of the tank in the world.
+  glm::vec3 position_world{0};  ///< Of its middle.
+  float scale = 1;              ///< > 0
+
+  bool operator==(const TankPlacement&) const = default;
+};
 /// A tank in a frame.
 struct TankInput {
   std::shared_ptr<const TankContent> content;
@@ -26,7 +37,8 @@ struct TankInput {
   TankPlacement placement;
   scene::TankView view = scene::TankView::spheres;
   std::uint32_t samples = 1;  ///< Paths of each pixel in this frame, > 0.
-  std::uint32_t index = 0;    ///< Of the first one, where the picture begins: another one has other noise.
+  std::uint32_t index =
+      0;  ///< The first one's number, where the picture begins: another one has other noise.
   /// The frame's surfaces before the tank are those of the frame before: samples are added to it, where all
   /// else is the same, too.
   bool continues = false;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planning/tank_input.hpp"
 #include "scene/tank_scene.hpp"
 #include "shared/frame.h"
 #include "shared/tank.h"
@@ -27,14 +28,6 @@ inline glm::vec3 size_of(const spheres::Tank& tank) {
 TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
                    const std::optional<scene::Camera>& camera = {});
 
-/// Where a tank is in a world: turned, scaled and moved.
-struct TankPlacement {
-  glm::mat3 axes{1};  ///< Unit vectors at right angles, right-handed: those of the tank in the world.
-  glm::vec3 position_world{0};  ///< Of its middle.
-  float scale = 1;              ///< > 0
-
-  bool operator==(const TankPlacement&) const = default;
-};
 /// The tank in a frame of this camera, over the frame's surfaces (passes::TankTargets::surfaces). Lights and
 /// glass are where they are at the start.
 TankPlan plan_tank_in_frame(const scene::TankScene& scene, const spheres::Tank& tank,

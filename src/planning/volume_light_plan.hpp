@@ -58,7 +58,7 @@ class VolumeLightCache {
 
  private:
   struct State {
-    InputKey volumes;  ///< Of the last plan.
+    InputKey volumes;  ///< The volumes of the last plan.
     InputKey others;   ///< All other inputs of the last update; empty: there was none.
   };
   Proposed<State> state_;

@@ -37,9 +37,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
   if (options.media_alone)
     host_.emplace(context);
   else
-    picture_.emplace(
-        context, options.size_px,
-        PicturePart::Options{options.antialias, options.smoke.prepare_all, level_.has_panes()});
+    picture_.emplace(context, options.size_px,
+                     PicturePart::Options{options.antialias, options.smoke.prepare_all, level_.has_panes()});
   stream.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
 }
 
@@ -102,7 +101,7 @@ FramePlan Renderer::plan(const FrameInput& input) {
     smoke_.trim(smoke_budget_.atlas_bricks());
     invalidate();
   }
-  // What a device refuses is known only when it is asked: with less room the frame is another plan.
+  // A device refuses memory only when it is allocated: with less room the frame is another plan.
   while (true) {
     std::optional<gpu::Memory::Unlimited> reserve;
     if (smoke_budget_.is_reserve()) reserve.emplace(context_.memory());
@@ -292,8 +291,7 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
     });
   }
   if (!plan.decals.empty())
-    scope(recorder, "decals",
-          [&] { decals_.record(recorder, plan, in, slices_, march_.is_accumulated()); });
+    scope(recorder, "decals", [&] { decals_.record(recorder, plan, in, slices_, march_.is_accumulated()); });
   if (picture_->record_shade(recorder, plan, in, media(), occlusion())) return;
   level_.record_panes(recorder, plan, in, media());
   particles_.record(recorder, plan, in, slices_);

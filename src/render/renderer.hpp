@@ -35,8 +35,8 @@ struct HostFrame {
   HostSurfaces surfaces;
   /// Lights whose shadows the host asks for, at most four (HostSurfacesPart::record_shadows).
   std::span<const std::uint32_t> shadow_lights = {};
-  const gpu::Image* picture = nullptr;  ///< Of the host, to draw the layers over; null: none.
-  float exposure = 1;                   ///< Of the picture.
+  const gpu::Image* picture = nullptr;  ///< The host's, to draw the layers over; null: none.
+  float exposure = 1;                   ///< Multiplies the layers over the picture.
 };
 
 class Renderer {
@@ -85,7 +85,7 @@ class Renderer {
   /// What a frame over a host's surfaces needs whatever it shows.
   struct HostNeeds {
     bool decals = false, shadows = false, tanks = false;
-    VkFormat picture = VK_FORMAT_UNDEFINED;  ///< Of HostFrame::picture.
+    VkFormat picture = VK_FORMAT_UNDEFINED;  ///< The format of HostFrame::picture.
   };
   /// Makes room for that, as `plan` does for the rest: no limit of memory should refuse it.
   void reserve_over(const HostNeeds& needs);
@@ -102,7 +102,7 @@ class Renderer {
   const gpu::Image& media() const { return march_.result(targets_); }
   /// The same of the media and the tanks before a host's surfaces.
   const gpu::Image& layers() const;
-  /// Of the last frame, half floats: see SurfaceShadowPass. Null: it had no shadow_lights.
+  /// The last frame's shadows, half floats: see SurfaceShadowPass. Null: it had no shadow_lights.
   const gpu::Image* shadows() const;
   /// Half floats: radiance of the picture before exposure and tone curve.
   const gpu::Image& radiance() const { return picture_->radiance(targets_); }
@@ -158,15 +158,15 @@ class Renderer {
   SlicesPart slices_;
   DecalsPart decals_;
   ParticlesPart particles_;
-  std::optional<PicturePart> picture_;     ///< Of our own surfaces;
-  std::optional<HostSurfacesPart> host_;   ///< where RendererOptions::media_alone, of a host's, and
-  std::optional<TanksPart> tanks_;         ///< from the first frame with tanks on.
+  std::optional<PicturePart> picture_;    ///< Shows our own surfaces; not where RendererOptions::media_alone.
+  std::optional<HostSurfacesPart> host_;  ///< Takes a host's surfaces there.
+  std::optional<TanksPart> tanks_;        ///< From the first frame with tanks on.
 
   SmokeBudget smoke_budget_;
   const bool memory_follows_view_;
   planning::PlanHistory history_;
-  FrameInput input_;  ///< Of the last plan, which refers to it.
-  /// Of the last frame whose commands were recorded.
+  FrameInput input_;  ///< What the last plan refers to.
+  /// The last frame whose commands were recorded.
   struct Recorded {
     std::uint64_t plan = 0;  ///< FramePlan::number; 0: there was no frame.
     int smoke_level = 0;

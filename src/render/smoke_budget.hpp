@@ -27,7 +27,7 @@ class SmokeBudget {
   bool is_unlimited() const;
   /// Whether a frame takes no more than what is reserved, which no limit refuses.
   bool is_reserve() const { return most_ <= reserved_; }
-  /// Of the atlas that a frame begins with, after begin_frame and reduce.
+  /// Bricks of the atlas that a frame begins with, after begin_frame and reduce.
   glm::ivec3 atlas_bricks() const { return atlas_; }
 
  private:

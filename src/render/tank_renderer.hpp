@@ -42,7 +42,7 @@ class TankRenderer {
   void record_display(gpu::Recorder& recorder);
   /// So far, of every pixel.
   std::uint32_t samples() const { return sampler_.samples(); }
-  /// Of one more sample.
+  /// Rows of one more sample.
   std::uint32_t rows() const { return sampler_.rows(); }
 
   const gpu::Image& radiance() const { return sampler_.radiance(); }  ///< Half floats.

@@ -14,7 +14,7 @@ namespace brume::render {
 
 class TankSampler {
  public:
-  /// Of a workgroup: what parts of a sample are multiples of.
+  /// Rows of a workgroup: what parts of a sample are multiples of.
   static constexpr std::uint32_t kRows = 8;
 
   /// Uploads the tank; resize must follow. `context` and `stream` must outlive it, `tank` and its `lists`
@@ -48,7 +48,7 @@ class TankSampler {
   void record_rows(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t rows);
   /// So far, of every pixel.
   std::uint32_t samples() const { return done_.get(context_).samples; }
-  /// Of one more sample.
+  /// Rows of one more sample.
   std::uint32_t rows() const { return done_.get(context_).rows; }
 
   const gpu::Image& radiance() const { return radiance_; }  ///< Half floats; the mean of all samples.
@@ -85,7 +85,7 @@ class TankSampler {
   shared::PhotonGrid photon_grid_{0, 0};
   scene::TankView kind_ = scene::TankView::spheres;
   scene::TankLighting lighting_ = scene::TankLighting::maps;
-  /// Of the picture so far.
+  /// What the picture consists of so far.
   struct Done {
     std::uint32_t samples = 0, rows = 0;
   };

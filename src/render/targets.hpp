@@ -8,7 +8,7 @@ namespace brume::render {
 struct Targets {
   /// `size_px`: each side in [1, 16384]. Throws resource_limit.
   Targets(gpu::Context& context, glm::uvec2 size_px);
-  /// Of the media over surfaces that a host draws: media alone, and what GBuffer::imported has.
+  /// Targets for media over surfaces that a host draws: media alone, and what GBuffer::imported has.
   static Targets of_media(gpu::Context& context, glm::uvec2 size_px);
 
   glm::uvec2 size_px;

@@ -55,16 +55,17 @@ struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
 
 #define BRUME_RECORDING_FUNCTIONS(X) \
   X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                          \
-  X(AllocateMemory)                                                                                        \
-  X(MapMemory)                                                                                             \
-  X(CreateBuffer)                                                                                          \
-  X(BindBufferMemory)                                                                                      \
-  X(CreateImage)                                                                                           \
-  X(BindImageMemory)                                                                                       \
-  X(CreateImageView) X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout)                   \
-      X(CreatePipelineLayout) X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool) \
-          X(ResetDescriptorPool) X(AllocateDescriptorSets) X(CreateQueryPool)
+#define BRUME_FAULTY_FUNCTIONS(X)                                                                         \
+  X(AllocateMemory)                                                                                       \
+  X(MapMemory)                                                                                            \
+  X(CreateBuffer)                                                                                         \
+  X(BindBufferMemory)                                                                                     \
+  X(CreateImage)                                                                                          \
+  X(BindImageMemory)                                                                                      \
+  X(CreateImageView)                                                                                      \
+  X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)             \
+      X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool) \
+          X(AllocateDescriptorSets) X(CreateQueryPool)
 
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
 PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr;

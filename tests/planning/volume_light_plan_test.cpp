@@ -156,7 +156,8 @@ TEST_F(VolumeLightCacheTest, AFrameThatIsNotCommittedIsPlannedAgain) {
 
 TEST_F(VolumeLightCacheTest, LightIsFoundAgainWhereTheDeviceHasNoRoomForIt) {
   plan();
-  for (const VolumeLightRoom& less : {VolumeLightRoom{1, room_.sun_edge, 1, 1}, {room_.edge, 1, 1, 1},
+  for (const VolumeLightRoom& less : {VolumeLightRoom{1, room_.sun_edge, 1, 1},
+                                      {room_.edge, 1, 1, 1},
                                       {room_.edge, room_.sun_edge, 0, 1}}) {
     EXPECT_FALSE(plan().update);
     room_ = less;

@@ -196,8 +196,7 @@ TEST_F(VolumeStreamingTest, AFrameThatIsNotCommittedIsPlannedAgain) {
   commits_ = true;
   const auto again = plan(300000);
   const auto next = plan(300000);
-  for (std::size_t i = 0; i < inputs_.size(); ++i)
-    EXPECT_EQ(again[i].volume.slots, dropped[i].volume.slots);
+  for (std::size_t i = 0; i < inputs_.size(); ++i) EXPECT_EQ(again[i].volume.slots, dropped[i].volume.slots);
   EXPECT_NE(next[0].volume.slots, again[0].volume.slots);
 }
 

@@ -3,9 +3,9 @@
 // A part is one thing that a frame shows: the level, the smoke, the volumes, the rays through both, decals,
 // particles, the picture, tanks, the surfaces of a host. Each has the same verbs, in this order:
 //
-//   reserve(plan)           makes room outside of a recording; throws resource_limit, and nothing was promised
-//   upload(recorder, plan)  copies what the plan has for the device
-//   record...               its commands
+//   reserve(plan)           makes room outside of a recording; throws resource_limit, and nothing was
+//   promised upload(recorder, plan)  copies what the plan has for the device record...               its
+//   commands
 //
 // What a part remembers of the device it holds as gpu::Recorded, so that a recording that is dropped never
 // was; what a plan decided counts when the renderer commits it (planning::PlanHistory).
@@ -38,7 +38,7 @@ struct MediaOptions {
   /// Draws the volumes alone, one by one, without light from each other; needs march_scale 1.
   std::optional<passes::RaycastForm> raycast = {};
   bool temporal = false;                    ///< Accumulate media over the frames of a film (View::continues).
-  const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
+  const smoke::MaskAtlas* masks = nullptr;  ///< Masks of the holes; null: none. Uploaded by the constructor.
   bool record_entries = false;              ///< See MarchPass::Options: into MarchPart::counters().
   /// The device holds the smoke that is in view, not all of it. Pictures then depend on the frames before by
   /// the rounding of places in the atlas.

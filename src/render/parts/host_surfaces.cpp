@@ -30,11 +30,10 @@ void HostSurfacesPart::record_normals(gpu::Recorder& recorder, const FrameResour
 void HostSurfacesPart::record_shadows(gpu::Recorder& recorder, const FramePlan& plan,
                                       const FrameResources& in, std::span<const std::uint32_t> lights) {
   const gpu::Scope timed(recorder, "shadows");
-  shadow_pass_->record(recorder,
-                       {in.frame, in.scene.lights, in.shadows.sun, in.smoke_shadows, in.targets.gbuffer.depth},
-                       planning::planned_lights(plan.lights, in.scene.light_list,
-                                                plan.input.environment.flashes, lights),
-                       shadows_);
+  shadow_pass_->record(
+      recorder, {in.frame, in.scene.lights, in.shadows.sun, in.smoke_shadows, in.targets.gbuffer.depth},
+      planning::planned_lights(plan.lights, in.scene.light_list, plan.input.environment.flashes, lights),
+      shadows_);
 }
 
 void HostSurfacesPart::record_layer(gpu::Recorder& recorder, const passes::MediaLayerPass::Layer& layer,

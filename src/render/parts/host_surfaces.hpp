@@ -10,7 +10,7 @@ namespace brume::render {
 
 /// The surfaces of a frame, from its camera.
 struct HostSurfaces {
-  const gpu::Image& depth;  ///< Of the renderer's size.
+  const gpu::Image& depth;  ///< An image of the renderer's size.
   passes::HostDepthRange range;
   passes::HostNormals normals = {};  ///< For decals.
 };

@@ -72,7 +72,8 @@ void LevelPart::reserve_indirect_light(const FramePlan& plan) {
   if (indirect.level_changed) {
     ++levels_;
     light_cells_ = light_cells_maker_.make(plan.input.level);
-  } else if (plan.input.view.sample.index == 0) {  // a frame that follows another: the next level may come, too
+  } else if (plan.input.view.sample.index ==
+             0) {  // a frame that follows another: the next level may come, too
     light_cells_maker_.expect(plan.input.level.next);
   }
   indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);

@@ -1,4 +1,5 @@
-// The level of a frame, as any kind of frame draws it: surfaces, shadow maps, and the light that it lets through.
+// The level of a frame, as any kind of frame draws it: surfaces, shadow maps, and the light that it lets
+// through.
 #pragma once
 
 #include "passes/gbuffer.hpp"
@@ -59,7 +60,7 @@ class LevelPart {
   passes::SkyLightPass sky_light_;
   passes::IndirectLightPass indirect_light_;
   surfaces::LightCellsMaker light_cells_maker_;
-  surfaces::LightCells light_cells_;  ///< Of the last plan with indirect light.
+  surfaces::LightCells light_cells_;  ///< The cells of the last plan with indirect light.
   std::uint64_t levels_ = 0;          ///< That light cells were made of.
   gpu::Recorded<std::uint64_t> uploaded_levels_;
 };

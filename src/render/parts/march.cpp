@@ -81,9 +81,9 @@ void MarchPart::reserve(const FramePlan& plan) {
   if ((plan.smoke && plan.smoke->slot_count() > 0) || (media & kWithNoise) != 0) make_noise();
 
   // The rays of the frame.
-  const auto rays = options_.prepare_all  ? passes::MarchRays::all
-                    : march_scale_ == 1 ? passes::MarchRays::of_pixels
-                                        : passes::MarchRays::of_tiles;
+  const auto rays = options_.prepare_all ? passes::MarchRays::all
+                    : march_scale_ == 1  ? passes::MarchRays::of_pixels
+                                         : passes::MarchRays::of_tiles;
   march_pass_.reserve(media, rays);
   if (plan.input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)

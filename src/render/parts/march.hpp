@@ -69,8 +69,8 @@ class MarchPart {
 
   gpu::Image noise_, detail_;
   gpu::Buffer counters_;
-  std::optional<passes::MarchTiles> tiles_;                ///< Where march_scale_ is above 1.
-  std::optional<passes::RaycastPass> raycast_pass_;        ///< In the place of the march.
+  std::optional<passes::MarchTiles> tiles_;          ///< Where march_scale_ is above 1.
+  std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.
   passes::MarchPass march_pass_;
   std::optional<passes::MarchPass> counting_march_;        ///< For the view of steps.
   std::optional<passes::ResolvePass> resolve_pass_;        ///< Where there are tiles_, or may be.

@@ -95,8 +95,7 @@ void PicturePart::record_display(gpu::Recorder& recorder, const FramePlan& plan,
   const Targets& targets = in.targets;
   const planning::View& view = plan.input.view;
   if (view.sample.count > 1)
-    scope(recorder, "average",
-          [&] { average_pass_->record(recorder, targets.radiance, view.sample.index); });
+    scope(recorder, "average", [&] { average_pass_->record(recorder, targets.radiance, view.sample.index); });
   if (antialias_pass_)
     scope(recorder, "antialias", [&] {
       planning::ViewSample middle = view.sample;

@@ -69,8 +69,8 @@ class PicturePart {
   glm::uvec2 size_px_;
   const bool shading_displays_;
   passes::ShadePass shade_pass_;
-  std::optional<passes::DisplayPass> display_pass_;      ///< From the first frame on that shading does not show.
-  std::optional<passes::DebugViewPass> debug_view_;      ///< From the first frame with a debug view on.
+  std::optional<passes::DisplayPass> display_pass_;  ///< From the first frame on that shading does not show.
+  std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame with a debug view on.
   std::optional<passes::AntialiasPass> antialias_pass_;  ///< Where Options::antialias.
   std::optional<passes::AveragePass> average_pass_;      ///< From the first picture of several frames on.
 };

@@ -58,8 +58,7 @@ void SmokePart::upload(gpu::Recorder& recorder, const FramePlan& plan) {
 
 passes::SmokeLightPass::Inputs SmokePart::light_inputs(const FramePlan& plan,
                                                        const FrameResources& in) const {
-  return {in.frame,         in.scene, in.shadows,     resources(),
-          holes(),          in.level, in.lit_volumes, plan.media.casters};
+  return {in.frame, in.scene, in.shadows, resources(), holes(), in.level, in.lit_volumes, plan.media.casters};
 }
 
 void SmokePart::record_density(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

@@ -11,7 +11,7 @@ namespace {
 
 /// For how many frames a tank that is not shown stays on the device.
 constexpr std::uint64_t kKeptFrames = 256;
-/// Of a picture: floats count them, and more change nothing.
+/// Samples of a picture: floats count them, and more change nothing.
 constexpr std::uint32_t kMostSamples = 1u << 16;
 
 bool same_picture(const planning::TankPlan& a, const planning::TankPlan& b) {
@@ -41,7 +41,7 @@ void TanksPart::resize(glm::uvec2 size_px) {
   for (Slot& slot : slots_) slot.sampler.resize(size_px);
 }
 
-/// That of the same tank which no other of this frame has, or a new one.
+/// The slot of the same tank that no other of this frame has, or a new one.
 TanksPart::Slot& TanksPart::slot_of(const planning::TankInput& tank) {
   const auto found = std::ranges::find_if(
       slots_, [&](const Slot& slot) { return slot.content == tank.content && slot.frame < frame_; });

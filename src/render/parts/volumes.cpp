@@ -35,7 +35,7 @@ planning::VolumeLightRoom VolumesPart::light_room() const {
 
 passes::VolumeLightPass::Inputs VolumesPart::light_inputs(const FramePlan& plan,
                                                           const FrameResources& in) const {
-  return {in.frame, plan.media.casters, in.scene,       in.shadows,    in.level,
+  return {in.frame, plan.media.casters, in.scene,       in.shadows,   in.level,
           in.smoke, in.holes,           in.lit_volumes, in.glow_field};
 }
 
