@@ -36,4 +36,21 @@ void require_range(const scene::OptionInfo& info, std::uint32_t value, const std
   if (value < info.low) refuse_range(info, name, "");
 }
 
+void require_range(const scene::OptionInfo& info, float value, const char* name) {
+  if (!scene::is_in_range(info, value)) refuse_range(info, name, "");
+}
+
+bool RangeCheck::is_in_range(const scene::OptionInfo& info, float value) {
+  return scene::is_in_range(info, value);
+}
+
+bool RangeCheck::is_in_range(const scene::OptionInfo& info, std::uint32_t value) {
+  return value >= info.low && value <= info.high;
+}
+
+std::string RangeCheck::name_of(const scene::OptionInfo& info) const {
+  const std::string start = number_ ? start_ + (" " + std::to_string(*number_)) + ": `" : start_;
+  return start + info.key + "`";
+}
+
 }  // namespace brume::api

@@ -1,6 +1,8 @@
 // Checks numbers of the C interfaces against the ranges of scene/options.hpp.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "api/call.hpp"
@@ -12,16 +14,21 @@ namespace brume::api {
 void require_range(const scene::OptionInfo& info, float value, const std::string& name,
                    const char* or_else = "");
 void require_range(const scene::OptionInfo& info, std::uint32_t value, const std::string& name);
+/// Allocates nothing where the value is in range.
+void require_range(const scene::OptionInfo& info, float value, const char* name);
 
-/// The same for all settings of a struct: a visitor of scene/options.hpp. Messages begin with `start`, the
-/// key and a backtick.
+/// The same for all settings of a struct: a visitor of scene/options.hpp. Allocates nothing where all are in
+/// range.
 class RangeCheck {
  public:
-  explicit RangeCheck(std::string start) : start_(std::move(start)) {}
+  /// Names in messages are `start`, the key and a backtick, which begins in `start`.
+  explicit RangeCheck(const char* start) : start_(start) {}
+  /// For an item of a list: "decal 2: `strength`".
+  RangeCheck(const char* item, std::size_t number) : start_(item), number_(number) {}
 
   template <typename Number>
   void operator()(const scene::OptionInfo& info, const Number& member) const {
-    require_range(info, member, start_ + info.key + "`");
+    if (!is_in_range(info, member)) require_range(info, member, name_of(info));
   }
   void operator()(const scene::OptionInfo& info, const glm::vec3& member) const {
     for (int axis = 0; axis < 3; ++axis) (*this)(info, member[axis]);
@@ -32,7 +39,12 @@ class RangeCheck {
   }
 
  private:
-  std::string start_;
+  static bool is_in_range(const scene::OptionInfo& info, float value);
+  static bool is_in_range(const scene::OptionInfo& info, std::uint32_t value);
+  std::string name_of(const scene::OptionInfo& info) const;
+
+  const char* start_;
+  std::optional<std::size_t> number_;
 };
 
 }  // namespace brume::api

@@ -120,7 +120,7 @@ planning::DecalInput input_of(const brume_shown_decal& shown, const DecalData& d
   look.falloff = shown.falloff;
   look.fade = shown.fade;
   look.scatter = shown.scatter;
-  scene::visit_decal_options(look, RangeCheck("decal " + std::to_string(number) + ": `"));
+  scene::visit_decal_options(look, RangeCheck("decal", number));
   return {world_from_box, 0,          shown.strength, shown.gamma, shown.correction,
           shown.falloff,  shown.fade, shown.scatter,  data.middle, data.radius};
 }

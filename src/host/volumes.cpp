@@ -66,7 +66,8 @@ void set_look(const brume_shown_volume& shown, const std::string& name, scene::V
   options.multiple_scattering = shown.multiple_scattering;
   options.emission = shown.emission;
   options.kelvin = shown.kelvin;
-  scene::visit_volume_options(options, RangeCheck(name + ": `"));
+  const std::string start = name + ": `";
+  scene::visit_volume_options(options, RangeCheck(start.c_str()));
   if (!(std::abs(shown.seconds) <= 1e6)) refuse(name + ": `seconds` must be within 10^6");
 }
 
