@@ -109,7 +109,8 @@ std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::Volum
   const auto has_transfer = [](const planning::VolumeInput& volume) { return !volume.transfer.empty(); };
   if (std::ranges::none_of(volumes, has_transfer)) return missing;
   const std::size_t entries = volumes.size() * shared::kTransferEntries;
-  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4))) transfer_sources_.clear();
+  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4)))
+    transfer_sources_.change(context_).clear();
   return missing;
 }
 
@@ -181,8 +182,8 @@ void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const plannin
                                 std::span<const planning::PlacedVolume> visible) {
   std::vector<glm::vec3> glows;
   for (const planning::PlacedVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
-  if (glows == glows_) return;
-  glows_ = std::move(glows);
+  if (glows == glows_.get(context_)) return;
+  recorder.change(glows_) = std::move(glows);
   std::vector<std::uint64_t> colors;
   for (const planning::PlacedVolume& volume : visible) {
     const std::vector<std::uint64_t> row = colors_of(volumes[volume.index].heat);
@@ -199,14 +200,15 @@ void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const plannin
 
 void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                                     std::span<const planning::PlacedVolume> visible) {
-  transfer_sources_.resize(visible.size());
+  if (transfer_sources_.get(context_).size() != visible.size())
+    recorder.change(transfer_sources_).resize(visible.size());
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const planning::VolumeInput& volume = volumes[visible[i].index];
     TransferSource source{volume.transfer, volume.look.albedo};
-    if (volume.transfer.empty() || source == transfer_sources_[i]) continue;
+    if (volume.transfer.empty() || source == transfer_sources_.get(context_)[i]) continue;
     const std::vector<glm::vec4> table = planning::transfer_table(volume.transfer, volume.look.albedo);
     recorder.upload(transfers_, i * table.size() * sizeof(glm::vec4), std::as_bytes(std::span(table)));
-    transfer_sources_[i] = std::move(source);
+    recorder.change(transfer_sources_)[i] = std::move(source);
   }
 }
 

@@ -89,8 +89,8 @@ class VolumeUpload {
   gpu::Buffer instances_, lit_instances_, transfers_;
   gpu::Buffer effects_;
   gpu::Image colors_;
-  std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
-  std::vector<TransferSource> transfer_sources_;
+  gpu::Recorded<std::vector<glm::vec3>> glows_;  ///< What each row of colors_ was made from.
+  gpu::Recorded<std::vector<TransferSource>> transfer_sources_;
 };
 
 }  // namespace brume::passes

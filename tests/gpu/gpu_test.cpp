@@ -89,6 +89,62 @@ TEST(HostedContext, RecordsIntoCommandsOfTheHost) {
   for (const std::string& message : host.take_messages()) ADD_FAILURE() << message;
 }
 
+// A frame that fails after its preparations: those come with the next one, even where what they wrote to is
+// gone by then, and all that the frame's own commands would have changed is as before.
+TEST(HostedContext, ADiscardedFrameLeavesOnlyItsPreparations) {
+  HostApplication host(2);
+  {
+    Context borrowed(host.device());
+    HostRecording recording(borrowed);
+    constexpr VkBufferUsageFlags kBoth = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const Buffer own(borrowed, 64, kBoth), prepared(borrowed, 64, kBoth);
+    const Buffer to(borrowed, 128, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    Recorded<int> value(1);
+    const auto frame = [&](const std::function<void()>& record, bool fails) {
+      host.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
+        recording.begin(commands, number, completed);
+        record();
+        if (fails)
+          recording.discard();
+        else
+          recording.end();
+      });
+    };
+    frame([&] { recording.recorder().fill(own, 0x05050505u); }, false);
+    for (int again = 0; again < 2; ++again)
+      frame(
+          [&] {
+            const Buffer gone(borrowed, 64, kBoth);
+            recording.run([&](Recorder& recorder) {
+              recorder.fill(gone, 7);
+              recorder.fill(prepared, 0x06060606u);
+            });
+            EXPECT_ANY_THROW(recording.run([&](Recorder& recorder) {
+              recorder.fill(prepared, 9);
+              throw Error(ErrorCode::resource_limit, "refused");
+            }));
+            recording.recorder().fill(own, 8);
+            recording.recorder().change(value) = 2;
+            EXPECT_EQ(value.get(borrowed), 2);
+          },
+          true);
+    EXPECT_EQ(value.get(borrowed), 1);
+    frame(
+        [&] {
+          recording.recorder().read_back(own, to, 64);
+          recording.recorder().change(value) = 3;
+        },
+        false);
+    host.wait();
+    EXPECT_EQ(static_cast<std::uint8_t>(to.mapped()[63]), 5);
+    frame([&] { recording.recorder().read_back(prepared, to, 64); }, false);
+    host.wait();
+    EXPECT_EQ(static_cast<std::uint8_t>(to.mapped()[63]), 6);
+    EXPECT_EQ(value.get(borrowed), 3);
+  }
+  for (const std::string& message : host.take_messages()) ADD_FAILURE() << message;
+}
+
 // What commands in flight use is destroyed when the device has completed them, and not before.
 TEST(HostedContext, DestroysNothingThatIsInFlight) {
   HostApplication host(3);
