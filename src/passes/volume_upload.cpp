@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/gtc/packing.hpp>
-
-#include "planning/blackbody.hpp"
-#include "planning/transfer_table.hpp"
 
 namespace brume::passes {
 namespace {
@@ -67,22 +63,6 @@ gpu::Image make_colors(gpu::Context& context) {
                                                 VK_FORMAT_R16G16B16A16_SFLOAT));
 }
 
-/// All that the colours of a volume follow from.
-glm::vec3 glow_of(const planning::HeatInput& heat) {
-  return heat.volume ? glm::vec3(heat.kelvin, heat.high, heat.emission) : glm::vec3(0);
-}
-
-/// What a grid emits, from a value of 0 to its largest.
-std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
-  std::vector<std::uint64_t> row;
-  for (std::uint32_t i = 0; i < shared::kVolumeColors; ++i) {
-    const float value = heat.high * static_cast<float>(i) / static_cast<float>(shared::kVolumeColors - 1);
-    const glm::vec3 color = heat.emission * planning::blackbody_color(heat.kelvin * value);
-    row.push_back(glm::packHalf4x16(glm::vec4(glm::min(color, 65000.0f), 0)));
-  }
-  return row;
-}
-
 }  // namespace
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
@@ -109,8 +89,7 @@ std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::Volum
   const auto has_transfer = [](const planning::VolumeInput& volume) { return !volume.transfer.empty(); };
   if (std::ranges::none_of(volumes, has_transfer)) return missing;
   const std::size_t entries = volumes.size() * shared::kTransferEntries;
-  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4)))
-    transfer_sources_.change(context_).clear();
+  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4))) uploaded_.change(context_).clear();
   return missing;
 }
 
@@ -125,8 +104,11 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
   record_instances(recorder, volumes, visible, instances_);
   record_effects(recorder, visible);
   record_instances(recorder, volumes, lit, lit_instances_);
-  record_glows(recorder, volumes, visible);
-  record_transfers(recorder, volumes, visible);
+  std::vector<planning::VolumeTables>& uploaded = recorder.change(uploaded_);
+  uploaded.resize(visible.size());
+  record_glows(recorder, visible);
+  record_transfers(recorder, visible);
+  for (std::size_t i = 0; i < visible.size(); ++i) uploaded[i] = visible[i].tables;
 }
 
 void VolumeUpload::record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
@@ -151,14 +133,13 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
   };
   std::vector<shared::VolumeInstance> instances;
   for (const planning::PlacedVolume& volume : visible) {
-    const planning::VolumeInput shown = planning::shown_volume(volumes[volume.index], volume.is_preview);
     shared::VolumeInstance instance = volume.instance;
-    instance.bricks = layout_of(shown.volume);
-    if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
+    instance.bricks = layout_of(volume.grids.volume);
+    if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(volume.grids.heat);
     if (instance.colors.kind == shared::kColorsPair)
-      instance.colors.bricks = pair_atlas_.layout(position(pairs, shown.colors));
+      instance.colors.bricks = pair_atlas_.layout(position(pairs, volume.grids.colors));
     else if (instance.colors.kind != shared::kColorsNone)
-      instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
+      instance.colors.bricks = color_atlas_.layout(position(color_grids, volume.grids.colors));
     instances.push_back(instance);
   }
   recorder.upload(to, 0, std::as_bytes(std::span(instances)));
@@ -178,37 +159,28 @@ void VolumeUpload::record_effects(gpu::Recorder& recorder,
   if (any) recorder.upload(effects_, 0, std::as_bytes(std::span(effects)));
 }
 
-void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                                std::span<const planning::PlacedVolume> visible) {
-  std::vector<glm::vec3> glows;
-  for (const planning::PlacedVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
-  if (glows == glows_.get(context_)) return;
-  recorder.change(glows_) = std::move(glows);
-  std::vector<std::uint64_t> colors;
-  for (const planning::PlacedVolume& volume : visible) {
-    const std::vector<std::uint64_t> row = colors_of(volumes[volume.index].heat);
-    colors.insert(colors.end(), row.begin(), row.end());
-  }
-  if (visible.empty()) return;
+void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::PlacedVolume> visible) {
+  const auto is_uploaded = [](const planning::PlacedVolume& volume, const planning::VolumeTables& uploaded) {
+    return !volume.tables.glow || volume.tables.glow == uploaded.glow;
+  };
+  if (std::ranges::equal(visible, uploaded_.get(context_), is_uploaded)) return;
   // A filter reads the row after the last one, too, with a weight of 0: it must hold numbers.
   const std::uint32_t rows = std::min(static_cast<std::uint32_t>(visible.size()) + 1, shared::kMaxVolumes);
-  colors.resize(std::size_t{rows} * shared::kVolumeColors);
+  FrameVector<std::uint64_t> colors(std::size_t{rows} * shared::kVolumeColors, 0, &recorder.memory());
+  for (std::size_t i = 0; i < visible.size(); ++i)
+    if (const auto& glow = visible[i].tables.glow)
+      std::ranges::copy(*glow, colors.begin() + static_cast<std::ptrdiff_t>(i * shared::kVolumeColors));
   const gpu::Recorder::Region used{
       std::as_bytes(std::span(colors)), glm::ivec3(0), {shared::kVolumeColors, rows, 1}};
   recorder.upload(colors_, {&used, 1});
 }
 
-void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+void VolumeUpload::record_transfers(gpu::Recorder& recorder,
                                     std::span<const planning::PlacedVolume> visible) {
-  if (transfer_sources_.get(context_).size() != visible.size())
-    recorder.change(transfer_sources_).resize(visible.size());
   for (std::size_t i = 0; i < visible.size(); ++i) {
-    const planning::VolumeInput& volume = volumes[visible[i].index];
-    TransferSource source{volume.transfer, volume.look.albedo};
-    if (volume.transfer.empty() || source == transfer_sources_.get(context_)[i]) continue;
-    const std::vector<glm::vec4> table = planning::transfer_table(volume.transfer, volume.look.albedo);
-    recorder.upload(transfers_, i * table.size() * sizeof(glm::vec4), std::as_bytes(std::span(table)));
-    recorder.change(transfer_sources_)[i] = std::move(source);
+    const auto& table = visible[i].tables.transfer;
+    if (!table || table == uploaded_.get(context_)[i].transfer) continue;
+    recorder.upload(transfers_, i * table->size() * sizeof(glm::vec4), std::as_bytes(std::span(*table)));
   }
 }
 

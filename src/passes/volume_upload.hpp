@@ -71,17 +71,8 @@ class VolumeUpload {
   void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                         std::span<const planning::PlacedVolume> visible, const gpu::Buffer& to) const;
   void record_effects(gpu::Recorder& recorder, std::span<const planning::PlacedVolume> visible) const;
-  void record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                    std::span<const planning::PlacedVolume> visible);
-  void record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                        std::span<const planning::PlacedVolume> visible);
-
-  /// What a table of transfers_ was made from.
-  struct TransferSource {
-    planning::TransferInput transfer;
-    glm::vec3 albedo;
-    bool operator==(const TransferSource&) const = default;
-  };
+  void record_glows(gpu::Recorder& recorder, std::span<const planning::PlacedVolume> visible);
+  void record_transfers(gpu::Recorder& recorder, std::span<const planning::PlacedVolume> visible);
 
   gpu::Context& context_;
   gpu::Sampler linear_;
@@ -89,8 +80,7 @@ class VolumeUpload {
   gpu::Buffer instances_, lit_instances_, transfers_;
   gpu::Buffer effects_;
   gpu::Image colors_;
-  gpu::Recorded<std::vector<glm::vec3>> glows_;  ///< What each row of colors_ was made from.
-  gpu::Recorded<std::vector<TransferSource>> transfer_sources_;
+  gpu::Recorded<std::vector<planning::VolumeTables>> uploaded_;  ///< In colors_ and transfers_.
 };
 
 }  // namespace brume::passes

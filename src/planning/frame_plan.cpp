@@ -69,6 +69,7 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
     lit[i] = plan.residency[i].lit_by_preview;
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
+  set_tables(plan.media, history.volume_tables.update(plan.input.volumes));
   limit_rays(plan, target.emitters);
   plan.decals = plan_decals(plan.input, plan.frustum, memory);
   plan.lit_media.volumes.reserve(plan.media.volumes.size());

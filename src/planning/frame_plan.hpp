@@ -100,6 +100,7 @@ struct PlanHistory {
   /// Not history but a mirror of smoke::SmokeVolume, whose revisions say what a reader missed.
   std::unique_ptr<ResidentSmoke> resident = std::make_unique<ResidentSmoke>();
   VolumeStreaming volume_streaming;
+  VolumeTableCache volume_tables;
   struct Level {
     LevelView voxels;
     std::vector<std::uint32_t> hidden_objects;

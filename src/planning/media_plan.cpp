@@ -118,6 +118,10 @@ shared::VolumeInstance instance_of(const VolumeInput& volume, std::size_t number
           static_cast<std::uint32_t>(number)};
 }
 
+ShownGrids grids_of(const VolumeInput& volume) {
+  return {volume.volume, volume.heat.volume, volume.colors};
+}
+
 /// Displacements of at most `amplitude` voxels along each axis.
 void set_disturbance(const DisturbanceInput& input, shared::VolumeEffect& effect) {
   const scene::Disturbance& noise = input.noise;
@@ -217,7 +221,8 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
     if (!in_view && !(volume.look.extinction > 0)) continue;
     const bool preview = !previews.empty() && previews[i];
     const VolumeInput shown = shown_volume(volume, preview);
-    plan.volumes.push_back({i, world, instance_of(shown, i), volume_effect(shown), preview});
+    plan.volumes.push_back(
+        {i, world, instance_of(shown, i), volume_effect(shown), preview, grids_of(shown), {}});
     plan.casters |= media_of(shown);
     if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
     if (!in_view) continue;
@@ -291,6 +296,10 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
   return shown;
 }
 
+void set_tables(MediaPlan& plan, std::span<const VolumeTables> tables) {
+  for (PlacedVolume& placed : plan.volumes) placed.tables = tables[placed.index];
+}
+
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan) {
   return std::span(plan.volumes).first(plan.frame.volume_count);
 }
@@ -301,6 +310,7 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes, std:
     const VolumeInput shown = shown_volume(volumes[placed.index], placed.is_preview);
     placed.instance = instance_of(shown, placed.index);
     placed.effect = volume_effect(shown);
+    placed.grids = grids_of(shown);
   }
 }
 

@@ -7,11 +7,17 @@
 #include "planning/frame_input.hpp"
 #include "planning/smoke_visibility.hpp"
 #include "planning/view_frustum.hpp"
+#include "planning/volume_tables.hpp"
 #include "shared/light.h"
 #include "shared/media.h"
 #include "shared/volume_light.h"
 
 namespace brume::planning {
+
+/// The grids of a volume as it is shown, at the resolution of the plan; null: none.
+struct ShownGrids {
+  const volume::SparseVolume *volume = nullptr, *heat = nullptr, *colors = nullptr;
+};
 
 /// A volume of a frame, where it is.
 struct PlacedVolume {
@@ -20,6 +26,8 @@ struct PlacedVolume {
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
   shared::VolumeEffect effect{};      ///< Tints and disturbance.
   bool is_preview = false;            ///< Of the previews of density and heat, where they have one.
+  ShownGrids grids{};
+  VolumeTables tables{};
 };
 
 struct MediaPlan {
@@ -43,6 +51,9 @@ shared::VolumeDetail volume_detail(const VolumeInput& volume);
 
 /// A volume as it is, or its previews in their places.
 VolumeInput shown_volume(const VolumeInput& volume, bool preview);
+
+/// Gives the volumes of a plan their tables; `tables`: of each volume of the input.
+void set_tables(MediaPlan& plan, std::span<const VolumeTables> tables);
 
 /// The volumes of a plan that may be in view.
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);

@@ -68,6 +68,7 @@ class RaycastFixture : public gpu::GpuTest {
       instance.bounds_max = one.volume->layout().bounds_max;
       instance.look = one.look;
       visible.push_back({visible.size(), {}, instance});
+      visible.back().grids.volume = one.volume;
     }
     return visible;
   }
