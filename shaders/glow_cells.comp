@@ -5,10 +5,9 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/glow_field.h"
-#include "shared/media.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kMedia = kMediumVolumes;
+layout(constant_id = 0) const uint kMedia = 0u;
 layout(binding = kBindGlowMatterTarget, rgba16f) uniform writeonly image3D matter_target;
 layout(binding = kBindGlowAlbedoTarget, rgba16f) uniform writeonly image3D albedo_target;
 layout(scalar, push_constant) uniform Push { GlowFieldParams params; };

@@ -5,11 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/lights.glsl"
-#include "shared/media.h"
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kMedia = kMediumSmoke;
+layout(constant_id = 0) const uint kMedia = 0u;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindShadowRays) readonly buffer Pairs { ShadowRays pairs[]; };
 layout(scalar, binding = kBindLightRows) readonly buffer Rows { uint rows[]; };
@@ -17,10 +16,9 @@ layout(scalar, binding = kBindLightBlocks) writeonly buffer Blocks { uint blocks
 layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/light_visibility.glsl"
 #include "lib/low_discrepancy.glsl"
-#include "lib/optical_depth.glsl"
+#include "lib/media_light.glsl"
 #include "lib/row_texels.glsl"
 #include "lib/smoke_texels.glsl"
-#include "lib/volume_depth.glsl"
 
 /// Steps through each volume besides the smoke.
 const uint kVolumeSteps = 16u;
@@ -30,11 +28,9 @@ const uint kVisibilityPoints = 8u;
 const float kVisibilityEdge = 1.25;
 
 /// Optical depth from a texel along a unit direction.
-float media_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
-  float depth = optical_depth(p_voxel, direction, distance_m, coarse);
-  if ((kMedia & kMediumVolumes) != 0u)
-    depth += volumes_depth(world_from_voxel(p_voxel), direction, distance_m, kVolumeSteps, 0u, 1u);
-  return depth;
+float depth_from(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
+  const MediaPoint from = MediaPoint(world_from_voxel(p_voxel), p_voxel);
+  return media_depth(from, direction, distance_m, depth_steps(coarse, kVolumeSteps));
 }
 
 /// Point i of those at which the visibility of a light is taken, from the centre of the voxel [voxels]: a lattice and
@@ -83,7 +79,7 @@ void to_light(ShadowRays pair, uint local) {
   const vec3 p_voxel = texel_position(pair.slot, local);
   const Incident incident = light_at(lights[pair.light], world_from_voxel(p_voxel));
   const float lit = significant_visibility(lights[pair.light], incident, p_voxel);
-  const float depth = media_depth(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
+  const float depth = depth_from(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
   blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(vec2(depth, lit));
 }
 
@@ -91,7 +87,7 @@ void to_sky(ShadowRays pair, uint local) {
   const vec3 p_voxel = texel_position(pair.slot, local);
   vec2 depths;
   for (uint i = 0u; i < 2u; ++i)
-    depths[i] = media_depth(p_voxel, sky_ray(2u * (pair.light - kSkyTarget) + i), 1e4, 2.0);
+    depths[i] = depth_from(p_voxel, sky_ray(2u * (pair.light - kSkyTarget) + i), 1e4, 2.0);
   blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(depths);
 }
 

@@ -5,12 +5,11 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/pane.glsl"
 #include "lib/shading.glsl"
-#include "shared/media.h"
 #include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
 
-layout(constant_id = 0) const uint kMedia = kMediumSmoke;  // those that may be before a pane
-layout(constant_id = 1) const uint kVoxelShadows = 1u;     // 0: no light is shadowed by voxels
+layout(constant_id = 0) const uint kMedia = 0u;         // those that may be before a pane
+layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
 
 layout(binding = kBindSmoke) uniform sampler2D smoke;
 layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
@@ -19,8 +18,7 @@ layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
 #include "lib/indirect_light.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/surface_lights.glsl"
-#include "lib/optical_depth.glsl"
-#include "lib/volume_depth.glsl"
+#include "lib/media_light.glsl"
 
 layout(location = 0) out vec4 shine;
 
@@ -33,12 +31,8 @@ const float kRough = 0.05;
 vec4 media_before(Pane pane) {
   const vec4 all = texelFetch(smoke, ivec2(gl_FragCoord.xy), 0);
   if (all.a > 0.999) return vec4(0.0, 0.0, 0.0, 1.0);
-  float depth = 0.0;
-  if ((kMedia & kMediumSmoke) != 0u)
-    depth += optical_depth((frame.camera.eye_world - frame.volume.origin_world) / frame.volume.voxel_size, -pane.view,
-                           pane.distance, 1.0);
-  if ((kMedia & kMediumVolumes) != 0u)
-    depth += volumes_depth(frame.camera.eye_world, -pane.view, pane.distance, kVolumeSteps, 0u, 1u);
+  const float depth = media_depth(media_point(frame.camera.eye_world), -pane.view, pane.distance,
+                                  depth_steps(1.0, kVolumeSteps));
   const float whole = -log(max(all.a, 1e-4));
   const float before = clamp((depth / whole - kRough) / (1.0 - 2.0 * kRough), 0.0, 1.0);
   const float transmittance = exp(-whole * before);

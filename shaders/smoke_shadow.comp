@@ -4,14 +4,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "shared/light.h"
-#include "shared/media.h"
 #include "shared/smoke_shadow.h"
 
 // Neighbouring threads split a ray: it is little work behind long memory latency.
 const uint kRayParts = 4u, kPartSteps = 16u;
 const uint kWindowThreads = kRayParts * kSmokeShadowBlock * kSmokeShadowBlock;
 layout(local_size_x = kWindowThreads) in;
-layout(constant_id = 0) const uint kMedia = kMediumSmoke;
+layout(constant_id = 0) const uint kMedia = 0u;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSun) uniform Views { ShadowView sun; };
 layout(binding = kBindShadowMaps) uniform sampler2DArray shadow_maps;
@@ -20,9 +19,8 @@ layout(scalar, binding = kBindSmokeShadowFaces) readonly buffer Faces { SmokeSha
 layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
 #include "lib/hole_reach.glsl"
 #include "lib/hole_window.glsl"
-#include "lib/optical_depth.glsl"
+#include "lib/media_light.glsl"
 #include "lib/solid.glsl"
-#include "lib/volume_depth.glsl"
 
 // Limit of exact holes per block of texels; beyond it their averages over cells are used.
 const uint kBlockHoles = 64u;
@@ -176,12 +174,11 @@ void main() {
   const uint ray = gl_LocalInvocationIndex / kRayParts, part = gl_LocalInvocationIndex % kRayParts;
   const uvec2 at = first + params.first + params.spread * uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
   const RaySegment segment = light_segment(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
-  float mine = (kMedia & kMediumSmoke) != 0u ? part_depth(steps_of(segment, part)) : 0.0;
-  if ((kMedia & kMediumVolumes) != 0u) {
-    const float distance = length(segment.to - segment.from);
-    const vec3 direction = (segment.to - segment.from) / max(distance, 1e-6);
-    mine += volumes_depth(segment.from, direction, distance, kRayParts * kPartSteps, part, kRayParts);
-  }
+  float mine = kHasSmoke ? part_depth(steps_of(segment, part)) : 0.0;
+  const float distance = length(segment.to - segment.from);
+  const vec3 direction = (segment.to - segment.from) / max(distance, 1e-6);
+  mine += depth_besides_smoke(media_point(segment.from), direction, distance,
+                              DepthSteps(1.0, kRayParts * kPartSteps, part, kRayParts));
   part_depths[gl_LocalInvocationIndex] = mine;
   barrier();
   float depth = 0.0;

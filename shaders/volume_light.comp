@@ -6,13 +6,12 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/light.h"
-#include "shared/media.h"
 #include "shared/scattering.h"
 #include "shared/volume_light.h"
 
 // Rows of 8: a software rasteriser takes the lanes of a subgroup from a row.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kMedia = kMediumVolumes;
+layout(constant_id = 0) const uint kMedia = 0u;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
 layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
@@ -70,7 +69,7 @@ float depth_to_light(uint volume, vec3 p_world, Incident incident) {
   const float ds = incident.distance / float(kStepsToLight);
   const uint mask =
       volumes_along(p_world, p_world + incident.to_light * incident.distance);
-  float depth = smoke_depth(p_world, incident.to_light, incident.distance);
+  float depth = others_depth(p_world, incident.to_light, incident.distance);
   for (uint i = 0u; i < kStepsToLight; ++i)
     depth += ds * volumes_extinction(mask, p_world + incident.to_light * (ds * (float(i) + 0.5)),
                                      incident.to_light * (0.5 * ds));

@@ -5,17 +5,14 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
-#include "shared/media.h"
 #include "shared/volume_light.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kMedia = kMediumSmoke;
+layout(constant_id = 0) const uint kMedia = 0u;
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
 layout(binding = kBindDepths, r16f) uniform writeonly image3D depths;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
-#include "lib/optical_depth.glsl"
-#include "lib/volume_depth.glsl"
-#include "lib/volume_extinction.glsl"
+#include "lib/media_extinction.glsl"
 
 /// Beyond it nothing of the light is left, and half floats end at 65504.
 const float kMostDepth = 60.0;
@@ -24,28 +21,12 @@ const float kFar = 1e6;
 /// Steps through each other volume before the bounds.
 const uint kStepsBeyond = 32u;
 
-/// Extinction of the volumes of a mask and of the smoke around the middle of a step [1/m].
-float extinction_at(uint mask, vec3 p_world, vec3 step_world) {
-  float sum = volumes_extinction(mask, p_world, 0.5 * step_world);
-  if ((kMedia & kMediumSmoke) != 0u) {
-    const vec3 p_voxel = (p_world - frame.volume.origin_world) / frame.volume.voxel_size;
-    if (all(greaterThan(p_voxel, frame.caster_bounds_min)) && all(lessThan(p_voxel, frame.caster_bounds_max)))
-      sum += frame.look.extinction * cut_smoke_at(p_voxel).density;
-  }
-  return sum;
-}
-
 /// Optical depth of what other media there are between the light and the bounds.
 float depth_beyond(vec3 enters_world, vec3 to_light) {
   float depth = 0.0;
   // At most once: a software rasteriser skips loops, but pays for branches that it does not take.
-  for (bool others = params.is_alone == 0u; others; others = false) {
-    depth = volumes_depth(enters_world, to_light, kFar, kStepsBeyond, 0u, 1u);
-    if ((kMedia & kMediumSmoke) != 0u) {
-      const vec3 p_voxel = (enters_world - frame.volume.origin_world) / frame.volume.voxel_size;
-      depth += optical_depth(p_voxel, to_light, kFar, 1.0);
-    }
-  }
+  for (bool others = params.is_alone == 0u; others; others = false)
+    depth = media_depth(media_point(enters_world), to_light, kFar, depth_steps(1.0, kStepsBeyond));
   return depth;
 }
 
@@ -60,13 +41,13 @@ void main() {
   const uint samples = params.edge * kSweepSamples;
   const vec3 step_world = per_unit / float(samples);
   const float ds = sweep.length_m / float(samples);
-  const uint mask = volumes_along(enters, enters + per_unit);
+  const MediaAlong along = media_along(enters, enters + per_unit);
   float depth = depth_beyond(enters, -per_unit / sweep.length_m);
   for (uint k = 0u; k < params.edge; ++k) {
     float cell = 0.0;
     for (uint i = 0u; i < kSweepSamples && depth < kMostDepth; ++i) {
       const float at = (float(k * kSweepSamples + i) + 0.5) / float(samples);
-      cell += ds * extinction_at(mask, enters + per_unit * at, step_world);
+      cell += ds * media_extinction(along, enters + per_unit * at, 0.5 * step_world);
     }
     // Of the middle of the cell.
     const uvec3 at = uvec3(number * params.edge + column.x, column.y, volume * params.edge + k);

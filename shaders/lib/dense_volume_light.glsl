@@ -3,13 +3,11 @@
 #ifndef DENSE_VOLUME_LIGHT_GLSL
 #define DENSE_VOLUME_LIGHT_GLSL
 #include "lib/frame.glsl"
-#include "lib/optical_depth.glsl"
+#include "lib/media_light.glsl"
 #include "lib/sky_light.glsl"
-#include "lib/volume_depth.glsl"
 #include "lib/volume_extinction.glsl"
 #include "shared/light.h"
 
-const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
 /// Beyond all media [m].
 const float kFar = 1e6;
 /// Steps through each other volume beyond the bounds of a dense one.
@@ -34,10 +32,9 @@ bool is_near_matter(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   return false;
 }
 
-/// Optical depth of the smoke along a ray.
-float smoke_depth(vec3 p_world, vec3 direction, float distance) {
-  if (!kHasSmoke) return 0.0;
-  return optical_depth((p_world - frame.volume.origin_world) / frame.volume.voxel_size, direction, distance, 1.0);
+/// Optical depth of what is not a volume along a ray.
+float others_depth(vec3 p_world, vec3 direction, float distance) {
+  return depth_besides_volumes(media_point(p_world), direction, distance, depth_steps(1.0, kStepsBeyond));
 }
 
 /// The part of a ray of `distance` metres in the bounds of a volume, from a point inside of them.
@@ -75,7 +72,7 @@ DenseDepth dense_depth(uint volume, vec3 p_world, vec3 direction, float distance
   // At most once.
   for (bool others = params.is_alone == 0u && depth.own < most; others; others = false) {
     depth.all += volumes_depth(p_world + direction * part, direction, distance - part, kStepsBeyond, 0u, 1u);
-    depth.all += smoke_depth(p_world, direction, distance);
+    depth.all += others_depth(p_world, direction, distance);
   }
   return depth;
 }

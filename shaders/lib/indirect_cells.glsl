@@ -15,6 +15,12 @@ float length_in_cell(Dda ray) {
   return (min(dda_min(dda_leave(ray)), ray.t_end) - ray.t) * frame.indirect.cell_size;
 }
 
+/// Scattering coefficient and extinction of a medium, as of a similar one that scatters evenly.
+vec4 evenly_scattering(float extinction, vec3 albedo, float g) {
+  const float mean = dot(albedo, vec3(1.0 / 3.0));
+  return extinction * vec4(albedo * (1.0 - g), 1.0 - mean * g);
+}
+
 vec3 indirect_from_world(vec3 p_world) { return (p_world - frame.indirect.origin_world) / frame.indirect.cell_size; }
 vec3 world_from_indirect(vec3 p_cells) { return frame.indirect.origin_world + p_cells * frame.indirect.cell_size; }
 

@@ -38,13 +38,13 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
   return true;
 }
 
-/// The media neither scatter nor glow: a ray has nothing but a transmittance.
-const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
+/// A ray has nothing but a transmittance.
+const bool kOnlyAbsorbs = kMediaAbsorb && kCount != kCountEntries;
 
 /// Length of the steps behind a transmittance, relative to the first: what they add to the image, and what they may be
-/// off by, counts that much less. Through smoke alone.
+/// off by, counts that much less.
 float step_factor(float transmittance) {
-  if (!kSmokeAlone) return 1.0;
+  if (!kLengthensSteps) return 1.0;
   const float coarse = frame.media.coarse_transmittance;
   return transmittance < 0.25 * coarse ? 4.0 : transmittance < coarse ? 2.0 : 1.0;
 }
@@ -83,7 +83,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
         absorbed_log2 += passed_log2;
         continue;
       }
-      if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
+      if (kMediaGlow) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, dt);
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(span, here, gathered.texture_samples);
         if (add_step(t - jitter * steps.ds, dt, passed_log2, light, gathered)) return;
@@ -120,7 +120,7 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
       const VolumesSample here = block.steps[step];
       ++gathered.steps;
       const float passed_log2 = -1.44269504 * ds * here.extinction;
-      if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
+      if (kMediaGlow) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
       if (passed_log2 < 0.0 && add_step(t + (float(step) - jitter) * ds, ds, passed_log2,
                                         here.light / here.extinction, gathered))
         return;

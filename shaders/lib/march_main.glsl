@@ -4,14 +4,13 @@
 #define MARCH_MAIN_GLSL
 #include "shared/frame.h"
 #include "shared/hole_clusters.h"
-#include "shared/media.h"
 #include "shared/resolve.h"
 
 layout(local_size_x = kHoleTilePixels, local_size_y = kHoleTilePixels) in;
 layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
-layout(constant_id = 3) const uint kMedia = kMediumSmoke;
+layout(constant_id = 3) const uint kMedia = 0u;
 layout(constant_id = 4) const uint kBlockSteps = 4u;
 layout(constant_id = 5) const uint kSplitByHoles = 0u;  // 1: two pipelines, of tiles that holes meet and of others
 #include "lib/blue_noise.glsl"
@@ -30,7 +29,7 @@ layout(scalar, binding = kBindMarchCounters) buffer Counters {
 /// Whether the other pipeline marches the rays of this workgroup, which covers as many tiles of holes as a tile of rays
 /// has pixels.
 bool is_of_other_pipeline() {
-  const bool split = kSplitByHoles != 0u && kHasSmoke && kHoles != kHolesAllTested && kRays != kRaysOfList;
+  const bool split = kSplitByHoles != 0u && kMayHaveHoles && kHoles != kHolesAllTested && kRays != kRaysOfList;
   if (!split || frame.holes.count == 0u) return false;
   const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
   bool any_hole = false;

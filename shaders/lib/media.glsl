@@ -1,5 +1,5 @@
-// The media of a frame as one: their extinctions add up. The includer defines the constants kMedia, the set of those
-// that are present, and kHoles.
+// The media of a frame as rays from the eye meet them: their extinctions add up. The includer defines the constants
+// kMedia, the set of those that are present, and kHoles.
 //
 // A medium is a lib/medium_*.glsl with
 //
@@ -10,16 +10,31 @@
 //   x_inscatter(...)                 radiance towards the eye where the extinction is above 0
 //   x_glow                           of a sample: radiance per metre, for a medium that glows without an extinction
 //
-// and a line in each function here, and in lib/media_block.glsl. See CONTRIBUTING.md, "Add a medium".
+// and a line in each function here, and in lib/media_block.glsl. As light meets it, it has
+//
+//   x_depth                          optical depth along a ray       a line in lib/media_light.glsl
+//   x_extinction                     at a point                      a line in lib/media_extinction.glsl
+//   x_in_cell                        mean of a cell                  a line in lib/media_cells.glsl
+//
+// and a constant in lib/media_set.glsl. No other shader asks which media there are. See CONTRIBUTING.md, "Add a
+// medium".
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
 #include "lib/media_block.glsl"
+#include "lib/media_set.glsl"
 #include "lib/medium_smoke.glsl"
 #include "lib/medium_volumes.glsl"
-#include "shared/media.h"
 
-const bool kHasVolumes = (kMedia & kMediumVolumes) != 0u;
 const bool kSmokeAlone = (kMedia & ~kMediaOfSmoke) == kMediumSmoke;
+
+/// They neither scatter nor glow.
+const bool kMediaAbsorb = !kHasSmoke && !kIsLit && !kHasGlow;
+/// One may glow without an extinction.
+const bool kMediaGlow = kHasGlow;
+/// Holes may be in one.
+const bool kMayHaveHoles = kHasSmoke;
+/// Steps may be longer behind what lets little light through.
+const bool kLengthensSteps = kSmokeAlone;
 
 struct MediaRay {
   WorldRay world;
@@ -120,6 +135,8 @@ vec3 media_glow(VolumesSample here, float passed_log2, float ds) {
   const float x = -0.693147181 * passed_log2;
   return here.glow * (x > 1e-2 ? ds * (1.0 - exp(-x)) / x : ds * (1.0 - 0.5 * x));
 }
+
+vec3 media_glow(MediaSample here, float passed_log2, float ds) { return media_glow(here.volumes, passed_log2, ds); }
 
 /// The factor that all in-scatter has in common.
 vec3 media_albedo() { return kSmokeAlone ? frame.look.albedo : vec3(1.0); }

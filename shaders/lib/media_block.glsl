@@ -4,9 +4,9 @@
 // rasteriser runs all of them for any.
 #ifndef MEDIA_BLOCK_GLSL
 #define MEDIA_BLOCK_GLSL
+#include "lib/media_set.glsl"
 #include "lib/medium_smoke.glsl"
 #include "lib/medium_volumes.glsl"
-#include "shared/media.h"
 
 const uint kMostBlockSteps = 4u;
 

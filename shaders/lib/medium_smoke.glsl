@@ -7,13 +7,13 @@
 #include "lib/detail_tile.glsl"
 #include "lib/erosion.glsl"
 #include "lib/frame.glsl"
+#include "lib/media_set.glsl"
 #include "lib/noise_tile.glsl"
 #include "lib/ray_holes.glsl"
 #include "shared/fine_light.h"
 #include "shared/light_side.h"
-#include "shared/media.h"
 
-const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kFineShadows = (kMedia & kMediumFineShadows) != 0u;
+const bool kFineShadows = (kMedia & kMediumFineShadows) != 0u;
 const bool kHasDetail = (kMedia & kMediumDetail) != 0u;
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;

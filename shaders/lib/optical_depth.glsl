@@ -1,4 +1,4 @@
-// Optical depth of the smoke along rays to lights.
+// The smoke as light meets it: optical depth along rays, extinction at points (lib/media_light.glsl).
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
 #include "lib/boundary_cells.glsl"
@@ -40,6 +40,15 @@ MeanSmoke cut_smoke_at(vec3 p_voxel) {
   return smoke;
 }
 
+vec3 smoke_from_world(vec3 p_world) { return (p_world - frame.volume.origin_world) / frame.volume.voxel_size; }
+
+/// Extinction at a point of the caster bounds [1/m]; 0 outside of them.
+float smoke_extinction(vec3 p_voxel) {
+  const bool inside =
+      all(greaterThan(p_voxel, frame.caster_bounds_min)) && all(lessThan(p_voxel, frame.caster_bounds_max));
+  return inside ? frame.look.extinction * cut_smoke_at(p_voxel).density : 0.0;
+}
+
 /// Distance along a ray from a point to where it leaves the aligned cube of this edge [voxels].
 float distance_out_of_cube(vec3 p_voxel, vec3 inverse, float edge) {
   const vec3 low = floor(p_voxel / edge) * edge;
@@ -50,7 +59,7 @@ float distance_out_of_cube(vec3 p_voxel, vec3 inverse, float edge) {
 /// Optical depth from a point along a unit direction, up to `distance_m` metres. Steps grow with the distance, because
 /// near smoke matters most, and end at the distance or at the caster bounds: one voxel each on average up to
 /// 24 / coarse voxels, longer beyond.
-float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
+float smoke_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
   const VolumeLayout volume = frame.volume;
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
   const vec3 t0 = (frame.caster_bounds_min - p_voxel) * inverse, t1 = (frame.caster_bounds_max - p_voxel) * inverse;

@@ -21,6 +21,10 @@ SHARED_CONST uint kMediumDense = 1024u;     // one is dense (VolumeInstance::is_
 SHARED_CONST uint kMediumFineShadows = 2048u;
 SHARED_CONST uint kMediumDetail = 4096u;  // its noise has detail (shared/erosion.h). Never without kMediumSmoke.
 SHARED_CONST uint kMediumVolumeDetail = 8192u;  // a volume has (shared/volume_detail.h)
+/// The media themselves.
+SHARED_CONST uint kMediaPresent = 3u;
+/// What optical depths depend on: these, and kMediumTransfer.
+SHARED_CONST uint kMediaOfDepths = 67u;
 /// How the smoke is drawn, whatever else there is.
 SHARED_CONST uint kMediaOfSmoke = 6144u;
 /// Those with which the albedo differs from point to point.

@@ -19,8 +19,7 @@ gpu::Image make_image(gpu::Context& context, VkFormat format, glm::uvec3 size) {
 }
 
 /// What the pipelines of media differ by.
-constexpr std::uint32_t kCellMedia =
-    shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer | shared::kMediumColors;
+constexpr std::uint32_t kCellMedia = shared::kMediaPresent | shared::kMediaOfAlbedos;
 
 template <typename T>
 void upload_list(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<const T> list) {

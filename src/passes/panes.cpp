@@ -11,7 +11,7 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines differ by.
-constexpr std::uint32_t kPaneMedia = shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer;
+constexpr std::uint32_t kPaneMedia = shared::kMediaOfDepths;
 
 gpu::GraphicsInfo pane_info(const gpu::ShaderCode& fragment, gpu::Blend blend) {
   gpu::GraphicsInfo info{&shaders::gbuffer_vert, &fragment, {VK_FORMAT_R16G16B16A16_SFLOAT}};

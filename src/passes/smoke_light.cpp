@@ -10,7 +10,7 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines of rays differ by.
-constexpr std::uint32_t kRayMedia = shared::kMediumVolumes | shared::kMediumTransfer;
+constexpr std::uint32_t kRayMedia = shared::kMediaOfDepths;
 
 /// Workgroups of y and z for a list.
 struct Groups {

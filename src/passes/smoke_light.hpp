@@ -60,7 +60,7 @@ class SmokeLightPass {
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, inscatter_pass_;
-  std::map<std::uint32_t, gpu::ComputePipeline> rays_passes_;  ///< By the media besides the smoke.
+  std::map<std::uint32_t, gpu::ComputePipeline> rays_passes_;  ///< By media.
   gpu::Sampler linear_, compare_;
   gpu::Buffer texel_lists_, ray_pages_;                                            // what is cached
   gpu::Buffer listed_bricks_, changes_, shadow_rays_, gathers_, gathered_lights_;  // the lists of a plan

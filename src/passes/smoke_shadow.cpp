@@ -10,8 +10,7 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines differ by.
-constexpr std::uint32_t kShadowMedia =
-    shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer;
+constexpr std::uint32_t kShadowMedia = shared::kMediaOfDepths;
 constexpr float kStepMetres = 0.25f;
 constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 

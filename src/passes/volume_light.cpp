@@ -8,9 +8,9 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines differ by.
-constexpr std::uint32_t kSweepMedia = shared::kMediumSmoke | shared::kMediumTransfer | shared::kMediumSeveral;
+constexpr std::uint32_t kSweepMedia = shared::kMediaOfDepths | shared::kMediumSeveral;
 constexpr std::uint32_t kLightMedia =
-    shared::kMediaOfAlbedos | shared::kMediumSmoke | shared::kMediumSeveral | shared::kMediumDense;
+    shared::kMediaOfAlbedos | shared::kMediaPresent | shared::kMediumSeveral | shared::kMediumDense;
 
 /// `count` cubes along z, `side_by_side` of them along x.
 gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,
