@@ -27,7 +27,7 @@ class VolumeLightPass {
   };
 
   explicit VolumeLightPass(gpu::Context& context);
-  /// The cubes of light, which a plan with this room may rely on; without those of glow.
+  /// The cubes of light that a plan may rely on; the cubes of glow are GlowFieldPass's.
   planning::VolumeLightRoom room() const;
   /// Makes room for the light of a plan: where it does not fit into room(), the light of earlier frames is
   /// lost. Outside of a recording, once the device has finished previous ones. Throws resource_limit.

@@ -68,7 +68,7 @@ class NoiseUpdates {
   void mark_moved(const NoiseInputs& inputs, std::span<const shared::Impulse> impulses);
 
   Proposed<State> state_;
-  // Of the frame that is being planned.
+  // Lists of the frame that is being planned.
   std::vector<std::uint8_t> changed_;  // of each slot
   std::vector<std::uint32_t> slots_due_;
 };

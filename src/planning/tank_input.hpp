@@ -24,7 +24,7 @@ struct TankLight {
 
 /// Where a tank is in a world: turned, scaled and moved.
 struct TankPlacement {
-  glm::mat3 axes{1};  ///< Unit vectors at right angles, right-handed: those of the tank in the world.
+  glm::mat3 axes{1};  ///< Unit vectors at right angles, right-handed: the tank's axes in the world.
   glm::vec3 position_world{0};  ///< Of its middle.
   float scale = 1;              ///< > 0
 
@@ -39,7 +39,7 @@ struct TankInput {
   std::uint32_t samples = 1;  ///< Paths of each pixel in this frame, > 0.
   std::uint32_t index =
       0;  ///< The first one's number, where the picture begins: another one has other noise.
-  /// The frame's surfaces before the tank are those of the frame before: samples are added to it, where all
+  /// The surfaces before the tank are the same as in the frame before: samples are added to it, where all
   /// else is the same, too.
   bool continues = false;
 };

@@ -188,7 +188,7 @@ VolumeStreaming::State& VolumeStreaming::state_of(States& states, const SparseVo
   const auto found =
       std::ranges::find_if(states, [&](const auto& state) { return state->id == volume.id(); });
   if (found == states.end()) return *states.emplace_back(std::make_shared<State>(make_state(volume)));
-  // A volume that is shown several times has one state; that of the frame before stays as it is.
+  // A volume that is shown several times has one state; the previous frame's stays as it is.
   if (!(*found)->is_complete() && found->use_count() > 1) *found = std::make_shared<State>(**found);
   return **found;
 }
