@@ -12,7 +12,7 @@
 #include "apps/command_line/number.hpp"
 #include "core/error.hpp"
 #include "image/image.hpp"
-#include "scene/timeline.hpp"
+#include "scene/events.hpp"
 
 namespace brume::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "scene/timeline.hpp"
+#include "scene/carrier.hpp"
 
 namespace brume::viewer {
 

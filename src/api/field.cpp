@@ -5,6 +5,7 @@
 #include "api/ranges.hpp"
 #include "api/smoke_field.hpp"
 #include "core/tasks.hpp"
+#include "scene/smoke_options.hpp"
 #include "shared/volume.h"
 
 namespace brume::api {

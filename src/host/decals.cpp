@@ -7,6 +7,7 @@
 #include "api/ranges.hpp"
 #include "host/frame.hpp"
 #include "host/volumes.hpp"
+#include "scene/decal_options.hpp"
 #include "volumes/decal_volume.hpp"
 
 using namespace brume::api;

@@ -1,7 +1,7 @@
 // How smoke looks, in the form that shaders read.
 #pragma once
 
-#include "scene/timeline.hpp"
+#include "scene/smoke_options.hpp"
 #include "shared/frame.h"
 #include "smoke/field.hpp"
 

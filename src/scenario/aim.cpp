@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/timeline.hpp"
+#include "scene/events.hpp"
 #include "sim/walk.hpp"
 #include "voxel/traverse.hpp"
 

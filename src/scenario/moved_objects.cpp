@@ -31,8 +31,8 @@ std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers,
   return moved;
 }
 
-void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene) {
-  for (const MovedObject& moved : moved_objects(timeline.carriers, scene, 0))
+void exclude_moved_objects(std::span<const scene::Carrier> carriers, scene::Scene& scene) {
+  for (const MovedObject& moved : moved_objects(carriers, scene, 0))
     scene.objects[moved.object].role = Role::ghost;
 }
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "scene/carrier.hpp"
 #include "scene/scene.hpp"
-#include "scene/timeline.hpp"
 
 namespace brume::scenario {
 
@@ -21,6 +21,6 @@ std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers,
                                        double seconds);
 
 /// What moves stops nothing.
-void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene);
+void exclude_moved_objects(std::span<const scene::Carrier> carriers, scene::Scene& scene);
 
 }  // namespace brume::scenario

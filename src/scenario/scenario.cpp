@@ -38,7 +38,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
   for (const scene::RoleOptions& options : timeline.roles)
     for (scene::Object& object : scene.objects)
       if (object.name == options.object) object.role = options.role;
-  exclude_moved_objects(timeline, scene);
+  exclude_moved_objects(timeline.carriers, scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();
   std::filesystem::path cache;

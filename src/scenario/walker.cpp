@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scenario/body_sweep.hpp"
-#include "scene/timeline.hpp"
+#include "scene/events.hpp"
 
 namespace brume::scenario {
 namespace {

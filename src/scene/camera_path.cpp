@@ -1,7 +1,8 @@
+#include "scene/camera_path.hpp"
+
 #include <cmath>
 
 #include "scene/key_path.hpp"
-#include "scene/timeline.hpp"
 
 namespace brume::scene {
 

@@ -1,8 +1,9 @@
+#include "scene/carrier.hpp"
+
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/key_path.hpp"
-#include "scene/timeline.hpp"
 
 namespace brume::scene {
 
@@ -30,15 +31,6 @@ glm::mat4 pose_at(const Carrier& carrier, double time) {
 glm::mat4 pose_of(std::span<const Carrier> carriers, const std::string& name, double time) {
   const auto found = std::ranges::find(carriers, name, &Carrier::name);
   return found == carriers.end() ? glm::mat4(1) : pose_at(*found, time);
-}
-
-glm::vec3 glow_at(const VolumeMask& mask, double time) {
-  if (mask.keys.empty()) return mask.color * mask.intensity;
-  const auto [before, after] = span_at(std::span(mask.keys), time);
-  const MaskKey &a = mask.keys[before], &b = mask.keys[after];
-  if (before == after) return a.color * a.intensity;
-  const auto part = static_cast<float>((time - a.time) / (b.time - a.time));
-  return glm::mix(a.color, b.color, part) * glm::mix(a.intensity, b.intensity, part);
 }
 
 }  // namespace brume::scene

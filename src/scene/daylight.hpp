@@ -1,7 +1,7 @@
 // How the light of the sun and the sky changes where the sun is low.
 #pragma once
 
-#include "scene/timeline.hpp"
+#include "scene/sky.hpp"
 
 namespace brume::scene {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include "scene/events.hpp"
 #include "scene/options.hpp"
-#include "scene/timeline.hpp"
 
 namespace brume::scene {
 

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scene/timeline.hpp"
-
 namespace brume::scene {
 
 struct OptionInfo {

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene/timeline.hpp"
+#include "scene/camera_path.hpp"
+#include "scene/sky.hpp"
+#include "scene/tone.hpp"
 #include "spheres/pack.hpp"
 
 namespace brume::scene {

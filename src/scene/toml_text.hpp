@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "scene/camera_path.hpp"
 #include "scene/options.hpp"
-#include "scene/timeline.hpp"
 
 namespace brume::scene {
 

@@ -14,7 +14,7 @@
 #include "grids/files.hpp"
 #include "grids/glow.hpp"
 #include "grids/volume_files.hpp"
-#include "scene/timeline.hpp"
+#include "scene/volume_options.hpp"
 
 namespace brume::volumes {
 

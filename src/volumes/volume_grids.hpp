@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "grids/grid.hpp"
-#include "scene/timeline.hpp"
+#include "scene/volume_options.hpp"
 
 namespace brume::volumes {
 

@@ -8,6 +8,7 @@
 
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
+#include "scene/carrier.hpp"
 
 namespace brume::volumes {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "scene/scene.hpp"
-#include "scene/timeline.hpp"
+#include "scene/volume_options.hpp"
 #include "volumes/volume_extent.hpp"
 #include "volumes/volume_frame.hpp"
 #include "volumes/volume_loader.hpp"

@@ -25,7 +25,7 @@ const Groups kKnownCircles{
     {"src/scenario/events", "src/scenario/level_events"},
     {"src/scenario/scenario", "src/scenario/smoke_report"},
     {"src/volumes/volume_extent", "src/volumes/volume_frame", "src/volumes/volume_grids"},
-    {"src/scene/event_fields", "src/scene/options", "src/scene/timeline", "src/scene/timeline_parts"},
+    {"src/scene/timeline", "src/scene/timeline_parts"},
     {"src/sim/event_fields", "src/sim/events"},
 };
 

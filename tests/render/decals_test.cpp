@@ -39,7 +39,7 @@ class DecalFramesTest : public VolumeFixture {
     if (with_carrier)
       timeline.carriers = {
           {"drone", "cube", {{0, {1.5f, 1, 0}, {20, 40, 10}}, {2, {1.5f, 1, 2}, {0, 0, 90}}}}};
-    scenario::exclude_moved_objects(timeline, scene);
+    scenario::exclude_moved_objects(timeline.carriers, scene);
     const voxel::GridLayout layout{{48, 20, 48}, 0.25f, {-6, -0.6f, -6}};
     auto voxels = scenario::load_or_voxelize(scene, layout, {}).value_or_throw();
     return {std::move(timeline), std::move(scene), {{0, 4, 8}, {0, 0.4f, 0}, 0.8f}, std::move(voxels)};
