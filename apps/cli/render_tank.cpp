@@ -65,6 +65,7 @@ Json render_by_paths(const TankJob& job) {
   const std::uint32_t samples =
       most_samples(job.options.reference, job.options.samples, job.scenario.scene.samples);
   double drawn = 0;
+  // The key of a checkpoint has no limits of samples: a later run may raise them.
   RenderOptions without_limits = job.options;
   without_limits.reference = {};
   without_limits.reference.max_bounces = job.options.reference.max_bounces;
@@ -74,6 +75,7 @@ Json render_by_paths(const TankJob& job) {
           const scene::TankScene now = reference::scene_at(job.scenario.scene, seconds);
           const reference::TankModel model(job.scenario.tank, now);
           const scene::Camera camera = job.camera_at(seconds, frame);
+          // Paths of the tank as it is now, until the limits are reached.
           reference::RenderSettings settings;
           settings.size_px = size_px;
           settings.blades = camera.lens.blades;
@@ -99,6 +101,7 @@ Json render_by_paths(const TankJob& job) {
 void render_tank(const Arguments& arguments, const RenderOptions& options, const Plan& plan,
                  CommonOptions& common) {
   const Stopwatch watch;
+  // The tank, the cameras, and how many frames there are.
   refuse_options_of_levels(arguments);
   scenario::TankScenario scenario = load_tank(options.input, plan.scene, is_interrupted);
   if (options.reference.max_bounces) scenario.scene.bounces = *options.reference.max_bounces;
@@ -112,6 +115,7 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
     declare_frames(options, plan, frames_of(plan, job.duration()), common.outputs);
   warn_of_times(options, plan, job.duration());
 
+  // The frames, and what they cost.
   const Json frames = !has_frames(plan, job.duration()) ? Json{{"frames", 0}}
                       : is_reference(options)           ? render_by_paths(job)
                                                         : render_on_device(job);

@@ -90,6 +90,7 @@ void add_tank_lights(Summary& summary, const scene::TankScene& scene) {
 TankFacts facts_of(const spheres::Tank& tank) {
   TankFacts facts;
   if (tank.spheres.empty()) return facts;
+  // Sizes, and what the spheres cover.
   std::vector<float> radii;
   radii.reserve(tank.spheres.size());
   double cubes = 0;
@@ -108,6 +109,7 @@ TankFacts facts_of(const spheres::Tank& tank) {
   facts.largest = *std::max_element(radii.begin(), radii.end());
   const glm::dvec3 size(tank.size);
   facts.fill = 4.0 / 3 * std::numbers::pi * cubes / (size.x * size.y * size.z);
+  // Opacities: the highest byte of a colour.
   facts.least_opacity = 255;
   for (const spheres::Color color : tank.colors) {
     const std::uint32_t opacity = color >> 24;
