@@ -279,7 +279,8 @@ int together(const Process& process, const std::function<void()>& step) {
   return code;
 }
 
-/// Of the part of this process. What cannot be divided is a fault of the file: no option would change it.
+/// Optical depths of the part of this process. A volume that cannot be divided is a fault of the file: no
+/// option would change it.
 std::vector<float> find_depths(const Options& options, Prepared& prepared) {
   try {
     return prepared.renderer.find_depths(prepared.subject.frame);
