@@ -19,7 +19,7 @@ class CarrierFlight {
 
   /// Index into Timeline::carriers.
   std::size_t carrier() const { return carrier_; }
-  /// Where it is; the time is of no meaning.
+  /// Where it is; the time has no meaning.
   const scene::CarrierKey& pose() const { return pose_; }
   /// The camera before the flight.
   const scene::Camera& camera_before() const { return camera_before_; }
@@ -39,8 +39,8 @@ class CarrierFlight {
   std::size_t carrier_;
   scene::CarrierKey pose_;
   scene::Camera camera_before_;
-  float distance_ = 1;         ///< Of the camera [m].
-  float yaw_ = 0, pitch_ = 0;  ///< Of the camera, as those of Player [rad].
+  float distance_ = 1;         ///< From the carrier to the camera [m].
+  float yaw_ = 0, pitch_ = 0;  ///< View direction of the camera, as in Player [rad].
 };
 
 /// The size of all that moves with a carrier: the diagonal of a box around its objects, or else around its

@@ -26,7 +26,7 @@ ImVec2 im_of(glm::vec2 p) {
 
 /// Where places of a curve are on the display.
 struct Area {
-  glm::vec2 low, high;  // of the rectangle [px]
+  glm::vec2 low, high;  // corners of the rectangle [px]
   glm::vec2 size() const { return high - low; }
   glm::vec2 on_display(glm::vec2 place) const {
     return {low.x + place.x * size().x, high.y - place.y * size().y};

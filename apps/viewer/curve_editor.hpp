@@ -25,7 +25,7 @@ bool remove_point(std::vector<scene::OpacityPoint>& curve, std::size_t point);
 
 /// What is drawn behind a curve.
 struct CurveBackdrop {
-  std::span<const std::uint64_t> histogram;  ///< Of values, in bins of equal width.
+  std::span<const std::uint64_t> histogram;  ///< How often values occur, in bins of equal width.
   glm::vec2 histogram_range{0, 1};           ///< Positions of its ends.
   glm::vec2 values{0, 1};                    ///< At the positions 0 and 1.
 };
@@ -37,13 +37,13 @@ bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, cons
 std::optional<std::size_t> add_color(std::vector<scene::ColorPoint>& points, float at);
 void move_color(std::vector<scene::ColorPoint>& points, std::size_t point, float at);
 bool remove_color(std::vector<scene::ColorPoint>& points, std::size_t point);
-/// Points of any map but an empty one, as near to it as a few points are; those of a map of points.
+/// The points of a map of points; of any other map but an empty one, a few points that approximate it.
 std::vector<scene::ColorPoint> points_of(const scene::ColorMap& map);
 
 /// Draws a colour map as a bar.
 void draw_color_map(const scene::ColorMap& map);
-/// Lays out the editor of a map of points: the bar, whose points are edited as those of a curve, and the
-/// colour of the one that was clicked last. Returns whether a point changed.
+/// Lays out the editor of a map of points: the bar, whose points are edited as in edit_curve, and the
+/// colour of the point that was clicked last. Returns whether a point changed.
 bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points);
 
 }  // namespace brume::viewer

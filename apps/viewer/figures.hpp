@@ -28,7 +28,7 @@ class Figures {
 
   void add(FrameFigures frame);
   const std::deque<FrameFigures>& frames() const { return frames_; }
-  std::uint64_t count() const { return count_; }  ///< Of all frames so far.
+  std::uint64_t count() const { return count_; }  ///< Number of frames so far.
   /// Median over the history; 0 without frames.
   double median(double FrameFigures::*member) const;
   double frames_per_second() const;

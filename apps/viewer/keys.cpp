@@ -44,6 +44,7 @@ std::span<const KeyBinding> level_bindings() {
       KeyBinding{Action::blast, act, false, GLFW_KEY_E, "E", "explosion where you look"},
       KeyBinding{Action::door, act, false, GLFW_KEY_F, "F", "open or close the nearest door"},
       KeyBinding{Action::probe, act, false, GLFW_KEY_L, "L", "line of sight: one end, then the other"},
+      // Consecutive keys with one description are one row of the help, which names each label once.
       KeyBinding{Action::undo, act, false, GLFW_KEY_Z, "Ctrl+Z", "undo action or setting", kControl},
       KeyBinding{Action::redo, act, false, GLFW_KEY_Y, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControl},
       KeyBinding{Action::redo, act, false, GLFW_KEY_Z, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControlShift},
@@ -75,6 +76,7 @@ std::span<const KeyBinding> tank_bindings() {
       KeyBinding{Action::orbit, move, true, GLFW_MOUSE_BUTTON_LEFT, "Mouse left",
                  "drag: around the tank; a light, or the glass, by its mark"},
       KeyBinding{Action::pan, move, true, GLFW_MOUSE_BUTTON_RIGHT, "Mouse right", "drag: aside"},
+      // The middle button pans, too: one row of the help, under one label.
       KeyBinding{Action::pan, move, true, GLFW_MOUSE_BUTTON_MIDDLE, "Mouse right", "drag: aside"},
       KeyBinding{Action::forward, move, false, GLFW_KEY_W, "W", kGlides},
       KeyBinding{Action::left, move, false, GLFW_KEY_A, "A", kGlides},

@@ -90,6 +90,7 @@ void lay_out_level_status(const Game& game, const Figures& figures, const Notice
   } else {
     ImGui::TextUnformatted("begins...");
   }
+  // How the player moves, and what a click shoots.
   std::string moves = game.session().follows_path() ? "along the path"
                       : game.player().flying()      ? "flying"
                                                     : "walking";
@@ -101,6 +102,7 @@ void lay_out_level_status(const Game& game, const Figures& figures, const Notice
     ImGui::SameLine();
     ImGui::TextColored(kAccentText, " slowed: %.1fx", notices.pace);
   }
+  // What differs from the picture of a film.
   const Choices& choices = game.choices();
   if (choices.view != passes::DebugView::none)
     ImGui::Text("view: %s", std::string(passes::debug_view_name(choices.view)).c_str());

@@ -188,7 +188,7 @@ void lay_out_views(Game& game) {
   lay_out_slice(choices, game);
 }
 
-/// Of the solid point in the middle of the view, along the view axis [m].
+/// How far away the solid point in the middle of the view is, along the view axis [m].
 float distance_of_middle(const Game& game) {
   constexpr float kFarthest = 1000;
   const scene::Camera camera = game.player().camera();
@@ -223,7 +223,7 @@ void lay_out_camera(Game& game, UiRequests& requests) {
     scenario::WalkerOptions walker = player.options();
     if (option_rows(walker, scenario::WalkerOptions(),
                     [](auto& o, auto&& visitor) { scenario::visit_walker_options(o, visitor); })) {
-      walker.eye = std::min(walker.eye, walker.height);
+      walker.eye = std::min(walker.eye, walker.height);  // the eye is in the body
       player.set_options(game.bodies(), walker);
       game.setting_changed("body");
     }

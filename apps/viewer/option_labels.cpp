@@ -10,12 +10,12 @@ namespace {
 struct Label {
   const char* key;
   const char* label;
-  const char* unit =
-      nullptr;  ///< Only for settings of this unit: other tables have the same key for other things.
+  /// Only for settings of this unit: other tables have the same key for other things. Null: of any unit.
+  const char* unit = nullptr;
 };
 
 constexpr std::array kLabels{
-    // Of the film and the grid.
+    // Film and camera.
     Label{"duration", "length of the film"},
     Label{"exposure", "exposure"},
     Label{"fov", "field of view"},
@@ -23,7 +23,7 @@ constexpr std::array kLabels{
     Label{"focus", "focus distance"},
     Label{"blades", "aperture blades"},
     Label{"shutter", "shutter time"},
-    // Of a tank.
+    // Tank.
     Label{"samples", "samples of a pixel"},
     Label{"bounces", "bounces"},
     Label{"photons", "light through the glass"},
@@ -41,7 +41,7 @@ constexpr std::array kLabels{
     Label{"radii", "radii"},
     Label{"index", "index of refraction"},
     Label{"intensity", "intensity", "W/sr"},
-    // Of the smoke.
+    // Smoke.
     Label{"voxels", "volume"},
     Label{"bloom", "time to grow"},
     Label{"hold", "time at full size"},
@@ -58,11 +58,11 @@ constexpr std::array kLabels{
     Label{"swirl_period", "time of a swirl"},
     Label{"rise", "billows rise by"},
     Label{"hole_rim", "ragged holes"},
-    // Of volumes, where they differ.
+    // Volumes, where they differ from smoke.
     Label{"emission", "brightness"},
     Label{"kelvin", "temperature"},
     Label{"glow", "unlit"},
-    // Of masks, disturbances and particles.
+    // Masks, disturbances and particles of volumes.
     Label{"color", "colour"},
     Label{"intensity", "brightness"},
     Label{"strength", "strength"},
@@ -71,20 +71,20 @@ constexpr std::array kLabels{
     Label{"grow", "grows over"},
     Label{"particles", "particles"},
     Label{"particle_size", "size of particles"},
-    // Of decals.
+    // Decals.
     Label{"scale", "scale"},
     Label{"gamma", "gamma"},
     Label{"correction", "correction"},
     Label{"falloff", "falloff"},
     Label{"fade", "fades at the sides", ""},
     Label{"scatter", "scatter"},
-    // Of the sky.
+    // Sky.
     Label{"zenith", "sky above"},
     Label{"horizon", "sky at the horizon"},
     Label{"ambient", "light in shadows"},
     Label{"stars", "stars"},
     Label{"bounce", "light indoors"},
-    // Of shots, letters and explosions.
+    // Shots, letters and explosions.
     Label{"radius", "radius"},
     Label{"reach", "time to pierce"},
     Label{"expand", "time to open"},
@@ -99,7 +99,7 @@ constexpr std::array kLabels{
     Label{"remaining", "smoke that remains"},
     Label{"refill_rim", "edge full after"},
     Label{"refill_middle", "middle full after"},
-    // Of the body.
+    // The body of the player.
     Label{"half_width", "half its width"},
     Label{"height", "height"},
     Label{"eye", "height of the eye"},

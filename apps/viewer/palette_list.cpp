@@ -10,9 +10,9 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kLabelPart = 0.42f;        // of the window's width
-constexpr float kStripPart = 0.55f;        // of a row's width
-constexpr std::size_t kMostSegments = 32;  // of a strip: finer than what a row shows
+constexpr float kLabelPart = 0.42f;        // fraction of the window's width
+constexpr float kStripPart = 0.55f;        // fraction of a row's width
+constexpr std::size_t kMostSegments = 32;  // in a strip: finer than a row can show
 
 /// The label of a row of settings, before its widget.
 void begin_setting(const char* label) {

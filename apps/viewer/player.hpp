@@ -12,7 +12,7 @@ namespace brume::viewer {
 
 class Player {
  public:
-  static constexpr float kRadiansPerPixel = 0.0022f;  // of mouse motion
+  static constexpr float kRadiansPerPixel = 0.0022f;  ///< How far the mouse turns the view.
 
   /// Moves to the position and view direction of a camera, on foot or flying as before.
   void go_to(const voxel::BitGrid& grid, const scene::Camera& camera);

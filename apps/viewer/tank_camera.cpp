@@ -10,12 +10,13 @@
 namespace brume::viewer {
 namespace {
 
-/// Of the view's axis and the horizon [radians]: a camera straight above has no horizon.
+/// Largest elevation of the camera above the horizon [rad]: straight above, its right would be undefined.
 constexpr float kSteepest = 1.55f;
 /// Half a turn for a drag across the picture's height.
 constexpr float kTurn = std::numbers::pi_v<float>;
+/// Factor of the distance to the target, for each notch of the wheel.
 constexpr float kZoom = 0.9f;
-/// Of the target [m]: the camera does not pass it.
+/// Least distance to the target [m]: the camera does not pass it.
 constexpr float kNearest = 0.01f;
 
 struct Axes {
@@ -29,7 +30,7 @@ Axes axes_of(const scene::Camera& camera) {
   return {right, glm::cross(right, forward), forward};
 }
 
-/// Of a height of the picture, at a distance of 1.
+/// The picture's height at a distance of 1.
 float height_at_one(const scene::Camera& camera) {
   return 2 * std::tan(0.5f * camera.vertical_fov);
 }

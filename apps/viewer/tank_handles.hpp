@@ -13,7 +13,7 @@ namespace brume::viewer {
 struct TankHandle {
   enum class Kind { light, glass };
   Kind kind = Kind::light;
-  std::size_t index = 0;  ///< Of the light.
+  std::size_t index = 0;  ///< Number of the light in the scene; 0 for the glass.
   bool operator==(const TankHandle&) const = default;
 };
 

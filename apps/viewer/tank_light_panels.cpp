@@ -64,7 +64,7 @@ bool lay_out_light(TankState& state, std::size_t index) {
 }  // namespace
 
 void lay_out_lights(TankState& state, TankChoices& choices) {
-  std::optional<std::size_t> removed;
+  std::optional<std::size_t> removed;  // after the rows, which number the lights
   for (std::size_t i = 0; i < state.scene().lights.size(); ++i) {
     const std::string name = "light " + std::to_string(i + 1);
     glm::vec3 color = state.scene().lights[i].color;

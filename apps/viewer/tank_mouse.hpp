@@ -11,7 +11,7 @@ namespace brume::viewer {
 
 class TankMouse {
  public:
-  static constexpr float kReach = 12;  ///< Of a mark [px].
+  static constexpr float kReach = 12;  ///< How near to a mark the cursor hovers it [px].
 
   /// Moves what the mouse drags, now that the cursor is there in a window of this size [px]. `has_cursor`: it
   /// is not over the panels. Presses on a panel must not be in `input`.

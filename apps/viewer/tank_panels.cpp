@@ -199,6 +199,8 @@ void lay_out_packing(TankState& state, const TankFigures& figures, const Status&
     if (button("pack others instead")) state.edit().file.clear();
     return;
   }
+
+  // Rows of options; noise has a size only where something uses it.
   spheres::PackOptions& pack = scene.pack;
   const spheres::PackOptions& file = state.file().pack;
   bool changed = false;

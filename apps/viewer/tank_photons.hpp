@@ -12,13 +12,13 @@ namespace brume::viewer {
 
 class TankPhotons {
  public:
-  /// Of light paths that a frame can wait for: a few hundredths of a second.
+  /// Light paths of a preview, for which a frame can wait: a few hundredths of a second.
   static constexpr std::uint32_t kPreview = 1u << 16;
 
   /// Light paths that replace what was returned before.
   struct Change {
     spheres::LightPaths paths;
-    bool restarts = false;  ///< Of another light, or more of them: samples so far are of no use.
+    bool restarts = false;  ///< The light is another one, or has more paths: samples so far are useless.
   };
 
   TankPhotons() = default;
@@ -36,11 +36,11 @@ class TankPhotons {
   /// Waits until update() has nothing more to return for these samples; the last of it.
   std::optional<Change> complete(const spheres::Tank& tank, const spheres::LightPathScene& scene,
                                  std::uint32_t count, std::uint32_t samples);
-  /// Whether all of them were returned, not a preview.
+  /// Whether all light paths of the scene were returned, not a preview.
   bool is_complete() const { return count_ == wanted_; }
-  /// Whether the next sample of a picture with so many may use what was returned.
+  /// Whether the next sample of a picture that has `samples` may use what was returned.
   bool is_ready_for(std::uint32_t samples) const;
-  /// Nothing was returned so far: the tank or the renderer is another one.
+  /// Forgets what was returned: the tank or the renderer is another one.
   void restart();
 
  private:
@@ -51,8 +51,8 @@ class TankPhotons {
 
   std::optional<spheres::BrickLists> bricks_;
   spheres::LightPathScene scene_;
-  std::uint32_t wanted_ = 0, count_ = 0;  ///< Light paths of the scene, and of those that were returned last.
-  std::uint32_t batch_ = 0;               ///< Of those.
+  std::uint32_t wanted_ = 0, count_ = 0;  ///< Light paths: of the scene, and returned last.
+  std::uint32_t batch_ = 0;               ///< The batch that was returned last.
   spheres::LightPaths first_;             ///< All of batch 0, with which every picture of the scene begins.
   std::atomic<bool> stops_ = false;
   std::future<spheres::LightPaths> next_;  ///< Running or finished, or invalid.

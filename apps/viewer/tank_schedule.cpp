@@ -7,7 +7,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr std::uint32_t kSmallest = 8;  // of the window's size: 1 / 8
+constexpr std::uint32_t kSmallest = 8;  // a moving picture has at least 1 / 8 of the window's size
 constexpr double kNewest = 0.5;         // weight of a measurement
 
 double pixels(glm::uvec2 size) {

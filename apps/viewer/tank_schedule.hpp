@@ -8,8 +8,8 @@ namespace brume::viewer {
 
 /// What the next frame adds.
 struct TankSlice {
-  std::uint32_t samples = 0;  ///< Of each pixel; 0: a part of one.
-  std::uint32_t rows = 0;     ///< Of the picture, where samples is 0.
+  std::uint32_t samples = 0;  ///< More samples of each pixel; 0: a part of one.
+  std::uint32_t rows = 0;     ///< Rows of that part, where samples is 0.
 };
 
 class TankSchedule {
@@ -18,18 +18,18 @@ class TankSchedule {
   static constexpr double kMoving = 0.05, kResting = 0.1;
   /// Frames without a change until the picture has the window's size again.
   static constexpr int kFramesUntilRest = 3;
-  /// Of a submission: some devices think of longer ones that they hang.
+  /// Most samples in a submission: drivers take a device that works for longer to be hung.
   static constexpr std::uint32_t kMostSamples = 64;
 
-  /// To be called once a frame: whether the picture is another one than before.
+  /// To be called once a frame. `changed`: the picture is another one than before.
   void begin_frame(bool changed);
   bool is_moving() const { return still_frames_ < kFramesUntilRest; }
 
   /// The size of the picture for a window of this size: at most the window's, in whole fractions of it while
   /// something moves.
   glm::uvec2 picture_px(glm::uvec2 window_px) const;
-  /// The next part of a picture of this size that has so many samples, and rows of one more, at most `limit`
-  /// samples. Nothing (0, 0) when it has all.
+  /// The next part of a picture of this size that has `samples`, and `rows` of one more. Nothing (0, 0) when
+  /// it has `limit` samples.
   TankSlice next(glm::uvec2 size_px, std::uint32_t samples, std::uint32_t rows, std::uint32_t limit) const;
 
   /// The time that a slice took on the device [s].
@@ -38,9 +38,9 @@ class TankSchedule {
   void restart() { seconds_per_sample_ = kFirstGuess; }
 
  private:
-  /// Of a slow device: the first frame of a fast one is merely smaller than it could be.
+  /// The figure of a slow device [s]: the first frame of a fast one is merely smaller than it could be.
   static constexpr double kFirstGuess = 1e-6;
-  double seconds_per_sample_ = kFirstGuess;  ///< Time of a pixel's sample.
+  double seconds_per_sample_ = kFirstGuess;  ///< Time of one sample of one pixel.
   int still_frames_ = 0;
 };
 

@@ -32,7 +32,9 @@ void lay_out_graph(const Figures& figures) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 110);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), IM_COL32(20, 22, 28, 255));
-  double slowest = 1e-3;
+
+  // The newest frame is at the right end.
+  double slowest = 1e-3;  // [ms]
   for (const FrameFigures& frame : frames) {
     double sum = 0;
     for (const auto& pass : frame.passes) sum += pass.milliseconds;
@@ -51,6 +53,8 @@ void lay_out_graph(const Figures& figures) {
     }
     x += bar;
   }
+
+  // The scale.
   char top[32];
   std::snprintf(top, sizeof top, "%.2f ms", slowest);
   list.AddText(ImVec2(at.x + 4, at.y + 2), IM_COL32(230, 230, 230, 255), top);

@@ -123,6 +123,8 @@ bool lay_out_work(const Work& work) {
     ImGui::TextDisabled("%s: %s of %s%s", now.name.c_str(), grouped(now.done).c_str(),
                         grouped(now.total).c_str(), left);
   }
+
+  // The button, until it was pressed.
   bool stops = false;
   if (work.stops) {
     ImGui::TextDisabled("stops...");

@@ -76,6 +76,8 @@ void UiPass::record_upload(gpu::Recorder& recorder, const ImDrawData& data) cons
 
 void UiPass::record(gpu::Recorder& recorder, const ImDrawData& data, const gpu::Image& picture) const {
   if (data.TotalIdxCount == 0) return;
+
+  // Inputs, over the picture as it is.
   record_upload(recorder, data);
   const gpu::Binding vertices = gpu::read(vertices_), font = gpu::sampled(font_, linear_);
   recorder.prepare_for_draws({vertices, font});
@@ -90,6 +92,7 @@ void UiPass::record(gpu::Recorder& recorder, const ImDrawData& data, const gpu::
                                       glm::vec2(data.DisplaySize.x, data.DisplaySize.y)};
   recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
 
+  // One draw per clip rectangle; the lists lie one behind the other in the buffers.
   std::uint32_t first_index = 0, first_vertex = 0;
   const glm::vec2 scale(data.FramebufferScale.x, data.FramebufferScale.y);
   for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {

@@ -191,6 +191,7 @@ void lay_out_volumes(Game& game) {
     ImGui::PushID(static_cast<int>(i));
     if (begin_tree(volumes[i].file.filename().string().c_str())) {
       const volumes::VolumeFrame& frame = live.scenario().volumes->typical_frame(i);
+      // All rows are laid out, also after one that changed.
       changed = grid_rows(volumes[i], frame) || changed;
       changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
       changed = mask_rows(volumes[i], file[i]) || changed;
