@@ -42,7 +42,7 @@ const char* kind_name(Kind kind) {
     case Kind::tank:
       return "tank";
   }
-  return "unknown object";
+  return "unknown object";  // a damaged handle
 }
 
 /// Appends text, in one line, as far as it fits; cuts no character of UTF-8 apart.

@@ -70,8 +70,8 @@ enum class Kind : std::uint32_t {
 struct Handle {
   static constexpr std::uint64_t kMagic = 0x656d757242a9c37bu;
 
-  Handle(Kind of_kind, std::shared_ptr<Settings> of_context)
-      : kind(of_kind), settings(std::move(of_context)) {}
+  Handle(Kind handle_kind, std::shared_ptr<Settings> context_settings)
+      : kind(handle_kind), settings(std::move(context_settings)) {}
   Handle(const Handle&) = delete;
   ~Handle() { magic = 0; }
 

@@ -19,23 +19,23 @@ constexpr std::size_t kFew = 4;
 
 void create_field(Call& call, const brume_level* level, const brume_field_params* given,
                   brume_field** field) {
-  const brume_level& of = call.handle(level);
+  const brume_level& owner = call.handle(level);
   required(field, "field");
   const brume_field_params params = params_or(given, brume_field_defaults());
   // Beyond the range of a timeline's: 0 hides nothing, and queries have no picture that becomes too dark.
   require(params.extinction >= 0 && params.extinction <= 1e6f, "`extinction` must be from 0 to 10^6");
-  create(field, of.settings, of.data, atlas_of(call, params.masks), params.extinction);
+  create(field, owner.settings, owner.data, atlas_of(call, params.masks), params.extinction);
 }
 
-void update(brume_field& of, const sim::State& state) {
-  const smoke::Field& smoke = of.field->smoke();
+void update(brume_field& field, const sim::State& state) {
+  const smoke::Field& smoke = field.field->smoke();
   if (state.layout != smoke.layout())
     fail(BRUME_ERROR_MISMATCH, "the state is of another level layout than the field");
   if (state.masks != smoke.masks())
     fail(BRUME_ERROR_MISMATCH, "the state's world has other masks than the field");
   if (state.edits) unwrap(sim::check_event(sim::LevelEdit{0, *state.edits}, state.layout), BRUME_ERROR_DATA);
-  if (of.broken) of.renew();
-  of.field->update(state);
+  if (field.broken) field.renew();
+  field.field->update(state);
 }
 
 bool is_point(const brume_point& p) {
@@ -83,10 +83,10 @@ template <typename Out, typename Query>
 brume_result answer(const char* function, const brume_field* field, const brume_segment* segments,
                     std::size_t count, Out* out, Query query, const auto& sight_of) noexcept {
   return Call(function).run([&](Call& call) {
-    const brume_field& of = call.handle(field);
+    const brume_field& object = call.handle(field);
     check_queries(segments, count, out);
-    call.read(of, [&] {
-      const auto sight = sight_of(*of.field);
+    call.read(object, [&] {
+      const auto sight = sight_of(*object.field);
       std::vector<smoke::Segment> chunk(std::min(count, kChunk));
       for (std::size_t first = 0; first < count; first += kChunk) {
         const std::size_t size = std::min(kChunk, count - first);
@@ -168,18 +168,18 @@ brume_result brume_field_destroy(brume_field* field) BRUME_NOEXCEPT {
 
 brume_result brume_field_update(brume_field* field, const brume_state* state) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_field& of = call.handle(field);
+    brume_field& object = call.handle(field);
     const brume_state& from = call.handle(state);
     call.change(
-        of, [&] { update(of, from.state); }, true);
+        object, [&] { update(object, from.state); }, true);
   });
 }
 
 brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* bricks, size_t capacity,
                                         size_t* count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_field& of = call.handle(field);
-    call.read(of, [&] { write_list(of.field->changed_bricks(), bricks, capacity, count); });
+    const brume_field& object = call.handle(field);
+    call.read(object, [&] { write_list(object.field->changed_bricks(), bricks, capacity, count); });
   });
 }
 
@@ -223,11 +223,12 @@ brume_result brume_field_first_walls(const brume_field* field, const brume_segme
 brume_result brume_field_densities(const brume_field* field, brume_voxel low, brume_voxel high,
                                    uint8_t* densities, size_t count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_field& of = call.handle(field);
-    checked_box(of.level->grid.layout(), low, high, count);
+    const brume_field& object = call.handle(field);
+    checked_box(object.level->grid.layout(), low, high, count);
     required(densities, "densities");
-    call.read(of,
-              [&] { read_densities(of.field->smoke().volume(), ivec3_of(low), ivec3_of(high), densities); });
+    call.read(object, [&] {
+      read_densities(object.field->smoke().volume(), ivec3_of(low), ivec3_of(high), densities);
+    });
   });
 }
 

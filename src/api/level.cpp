@@ -88,7 +88,7 @@ LevelData level_of(const brume_voxels_params& params) {
   return level;
 }
 
-/// Of params.roles. Throws a CallFailure for a number that is no role.
+/// The role of a triangle in params.roles. Throws a CallFailure for a number that is no role.
 Role role_of(const brume_triangles_params& params, std::size_t triangle) {
   const unsigned role = params.roles[triangle];
   if (role > BRUME_ROLE_GHOST)

@@ -16,33 +16,34 @@ std::span<const std::byte> bytes_of(const void* bytes, std::size_t size) {
   return {static_cast<const std::byte*>(bytes), size};
 }
 
-void push(brume_sender& of, const sim::State& state) {
-  if (of.last) {
-    if (state.tick <= of.last->tick)
-      fail(BRUME_ERROR_ORDER, "expected a state after tick " + std::to_string(of.last->tick) +
+void push(brume_sender& sender, const sim::State& state) {
+  if (sender.last) {
+    if (state.tick <= sender.last->tick)
+      fail(BRUME_ERROR_ORDER, "expected a state after tick " + std::to_string(sender.last->tick) +
                                   ", not of tick " + std::to_string(state.tick));
-    const bool is_new = state.events < of.last->events;
-    if (!is_new && (state.layout != of.last->layout || state.ticks_per_second != of.last->ticks_per_second ||
-                    state.masks != of.last->masks))
+    const bool is_new = state.events < sender.last->events;
+    if (!is_new &&
+        (state.layout != sender.last->layout || state.ticks_per_second != sender.last->ticks_per_second ||
+         state.masks != sender.last->masks))
       fail(BRUME_ERROR_MISMATCH,
            "the state is of another layout, ticks per second or masks than the last one");
   }
-  of.packet = unwrap(of.sender.push(state));
-  of.last = state;
-  of.request.clear();
+  sender.packet = unwrap(sender.sender.push(state));
+  sender.last = state;
+  sender.request.clear();
 }
 
-void answer(brume_sender& of, std::span<const std::byte> request, void* buffer, std::size_t capacity,
+void answer(brume_sender& sender, std::span<const std::byte> request, void* buffer, std::size_t capacity,
             std::size_t* size) {
-  if (!of.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
+  if (!sender.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
   if (request.size() > kMaxRequest || request.empty()) fail(BRUME_ERROR_DATA, "not a request");
   // Both calls of one query, and receivers that have the same state, get the answer that is there.
-  if (!std::ranges::equal(request, of.request)) {
-    of.request.clear();
-    of.answer = unwrap(of.sender.answer(request), BRUME_ERROR_DATA);
-    of.request.assign(request.begin(), request.end());
+  if (!std::ranges::equal(request, sender.request)) {
+    sender.request.clear();
+    sender.answer = unwrap(sender.sender.answer(request), BRUME_ERROR_DATA);
+    sender.request.assign(request.begin(), request.end());
   }
-  write_bytes(of.answer.data(), of.answer.size(), buffer, capacity, size);
+  write_bytes(sender.answer.data(), sender.answer.size(), buffer, capacity, size);
 }
 
 wire::Limits limits_of(const brume_receiver_params* given) {
@@ -79,19 +80,19 @@ brume_result brume_sender_destroy(brume_sender* sender) BRUME_NOEXCEPT {
 
 brume_result brume_sender_push(brume_sender* sender, const brume_state* state) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_sender& of = call.handle(sender);
+    brume_sender& object = call.handle(sender);
     const brume_state& next = call.handle(state);
-    call.change(of, [&] { push(of, next.state); });
+    call.change(object, [&] { push(object, next.state); });
   });
 }
 
 brume_result brume_sender_packet(const brume_sender* sender, void* buffer, size_t capacity,
                                  size_t* size) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_sender& of = call.handle(sender);
-    call.read(of, [&] {
-      if (!of.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
-      write_bytes(of.packet.data(), of.packet.size(), buffer, capacity, size);
+    const brume_sender& object = call.handle(sender);
+    call.read(object, [&] {
+      if (!object.last) fail(BRUME_ERROR_ORDER, "no state has been pushed yet");
+      write_bytes(object.packet.data(), object.packet.size(), buffer, capacity, size);
     });
   });
 }
@@ -99,8 +100,8 @@ brume_result brume_sender_packet(const brume_sender* sender, void* buffer, size_
 brume_result brume_sender_answer(brume_sender* sender, const void* request, size_t request_size, void* buffer,
                                  size_t capacity, size_t* size) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_sender& of = call.handle(sender);
-    call.change(of, [&] { answer(of, bytes_of(request, request_size), buffer, capacity, size); });
+    brume_sender& object = call.handle(sender);
+    call.change(object, [&] { answer(object, bytes_of(request, request_size), buffer, capacity, size); });
   });
 }
 
@@ -120,9 +121,9 @@ brume_result brume_receiver_destroy(brume_receiver* receiver) BRUME_NOEXCEPT {
 brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet, size_t size,
                                     uint32_t* reception) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_receiver& of = call.handle(receiver);
-    call.change(of, [&] {
-      const auto became = unwrap(of.receiver.receive(bytes_of(packet, size)), BRUME_ERROR_DATA);
+    brume_receiver& object = call.handle(receiver);
+    call.change(object, [&] {
+      const auto became = unwrap(object.receiver.receive(bytes_of(packet, size)), BRUME_ERROR_DATA);
       if (reception) *reception = static_cast<std::uint32_t>(became);
     });
   });
@@ -130,18 +131,18 @@ brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet
 
 brume_result brume_receiver_behind(const brume_receiver* receiver, uint32_t* behind) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_receiver& of = call.handle(receiver);
+    const brume_receiver& object = call.handle(receiver);
     required(behind, "behind");
-    call.read(of, [&] { *behind = of.receiver.behind() ? 1 : 0; });
+    call.read(object, [&] { *behind = object.receiver.behind() ? 1 : 0; });
   });
 }
 
 brume_result brume_receiver_request(const brume_receiver* receiver, void* buffer, size_t capacity,
                                     size_t* size) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_receiver& of = call.handle(receiver);
-    call.read(of, [&] {
-      const std::vector<std::byte> request = of.receiver.request();
+    const brume_receiver& object = call.handle(receiver);
+    call.read(object, [&] {
+      const std::vector<std::byte> request = object.receiver.request();
       write_bytes(request.data(), request.size(), buffer, capacity, size);
     });
   });
@@ -149,20 +150,20 @@ brume_result brume_receiver_request(const brume_receiver* receiver, void* buffer
 
 brume_result brume_receiver_state(const brume_receiver* receiver, brume_state** state) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_receiver& of = call.handle(receiver);
+    const brume_receiver& object = call.handle(receiver);
     required(state, "state");
-    call.read(of, [&] {
-      if (!of.receiver.state()) fail(BRUME_ERROR_ORDER, "no state has been received yet");
-      create(state, of.settings, *of.receiver.state());
+    call.read(object, [&] {
+      if (!object.receiver.state()) fail(BRUME_ERROR_ORDER, "no state has been received yet");
+      create(state, object.settings, *object.receiver.state());
     });
   });
 }
 
 brume_result brume_receiver_reset(brume_receiver* receiver) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_receiver& of = call.handle(receiver);
+    brume_receiver& object = call.handle(receiver);
     call.change(
-        of, [&] { of.receiver.reset(); }, true);
+        object, [&] { object.receiver.reset(); }, true);
   });
 }
 

@@ -36,21 +36,23 @@ std::shared_ptr<const smoke::MaskAtlas> atlas_of(Call& call, const brume_masks* 
 
 struct brume_context : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::context;
-  explicit brume_context(std::shared_ptr<brume::api::Settings> of) : Handle(kKind, std::move(of)) {}
+  explicit brume_context(std::shared_ptr<brume::api::Settings> context_settings)
+      : Handle(kKind, std::move(context_settings)) {}
 };
 
 struct brume_level : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::level;
-  brume_level(std::shared_ptr<brume::api::Settings> of, brume::api::LevelData level)
-      : Handle(kKind, std::move(of)), data(std::make_shared<const brume::api::LevelData>(std::move(level))) {}
+  brume_level(std::shared_ptr<brume::api::Settings> context_settings, brume::api::LevelData level)
+      : Handle(kKind, std::move(context_settings)),
+        data(std::make_shared<const brume::api::LevelData>(std::move(level))) {}
 
   std::shared_ptr<const brume::api::LevelData> data;
 };
 
 struct brume_masks : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::masks;
-  brume_masks(std::shared_ptr<brume::api::Settings> of, brume::smoke::MaskAtlas masks)
-      : Handle(kKind, std::move(of)),
+  brume_masks(std::shared_ptr<brume::api::Settings> context_settings, brume::smoke::MaskAtlas masks)
+      : Handle(kKind, std::move(context_settings)),
         atlas(std::make_shared<const brume::smoke::MaskAtlas>(std::move(masks))) {}
 
   std::shared_ptr<const brume::smoke::MaskAtlas> atlas;
@@ -58,9 +60,10 @@ struct brume_masks : brume::api::Handle {
 
 struct brume_world : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::world;
-  brume_world(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
+  brume_world(std::shared_ptr<brume::api::Settings> context_settings,
+              std::shared_ptr<const brume::api::LevelData> level_data,
               const brume::sim::WorldSettings& world_settings)
-      : Handle(kKind, std::move(of)), level(std::move(of_level)) {
+      : Handle(kKind, std::move(context_settings)), level(std::move(level_data)) {
     world.emplace(level->solids(), world_settings);
   }
 
@@ -70,8 +73,8 @@ struct brume_world : brume::api::Handle {
 
 struct brume_state : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::state;
-  brume_state(std::shared_ptr<brume::api::Settings> of, brume::sim::State value)
-      : Handle(kKind, std::move(of)), state(std::move(value)) {}
+  brume_state(std::shared_ptr<brume::api::Settings> context_settings, brume::sim::State value)
+      : Handle(kKind, std::move(context_settings)), state(std::move(value)) {}
 
   const brume::sim::State state;
   mutable std::vector<std::byte> saved;  // empty: not encoded yet
@@ -79,8 +82,9 @@ struct brume_state : brume::api::Handle {
 
 struct brume_sender : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::sender;
-  brume_sender(std::shared_ptr<brume::api::Settings> of, const brume::wire::SenderSettings& sender_settings)
-      : Handle(kKind, std::move(of)), sender(sender_settings) {}
+  brume_sender(std::shared_ptr<brume::api::Settings> context_settings,
+               const brume::wire::SenderSettings& sender_settings)
+      : Handle(kKind, std::move(context_settings)), sender(sender_settings) {}
 
   brume::wire::Sender sender;
   std::optional<brume::sim::State> last;  // the state pushed
@@ -90,8 +94,8 @@ struct brume_sender : brume::api::Handle {
 
 struct brume_receiver : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::receiver;
-  brume_receiver(std::shared_ptr<brume::api::Settings> of, const brume::wire::Limits& limits)
-      : Handle(kKind, std::move(of)), receiver(limits) {}
+  brume_receiver(std::shared_ptr<brume::api::Settings> context_settings, const brume::wire::Limits& limits)
+      : Handle(kKind, std::move(context_settings)), receiver(limits) {}
 
   brume::wire::Receiver receiver;
 };

@@ -30,7 +30,7 @@ class SmokeField {
   float extinction() const { return extinction_; }
   /// The bricks in which the last update may have changed densities, by z, y, x.
   std::span<const brume_voxel> changed_bricks() const { return changed_bricks_; }
-  /// Those with smoke, as of the last update that succeeded.
+  /// The bricks with smoke after the last update that succeeded.
   std::vector<glm::ivec3> bricks() const;
 
  private:
@@ -41,7 +41,7 @@ class SmokeField {
   float extinction_;
   smoke::Field field_;
   std::shared_ptr<const smoke::Sight> sight_;             // without noise
-  std::vector<std::optional<glm::ivec3>> brick_of_slot_;  // as of the last update
+  std::vector<std::optional<glm::ivec3>> brick_of_slot_;  // after the last update
   std::vector<glm::ivec3> replaced_bricks_;               // changed, too, in the first update
   std::vector<brume_voxel> changed_bricks_;
 };
@@ -50,12 +50,13 @@ class SmokeField {
 
 struct brume_field : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::field;
-  brume_field(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<const brume::api::LevelData> of_level,
-              std::shared_ptr<const brume::smoke::MaskAtlas> of_masks, float of_extinction)
-      : Handle(kKind, std::move(of)),
-        level(std::move(of_level)),
-        masks(std::move(of_masks)),
-        extinction(of_extinction) {
+  brume_field(std::shared_ptr<brume::api::Settings> context_settings,
+              std::shared_ptr<const brume::api::LevelData> level_data,
+              std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas, float smoke_extinction)
+      : Handle(kKind, std::move(context_settings)),
+        level(std::move(level_data)),
+        masks(std::move(mask_atlas)),
+        extinction(smoke_extinction) {
     renew();
   }
   /// The same without smoke.

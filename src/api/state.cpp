@@ -12,10 +12,10 @@ brume_state_info info_of(const sim::State& state) {
           count(state.clouds), count(state.blasts),    count(state.holes), count(state.bodies)};
 }
 
-void save_state(const brume_state& of, void* buffer, std::size_t capacity, std::size_t* size) {
-  const std::unique_lock lock(of.mutex);
-  if (of.saved.empty()) of.saved = wire::write_keyframe(of.state);
-  write_bytes(of.saved.data(), of.saved.size(), buffer, capacity, size);
+void save_state(const brume_state& state, void* buffer, std::size_t capacity, std::size_t* size) {
+  const std::unique_lock lock(state.mutex);
+  if (state.saved.empty()) state.saved = wire::write_keyframe(state.state);
+  write_bytes(state.saved.data(), state.saved.size(), buffer, capacity, size);
 }
 
 sim::State load_state(const void* bytes, std::size_t size) {
@@ -107,8 +107,8 @@ brume_result brume_state_describe(const brume_state* state, brume_state_info* in
 
 brume_result brume_state_hash(const brume_state* state, uint64_t* hash) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_state& of = call.handle(state);
-    required(hash, "hash") = of.state.hash();
+    const brume_state& object = call.handle(state);
+    required(hash, "hash") = object.state.hash();
   });
 }
 

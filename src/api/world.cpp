@@ -8,52 +8,52 @@ namespace {
 
 void create_world(Call& call, const brume_level* level, const brume_world_params* given,
                   brume_world** world) {
-  const brume_level& of = call.handle(level);
+  const brume_level& owner = call.handle(level);
   required(world, "world");
   const brume_world_params params = params_or(given, brume_world_defaults());
   require(params.ticks_per_second >= 1 && params.ticks_per_second <= 1000,
           "`ticks_per_second` must be from 1 to 1000");
   const auto atlas = atlas_of(call, params.masks);
   const sim::MaskKey masks = atlas ? atlas->key() : sim::MaskKey{};
-  create(world, of.settings, of.data, sim::WorldSettings{params.ticks_per_second, masks});
+  create(world, owner.settings, owner.data, sim::WorldSettings{params.ticks_per_second, masks});
 }
 
 /// Changes the log: `change(world, events)`, where the only failure that remains is that of history.
 template <typename Change>
 void change_log(Call& call, brume_world* world, const brume_event* events, std::size_t count, Change change) {
-  brume_world& of = call.handle(world);
-  call.change(of, [&] {
+  brume_world& object = call.handle(world);
+  call.change(object, [&] {
     std::vector<sim::Event> log =
-        events_of(events, count, of.level->grid.layout(), of.world->settings().masks.count);
-    unwrap(change(*of.world, std::move(log)), BRUME_ERROR_HISTORY);
+        events_of(events, count, object.level->grid.layout(), object.world->settings().masks.count);
+    unwrap(change(*object.world, std::move(log)), BRUME_ERROR_HISTORY);
   });
 }
 
-void advance(brume_world& of, std::uint32_t tick) {
+void advance(brume_world& world, std::uint32_t tick) {
   require(tick <= sim::kMaxTick, "`tick` must be at most 536870912");
-  const std::uint32_t earliest = of.world->earliest_tick();
+  const std::uint32_t earliest = world.world->earliest_tick();
   if (tick < earliest)
     fail(BRUME_ERROR_HISTORY, "history before tick " + std::to_string(earliest) + " was dropped");
-  of.world->advance_to(tick);
+  world.world->advance_to(tick);
 }
 
 /// Restores a state into a new world where the present one is broken.
-void restore(brume_world& of, const sim::State& state) {
-  const sim::WorldSettings settings = of.world->settings();
-  if (state.layout != of.level->grid.layout() || state.ticks_per_second != settings.ticks_per_second ||
+void restore(brume_world& world, const sim::State& state) {
+  const sim::WorldSettings settings = world.world->settings();
+  if (state.layout != world.level->grid.layout() || state.ticks_per_second != settings.ticks_per_second ||
       state.masks != settings.masks)
     fail(BRUME_ERROR_MISMATCH, "the state is of another layout, ticks per second or masks than the world");
-  if (of.broken) of.world.emplace(of.level->solids(), settings);
-  unwrap(of.world->restore(state), BRUME_ERROR_DATA);
+  if (world.broken) world.world.emplace(world.level->solids(), settings);
+  unwrap(world.world->restore(state), BRUME_ERROR_DATA);
 }
 
 /// Reads a number of a world.
 template <typename Number, typename Read>
 brume_result read_number(const char* function, const brume_world* world, Number* out, Read read) noexcept {
   return Call(function).run([&](Call& call) {
-    const brume_world& of = call.handle(world);
+    const brume_world& object = call.handle(world);
     required(out, "the output");
-    call.read(of, [&] { *out = read(*of.world); });
+    call.read(object, [&] { *out = read(*object.world); });
   });
 }
 
@@ -87,8 +87,9 @@ brume_result brume_world_destroy(brume_world* world) BRUME_NOEXCEPT {
 
 brume_result brume_world_append(brume_world* world, const brume_event* events, size_t count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    change_log(call, world, events, count,
-               [](World& of, std::vector<brume::sim::Event> log) { return of.append(std::move(log)); });
+    change_log(call, world, events, count, [](World& simulation, std::vector<brume::sim::Event> log) {
+      return simulation.append(std::move(log));
+    });
   });
 }
 
@@ -96,61 +97,62 @@ brume_result brume_world_replace_from(brume_world* world, uint32_t tick, const b
                                       size_t count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     require(tick <= brume::sim::kMaxTick, "`tick` must be at most 536870912");
-    change_log(call, world, events, count, [&](World& of, std::vector<brume::sim::Event> log) {
+    change_log(call, world, events, count, [&](World& simulation, std::vector<brume::sim::Event> log) {
       for (const brume::sim::Event& event : log)
         require(brume::sim::tick_of(event) >= tick, "each event must be of `tick` or later");
-      return of.replace_from(tick, std::move(log));
+      return simulation.replace_from(tick, std::move(log));
     });
   });
 }
 
 brume_result brume_world_advance_to(brume_world* world, uint32_t tick) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_world& of = call.handle(world);
-    call.change(of, [&] { advance(of, tick); });
+    brume_world& object = call.handle(world);
+    call.change(object, [&] { advance(object, tick); });
   });
 }
 
 brume_result brume_world_step(brume_world* world) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_world& of = call.handle(world);
-    call.change(of, [&] { advance(of, of.world->tick() + 1); });
+    brume_world& object = call.handle(world);
+    call.change(object, [&] { advance(object, object.world->tick() + 1); });
   });
 }
 
 brume_result brume_world_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT {
-  return read_number(__func__, world, tick, [](const World& of) { return of.tick(); });
+  return read_number(__func__, world, tick, [](const World& simulation) { return simulation.tick(); });
 }
 
 brume_result brume_world_earliest_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT {
-  return read_number(__func__, world, tick, [](const World& of) { return of.earliest_tick(); });
+  return read_number(__func__, world, tick,
+                     [](const World& simulation) { return simulation.earliest_tick(); });
 }
 
 brume_result brume_world_hash(const brume_world* world, uint64_t* hash) BRUME_NOEXCEPT {
-  return read_number(__func__, world, hash, [](const World& of) { return of.state_hash(); });
+  return read_number(__func__, world, hash, [](const World& simulation) { return simulation.state_hash(); });
 }
 
 brume_result brume_world_forget_before(brume_world* world, uint32_t tick) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_world& of = call.handle(world);
-    call.change(of, [&] { of.world->forget_before(tick); });
+    brume_world& object = call.handle(world);
+    call.change(object, [&] { object.world->forget_before(tick); });
   });
 }
 
 brume_result brume_world_state(const brume_world* world, brume_state** state) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_world& of = call.handle(world);
+    const brume_world& object = call.handle(world);
     required(state, "state");
-    call.read(of, [&] { create(state, of.settings, of.world->state()); });
+    call.read(object, [&] { create(state, object.settings, object.world->state()); });
   });
 }
 
 brume_result brume_world_restore(brume_world* world, const brume_state* state) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_world& of = call.handle(world);
+    brume_world& object = call.handle(world);
     const brume_state& from = call.handle(state);
     call.change(
-        of, [&] { restore(of, from.state); }, true);
+        object, [&] { restore(object, from.state); }, true);
   });
 }
 
