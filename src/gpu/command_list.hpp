@@ -28,8 +28,8 @@ class CommandList {
     void* const own = memory_.allocate(sizeof command, alignof(Command));
     auto* const node = static_cast<Node*>(memory_.allocate(sizeof(Node), alignof(Node)));
     new (own) Command(command);
-    new (node) Node{[](const void* of, const Functions& vk, VkCommandBuffer commands) {
-                      (*static_cast<const Command*>(of))(vk, commands);
+    new (node) Node{[](const void* command_at, const Functions& vk, VkCommandBuffer commands) {
+                      (*static_cast<const Command*>(command_at))(vk, commands);
                     },
                     own, nullptr};
     (last_ ? last_->next : first_) = node;

@@ -148,7 +148,7 @@ class Context {
   std::uint64_t recordings_ = 0;
   std::vector<DroppedRange> dropped_;  // rising
 
-  // Of a host's device.
+  // On a host's device, handles outlive the frames that use them.
   bool is_deferred_ = false;
   struct RetiredFrame {
     std::uint64_t frame;
@@ -157,7 +157,7 @@ class Context {
   std::mutex retired_mutex_;
   std::uint64_t frame_ = 0, completed_ = 0;
   std::vector<RetiredFrame> retired_;  // frames rising
-  std::size_t expected_ = 0;           // that may be retired
+  std::size_t expected_ = 0;           // handles that may be retired
 };
 
 }  // namespace brume::gpu

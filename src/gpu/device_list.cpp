@@ -26,6 +26,8 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
 
 std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version) {
   if (api_version < VK_API_VERSION_1_3) return "supports only Vulkan versions before 1.3";
+
+  // Features.
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   VkPhysicalDeviceVulkan12Features features12{};
@@ -39,6 +41,8 @@ std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::u
   if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
   if (!features.features.samplerAnisotropy) return "lacks samplerAnisotropy";
   if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
+
+  // Operations of subgroups.
   VkPhysicalDeviceSubgroupProperties subgroups{};
   subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups, {}};

@@ -33,7 +33,7 @@ class FrameSlot {
   std::uint32_t spare_frames_ = 0;  // in a row that left the last staging buffer empty
   VkDeviceSize staging_used_ = 0;
   Timings timings_;
-  FrameMemory memory_;  // of a recording
+  FrameMemory memory_;  // for lists of one recording
 };
 
 }  // namespace brume::gpu

@@ -63,6 +63,7 @@ PFN_vkGetInstanceProcAddr system_loader() {
 }
 
 const char* result_name(VkResult result) {
+  // The results that functions which are loaded here are known to return.
   switch (result) {
     case VK_SUCCESS:
       return "VK_SUCCESS";

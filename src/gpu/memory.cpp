@@ -112,6 +112,7 @@ Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, Me
     block.type = type;
     block.tiled = tiled;
     block.for_device = use == MemoryUse::device;
+    // Room for one range, so that to free it cannot fail.
     block.holes.reserve(2);
     block.retired.reserve(1);
     block.holes.push_back({0, size});
@@ -144,7 +145,9 @@ Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use,
     throw Error(ErrorCode::resource_limit,
                 std::to_string(needs.size) + " bytes besides the " + std::to_string(device_bytes_) +
                     " in use are more than the host's limit of " + std::to_string(limit_));
+
   const auto range_in = [&](MemoryBlock& block) -> std::optional<Range> {
+    // Room for what freeing adds, so that it cannot fail.
     block.holes.reserve(block.ranges + 2);
     block.retired.reserve(block.ranges + 1);
     const auto offset = take(block.holes, needs.size, needs.alignment);
@@ -157,6 +160,8 @@ Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use,
     if (block.for_device && block.mapped) fill(range);
     return range;
   };
+
+  // The first block with a hole, else a new one; a large range has a block of its own.
   if (needs.size < options_.dedicated_bytes) {
     for (MemoryBlock& block : blocks_) {
       if (block.type != type || block.tiled != tiled || block.for_device != (use == MemoryUse::device))

@@ -81,6 +81,7 @@ VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
     colour.srcAlphaBlendFactor = source_alpha;
     colour.dstAlphaBlendFactor = behind_alpha;
   };
+  // Factors of the fragment, and of what is behind.
   switch (blend) {
     case Blend::none:
       break;
@@ -122,10 +123,13 @@ Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderSta
       bind_point_(bind_point),
       stages_(stages),
       interface_(interface_of(shaders_)) {
+  // What could fail later, when something is made already.
   context.expect_retirement();
   context.pipelines().reserve(context.pipelines().size() + 1);
   const std::uint32_t push_bytes = interface_.push_bytes;
   BRUME_ASSERT(push_bytes <= 128, std::to_string(push_bytes));
+
+  // Layouts of the descriptor set and the push constants, as the shaders declare them.
   std::vector<VkDescriptorSetLayoutBinding> entries;
   for (const ShaderInterface::Binding& binding : interface_.bindings)
     entries.push_back({binding.number, binding.type, 1, stages, nullptr});

@@ -79,14 +79,14 @@ enum class Blend {
 
 struct GraphicsInfo {
   const ShaderCode* vertex = nullptr;
-  const ShaderCode* fragment = nullptr;  ///< null: depth only.
+  const ShaderCode* fragment = nullptr;  ///< Null: depth only.
   std::vector<VkFormat> colours;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
   Blend blend = Blend::none;
   bool writes_depth = true;                   ///< Where there is a depth.
-  std::vector<std::uint32_t> constants = {};  ///< Of the fragment shader: specialization constants 0, 1...
+  std::vector<std::uint32_t> constants = {};  ///< Specialization constants 0, 1... of fragments.
 };
 
 /// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from

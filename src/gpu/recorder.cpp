@@ -183,6 +183,7 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bo
   const std::string fault = binding_fault(pipeline.interface(), resources);
   BRUME_ASSERT(fault.empty(), std::string(pipeline.shaders().front().name) + ": " + fault);
   const VkDescriptorSet set = allocate_set(pipeline.set_layout());
+  // The writes point into these lists, which must not grow.
   FrameVector<VkDescriptorBufferInfo> buffers(resources.size(), &memory());
   FrameVector<VkDescriptorImageInfo> images(resources.size(), &memory());
   FrameVector<VkWriteDescriptorSet> writes(&memory());

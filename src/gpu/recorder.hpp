@@ -87,7 +87,7 @@ class Recorder {
   struct Attachments {
     std::array<const Image*, 4> colours{};  ///< Null after the last one.
     const Image* depth = nullptr;
-    VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
+    VkImageView depth_view = VK_NULL_HANDLE;  ///< A view of one layer; null: the image's own.
     std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
     bool keep_depth = false;
     bool overwrite = false;  ///< What no draw writes is undefined in the colours that are not kept: no clear.

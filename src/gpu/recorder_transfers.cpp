@@ -77,6 +77,7 @@ void Recorder::flush_transfers() {
   FrameVector<VkBufferCopy> regions(&memory());
   for (std::size_t i = 0; i < transfers_.size(); ++i) {
     const Transfer one = transfers_[i];
+    // Fills, small uploads inline, and copies: those between the same two buffers are one command.
     if (!one.from) {
       list_.add([=](const Functions& vk, VkCommandBuffer commands) {
         vk.CmdFillBuffer(commands, one.to, one.region.dstOffset, one.region.size, one.value);

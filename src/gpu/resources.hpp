@@ -70,11 +70,11 @@ ImageInfo sampled_image_3d(const glm::uvec3& size, VkFormat format, VkImageUsage
 /// An image of a host, lent for as long as the Image is used.
 struct LentImage {
   VkImage handle = VK_NULL_HANDLE;
-  VkImageView view = VK_NULL_HANDLE;  ///< Of the aspect that is read, or of what is rendered into.
+  VkImageView view = VK_NULL_HANDLE;  ///< For one aspect, or for what is rendered into.
   VkFormat format = VK_FORMAT_UNDEFINED;
   glm::uvec2 size_px{1};
-  /// That it has when it is lent, and has again afterwards: the host makes its own writes visible before, and
-  /// waits for the accesses to it afterwards.
+  /// When the image is lent, and again afterwards. The host makes its own writes visible before, and waits
+  /// for the accesses to the image afterwards.
   VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
 };
 
@@ -108,7 +108,7 @@ class Image {
   VkImage handle_ = VK_NULL_HANDLE;
   VkImageView view_ = VK_NULL_HANDLE;
   ImageInfo info_;
-  VkImageLayout lent_layout_ = VK_IMAGE_LAYOUT_UNDEFINED;  // of a LentImage
+  VkImageLayout lent_layout_ = VK_IMAGE_LAYOUT_UNDEFINED;  // LentImage::layout
   Memory::Range range_;
 };
 

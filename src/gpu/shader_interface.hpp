@@ -19,7 +19,7 @@ struct ShaderInterface {
     VkDescriptorType type;
     bool operator==(const Binding&) const = default;
   };
-  std::vector<Binding> bindings;         ///< Of descriptor set 0, ascending by number.
+  std::vector<Binding> bindings;         ///< Descriptor set 0, ascending by number.
   std::uint32_t push_bytes = 0;          ///< Size of the push constants.
   std::array<std::uint32_t, 3> group{};  ///< Workgroup size; 0 in stages other than compute.
 
