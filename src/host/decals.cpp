@@ -20,9 +20,9 @@ static_assert(BRUME_NORMALS_SIGNED == shared::kNormalsSigned &&
               BRUME_NORMALS_OCTAHEDRAL == shared::kNormalsOctahedral &&
               BRUME_NORMALS_OCTAHEDRAL_UNSIGNED == shared::kNormalsOctahedralUnsigned);
 
-constexpr float kFarthest = 1e6f;       // of a box's corners [m]
+constexpr float kFarthest = 1e6f;       // coordinates of a box's corners [m]
 constexpr double kShortestEdge = 1e-6;  // [m]
-/// Of volumes that a frame does not show and that stay on the device: 32 MiB.
+/// Voxels of volumes that stay on the device though the frame does not show them: 32 MiB.
 constexpr std::uint64_t kSpareVoxels = 1u << 22;
 /// Along an axis of an image; devices have at least a quarter of it.
 constexpr std::uint32_t kMostTexels = 16384;

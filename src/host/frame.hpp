@@ -36,7 +36,7 @@ glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
 scene::Scene scene_of(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
-/// Of decals; without an image, which is set where there is a view.
+/// Normals for decals; the caller sets the image, where there is a view.
 passes::HostNormals host_normals(const brume_normals& normals);
 /// Sets all of `input`, without volumes and decals; its lists keep their memory, and `slices` remain. What it
 /// points to is the field's. `field`: null: no smoke.

@@ -28,15 +28,15 @@ struct DeviceData {
 
 /// A file of grids or a sequence of them.
 struct VolumeData {
-  scene::VolumeOptions options;               ///< Without its place and look, which are of each frame.
-  std::shared_ptr<volumes::Volumes> volumes;  ///< Of one.
+  scene::VolumeOptions options;               ///< Without place and look, which each frame gives.
+  std::shared_ptr<volumes::Volumes> volumes;  ///< This one alone.
   volumes::VolumeWait wait = volumes::VolumeWait::never;
   std::mutex mutex;  ///< Held while frames are chosen.
 };
 
 /// A volume of baked occlusion.
 struct DecalData {
-  std::shared_ptr<const grids::DenseVolume> volume;  ///< Of what faces up, and of what faces down.
+  std::shared_ptr<const grids::DenseVolume> volume;  ///< Channels: what faces up, down.
   glm::dmat4 space_from_box{1};  ///< From the box of its voxels to the space that the host places.
   glm::vec3 middle{0};           ///< As planning::DecalInput.
   float radius = 0;
@@ -46,35 +46,38 @@ struct DecalData {
 
 struct brume_device : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::device;
-  brume_device(std::shared_ptr<brume::api::Settings> of, const brume::gpu::HostDevice& host)
-      : Handle(kKind, std::move(of)), data(std::make_shared<brume::host::DeviceData>(host)) {}
+  brume_device(std::shared_ptr<brume::api::Settings> context_settings, const brume::gpu::HostDevice& host)
+      : Handle(kKind, std::move(context_settings)), data(std::make_shared<brume::host::DeviceData>(host)) {}
 
   std::shared_ptr<brume::host::DeviceData> data;
 };
 
 struct brume_volume : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::volume;
-  brume_volume(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<brume::host::VolumeData> of_volume)
-      : Handle(kKind, std::move(of)), data(std::move(of_volume)) {}
+  brume_volume(std::shared_ptr<brume::api::Settings> context_settings,
+               std::shared_ptr<brume::host::VolumeData> volume_data)
+      : Handle(kKind, std::move(context_settings)), data(std::move(volume_data)) {}
 
   std::shared_ptr<brume::host::VolumeData> data;
 };
 
 struct brume_decal : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::decal;
-  brume_decal(std::shared_ptr<brume::api::Settings> of, brume::host::DecalData of_decal)
-      : Handle(kKind, std::move(of)),
-        data(std::make_shared<const brume::host::DecalData>(std::move(of_decal))) {}
+  brume_decal(std::shared_ptr<brume::api::Settings> context_settings, brume::host::DecalData decal_data)
+      : Handle(kKind, std::move(context_settings)),
+        data(std::make_shared<const brume::host::DecalData>(std::move(decal_data))) {}
 
   const std::shared_ptr<const brume::host::DecalData> data;  ///< No other holds it.
 };
 
 struct brume_tank : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::tank;
-  brume_tank(std::shared_ptr<brume::api::Settings> of,
-             std::shared_ptr<const brume::planning::TankContent> of_content,
-             std::shared_ptr<const brume::planning::TankLight> with)
-      : Handle(kKind, std::move(of)), content(std::move(of_content)), light(std::move(with)) {}
+  brume_tank(std::shared_ptr<brume::api::Settings> context_settings,
+             std::shared_ptr<const brume::planning::TankContent> tank_content,
+             std::shared_ptr<const brume::planning::TankLight> tank_light)
+      : Handle(kKind, std::move(context_settings)),
+        content(std::move(tank_content)),
+        light(std::move(tank_light)) {}
 
   const std::shared_ptr<const brume::planning::TankContent> content;
   std::shared_ptr<const brume::planning::TankLight> light;
@@ -82,9 +85,10 @@ struct brume_tank : brume::api::Handle {
 
 struct brume_renderer : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::renderer;
-  brume_renderer(std::shared_ptr<brume::api::Settings> of, std::shared_ptr<brume::host::DeviceData> on,
-                 brume::scene::Scene of_scene, std::shared_ptr<const brume::smoke::MaskAtlas> of_masks,
-                 const brume::render::RendererOptions& with);
+  brume_renderer(std::shared_ptr<brume::api::Settings> context_settings,
+                 std::shared_ptr<brume::host::DeviceData> device_data, brume::scene::Scene renderer_scene,
+                 std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas,
+                 const brume::render::RendererOptions& renderer_options);
   ~brume_renderer();
 
   std::shared_ptr<brume::host::DeviceData> device;
@@ -92,8 +96,8 @@ struct brume_renderer : brume::api::Handle {
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;
-  brume::planning::FrameInput input;  ///< Of the last frame.
-  /// Of the volumes of `input.slices`, while they exist.
+  brume::planning::FrameInput input;  ///< What the last frame showed.
+  /// The decals whose volumes are in `input.slices`, while they exist.
   std::vector<std::weak_ptr<const brume::host::DecalData>> sliced;
   /// From the first frame on, which uploads.
   std::optional<brume::render::Renderer> renderer;

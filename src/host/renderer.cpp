@@ -8,15 +8,16 @@
 
 using namespace brume::api;
 
-brume_renderer::brume_renderer(std::shared_ptr<Settings> of, std::shared_ptr<brume::host::DeviceData> on,
-                               brume::scene::Scene of_scene,
-                               std::shared_ptr<const brume::smoke::MaskAtlas> of_masks,
-                               const brume::render::RendererOptions& with)
-    : Handle(kKind, std::move(of)),
-      device(std::move(on)),
-      scene(std::move(of_scene)),
-      masks(std::move(of_masks)),
-      options(with),
+brume_renderer::brume_renderer(std::shared_ptr<Settings> context_settings,
+                               std::shared_ptr<brume::host::DeviceData> device_data,
+                               brume::scene::Scene renderer_scene,
+                               std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas,
+                               const brume::render::RendererOptions& renderer_options)
+    : Handle(kKind, std::move(context_settings)),
+      device(std::move(device_data)),
+      scene(std::move(renderer_scene)),
+      masks(std::move(mask_atlas)),
+      options(renderer_options),
       recording(device->context) {
   options.smoke.masks = masks.get();
   ++device->renderers;
@@ -30,7 +31,7 @@ namespace brume::host {
 namespace {
 
 constexpr std::uint32_t kMostPixels = 16384;
-/// Of smoke, 8 x 8 x 8: 16 MiB in all images.
+/// Bricks of smoke to begin with, 8 x 8 x 8 voxels each: 16 MiB in all images.
 constexpr std::uint32_t kReservedBricks = 512;
 
 static_assert(BRUME_MAX_SHADOW_LIGHTS == shared::kMaxSurfaceShadows);
@@ -48,7 +49,7 @@ std::uint32_t checked_scale(std::uint32_t march_scale) {
 
 void create_renderer(Call& call, brume_device* device, const brume_renderer_params* given,
                      brume_renderer** renderer) {
-  const brume_device& on = call.handle(device);
+  const brume_device& owner = call.handle(device);
   required(renderer, "renderer");
   const brume_renderer_params params = params_or(given, brume_renderer_defaults());
   render::RendererOptions options;
@@ -59,8 +60,8 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.reserved_bricks = kReservedBricks;
   options.smoke.memory_follows_view = true;
   options.media_alone = true;
-  const std::scoped_lock lock(on.data->mutex);
-  create(renderer, on.settings, on.data, scene_of(params), atlas_of(call, params.masks), options);
+  const std::scoped_lock lock(owner.data->mutex);
+  create(renderer, owner.settings, owner.data, scene_of(params), atlas_of(call, params.masks), options);
 }
 
 /// Whether the device can blend over a picture of a format of Vulkan 1.0.
@@ -71,92 +72,95 @@ bool can_blend(const gpu::Context& context, VkFormat format) {
   return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }
 
-void check_frame(const brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
+void check_frame(const brume_renderer& renderer, const brume_field* field, const brume_frame_params& params) {
   require(params.commands != VK_NULL_HANDLE, "`commands` is null");
-  if (params.frame_number <= of.device->frame)
+  if (params.frame_number <= renderer.device->frame)
     fail(BRUME_ERROR_ORDER, "`frame_number` is " + std::to_string(params.frame_number) +
-                                ", the last one was " + std::to_string(of.device->frame));
+                                ", the last one was " + std::to_string(renderer.device->frame));
   require(params.completed_frame < params.frame_number, "`completed_frame` must be below `frame_number`");
-  if (params.completed_frame < of.device->completed)
-    fail(BRUME_ERROR_ORDER, "`completed_frame` was " + std::to_string(of.device->completed) + " before");
-  const sim::MaskKey masks = of.masks ? of.masks->key() : sim::MaskKey{};
+  if (params.completed_frame < renderer.device->completed)
+    fail(BRUME_ERROR_ORDER,
+         "`completed_frame` was " + std::to_string(renderer.device->completed) + " before");
+  const sim::MaskKey masks = renderer.masks ? renderer.masks->key() : sim::MaskKey{};
   if (field && field->field->smoke().masks() != masks)
     fail(BRUME_ERROR_MISMATCH, "the field has other masks than the renderer");
   if (params.picture.view == VK_NULL_HANDLE) return;
-  require(can_blend(of.device->context, params.picture.format),
+  require(can_blend(renderer.device->context, params.picture.format),
           "`picture.format` must be one that the device can blend");
   require(params.picture.exposure > 0 && params.picture.exposure < 1e9f,
           "`picture.exposure` must be above 0");
 }
 
 /// What a frame needs whatever it shows, which no limit of memory refuses.
-void reserve(brume_renderer& of, const brume_frame_params& params) {
-  const gpu::Memory::Unlimited always(of.device->context.memory());
-  if (!of.renderer) of.renderer.emplace(of.device->context, of.recording, of.scene, of.options);
-  of.renderer->reserve_over({.decals = params.decal_count > 0,
-                             .shadows = params.shadow_light_count > 0,
-                             .tanks = params.tank_count > 0,
-                             .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});
+void reserve(brume_renderer& renderer, const brume_frame_params& params) {
+  const gpu::Memory::Unlimited always(renderer.device->context.memory());
+  if (!renderer.renderer)
+    renderer.renderer.emplace(renderer.device->context, renderer.recording, renderer.scene, renderer.options);
+  renderer.renderer->reserve_over(
+      {.decals = params.decal_count > 0,
+       .shadows = params.shadow_light_count > 0,
+       .tanks = params.tank_count > 0,
+       .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});
 }
 
-void draw(brume_renderer& of, const brume_frame_params& params, const passes::HostDepthRange& range,
+void draw(brume_renderer& renderer, const brume_frame_params& params, const passes::HostDepthRange& range,
           passes::HostNormals normals) {
-  reserve(of, params);
-  render::Renderer& renderer = *of.renderer;
-  const planning::FrameInput& input = of.input;
+  reserve(renderer, params);
+  const planning::FrameInput& input = renderer.input;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
-  if (volume != of.shown_volume) {
-    renderer.invalidate_level();
-    of.shown_volume = volume;
+  if (volume != renderer.shown_volume) {
+    renderer.renderer->invalidate_level();
+    renderer.shown_volume = volume;
   }
-  const planning::FramePlan plan = renderer.plan(input);
+  const planning::FramePlan plan = renderer.renderer->plan(input);
 
   // The host's images, as long as the frame is recorded.
-  const glm::uvec2 size_px = of.options.size_px;
+  const glm::uvec2 size_px = renderer.options.size_px;
   const gpu::Image depth(
       {VK_NULL_HANDLE, params.depth.view, VK_FORMAT_D32_SFLOAT, size_px, params.depth.layout});
-  const gpu::Image of_normals(
+  const gpu::Image normal_image(
       {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
-  if (params.normals.view) normals.image = &of_normals;
-  renderer.record_over(of.recording.recorder(), plan,
-                       {.surfaces = {depth, range, normals},
-                        .shadow_lights = {params.shadow_lights, params.shadow_light_count},
-                        .picture = params.picture.view ? &picture : nullptr,
-                        .exposure = params.picture.exposure});
+  if (params.normals.view) normals.image = &normal_image;
+  renderer.renderer->record_over(renderer.recording.recorder(), plan,
+                                 {.surfaces = {depth, range, normals},
+                                  .shadow_lights = {params.shadow_lights, params.shadow_light_count},
+                                  .picture = params.picture.view ? &picture : nullptr,
+                                  .exposure = params.picture.exposure});
 }
 
-void check_shadow_lights(const brume_renderer& of, const brume_frame_params& params) {
+void check_shadow_lights(const brume_renderer& renderer, const brume_frame_params& params) {
   require(params.shadow_light_count <= BRUME_MAX_SHADOW_LIGHTS, "`shadow_light_count` must be at most 4");
-  const std::size_t lights = of.scene.lights.size() + params.light_count;
+  const std::size_t lights = renderer.scene.lights.size() + params.light_count;
   for (std::uint32_t i = 0; i < params.shadow_light_count; ++i)
     if (params.shadow_lights[i] >= lights)
       refuse("`shadow_lights` has " + std::to_string(params.shadow_lights[i]) + ", but there are " +
              std::to_string(lights) + " lights");
 }
 
-void record(Call& call, brume_renderer& of, const brume_field* field, const brume_frame_params& params) {
-  check_frame(of, field, params);
+void record(Call& call, brume_renderer& renderer, const brume_field* field,
+            const brume_frame_params& params) {
+  check_frame(renderer, field, params);
   const passes::HostDepthRange range = depth_range(params.depth);
   const passes::HostNormals normals = host_normals(params.normals);
-  planning::FrameInput& input = of.input;
+  planning::FrameInput& input = renderer.input;
   set_frame_input(params, field ? &*field->field : nullptr, input);
-  check_shadow_lights(of, params);
+  check_shadow_lights(renderer, params);
   const ShownVolumes volumes = add_volumes(call, params, input);
-  add_decals(call, params, of);
+  add_decals(call, params, renderer);
   add_tanks(call, params, input);
   // Taken even where the frame fails: the next one has a higher number.
-  of.device->frame = params.frame_number;
-  of.device->completed = params.completed_frame;
-  of.recording.begin(params.commands, params.frame_number, params.completed_frame);
+  renderer.device->frame = params.frame_number;
+  renderer.device->completed = params.completed_frame;
+  renderer.recording.begin(params.commands, params.frame_number, params.completed_frame);
   try {
-    draw(of, params, range, normals);
-    of.recording.end();
+    draw(renderer, params, range, normals);
+    renderer.recording.end();
   } catch (...) {
-    of.recording.discard();
-    of.input.slices.reset();  // with spare decals, which may not fit
-    of.sliced.clear();
+    renderer.recording.discard();
+    renderer.input.slices.reset();  // with spare decals, which may not fit
+    renderer.sliced.clear();
     throw;
   }
 }
@@ -190,15 +194,15 @@ brume_result brume_renderer_destroy(brume_renderer* renderer) BRUME_NOEXCEPT {
 
 brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uint32_t height) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_renderer& of = call.handle(renderer);
+    brume_renderer& object = call.handle(renderer);
     const glm::uvec2 size_px = brume::host::checked_size(width, height);
-    const std::scoped_lock lock(of.mutex, of.device->mutex);
-    of.options.size_px = size_px;
-    const brume::gpu::Memory::Unlimited always(of.device->context.memory());
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    object.options.size_px = size_px;
+    const brume::gpu::Memory::Unlimited always(object.device->context.memory());
     try {
-      if (of.renderer) of.renderer->resize(size_px);
+      if (object.renderer) object.renderer->resize(size_px);
     } catch (...) {
-      of.renderer.reset();  // some of it has the size before
+      object.renderer.reset();  // some of it has the size before
       throw;
     }
   });
@@ -206,15 +210,15 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
 
 brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t march_scale) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_renderer& of = call.handle(renderer);
+    brume_renderer& object = call.handle(renderer);
     const std::uint32_t scale = brume::host::checked_scale(march_scale);
-    const std::scoped_lock lock(of.mutex, of.device->mutex);
-    of.options.smoke.march_scale = scale;
-    const brume::gpu::Memory::Unlimited always(of.device->context.memory());
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    object.options.smoke.march_scale = scale;
+    const brume::gpu::Memory::Unlimited always(object.device->context.memory());
     try {
-      if (of.renderer) of.renderer->set_march_scale(scale);
+      if (object.renderer) object.renderer->set_march_scale(scale);
     } catch (...) {
-      of.renderer.reset();
+      object.renderer.reset();
       throw;
     }
   });
@@ -223,11 +227,11 @@ brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t m
 brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                    const brume_frame_params* params) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_renderer& of = call.handle(renderer);
+    brume_renderer& object = call.handle(renderer);
     const brume_field* from = field ? &call.handle(field) : nullptr;
     const brume_frame_params frame = required_params(params, brume_frame_defaults());
-    const std::scoped_lock lock(of.mutex, of.device->mutex);
-    const auto record = [&] { brume::host::record(call, of, from, frame); };
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    const auto record = [&] { brume::host::record(call, object, from, frame); };
     from ? call.read(*from, record) : record();
   });
 }
@@ -235,12 +239,12 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
 brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                   VkImageView* view) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_renderer& of = call.handle(renderer);
-    call.read(of, [&] {
-      if (!of.renderer || !of.renderer->has_frame())
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
+      if (!object.renderer || !object.renderer->has_frame())
         fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      if (image) *image = of.renderer->layers().handle();
-      if (view) *view = of.renderer->layers().view();
+      if (image) *image = object.renderer->layers().handle();
+      if (view) *view = object.renderer->layers().view();
     });
   });
 }
@@ -248,13 +252,13 @@ brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image
 brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
                                        uint32_t* is_smoke_missing) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_renderer& of = call.handle(renderer);
+    const brume_renderer& object = call.handle(renderer);
     std::uint32_t& to = required(level, "level");
-    call.read(of, [&] {
-      if (!of.renderer || !of.renderer->has_frame())
+    call.read(object, [&] {
+      if (!object.renderer || !object.renderer->has_frame())
         fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      to = static_cast<std::uint32_t>(of.renderer->smoke_level());
-      if (is_smoke_missing) *is_smoke_missing = of.renderer->is_smoke_missing();
+      to = static_cast<std::uint32_t>(object.renderer->smoke_level());
+      if (is_smoke_missing) *is_smoke_missing = object.renderer->is_smoke_missing();
     });
   });
 }
@@ -262,9 +266,9 @@ brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t*
 brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                     VkImageView* view) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_renderer& of = call.handle(renderer);
-    call.read(of, [&] {
-      const brume::gpu::Image* shadows = of.renderer ? of.renderer->shadows() : nullptr;
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
+      const brume::gpu::Image* shadows = object.renderer ? object.renderer->shadows() : nullptr;
       if (!shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
       if (image) *image = shadows->handle();
       if (view) *view = shadows->view();
@@ -275,9 +279,9 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
 brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
                                       VkImageView* view) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_renderer& of = call.handle(renderer);
-    call.read(of, [&] {
-      const brume::gpu::Image* occlusion = of.renderer ? of.renderer->occlusion() : nullptr;
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
+      const brume::gpu::Image* occlusion = object.renderer ? object.renderer->occlusion() : nullptr;
       if (!occlusion) fail(BRUME_ERROR_ORDER, "a frame with `decals` must be recorded first");
       if (image) *image = occlusion->handle();
       if (view) *view = occlusion->view();
@@ -288,10 +292,10 @@ brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* i
 brume_result brume_renderer_timings(const brume_renderer* renderer, brume_timing* timings, size_t capacity,
                                     size_t* count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    const brume_renderer& of = call.handle(renderer);
-    call.read(of, [&] {
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
       std::vector<brume_timing> list;
-      for (const auto& scope : of.recording.timings()) list.push_back(brume::host::timing_of(scope));
+      for (const auto& scope : object.recording.timings()) list.push_back(brume::host::timing_of(scope));
       write_list(std::span<const brume_timing>(list), timings, capacity, count);
     });
   });

@@ -98,7 +98,7 @@ scene::TankScene scene_of(const brume_tank_lighting& lighting) {
 }
 
 std::shared_ptr<const planning::TankLight> lit(const planning::TankContent& content,
-                                             const brume_tank_lighting& lighting) {
+                                               const brume_tank_lighting& lighting) {
   auto light = std::make_shared<planning::TankLight>();
   light->scene = scene_of(lighting);
   if (!light->scene.glass || lighting.photons == 0) return light;
@@ -143,9 +143,9 @@ void add_tanks(Call& call, const brume_frame_params& params, planning::FrameInpu
     if (shown.samples < 1 || shown.samples > kMostSamples)
       refuse(name + ": `samples` must be from 1 to " + std::to_string(kMostSamples));
     planning::TankInput input{tank.content, nullptr, placement_of(shown, name),
-                            static_cast<scene::TankView>(shown.view), shown.samples,
-                            // What a picture may have is far below the numbers that remain.
-                            params.jitter_index % 4096 * kMostSamples, shown.continues_previous != 0};
+                              static_cast<scene::TankView>(shown.view), shown.samples,
+                              // What a picture may have is far below the numbers that remain.
+                              params.jitter_index % 4096 * kMostSamples, shown.continues_previous != 0};
     call.read(tank, [&] { input.light = tank.light; });
     frame.tanks.push_back(std::move(input));
   }
@@ -172,9 +172,9 @@ brume_result brume_tank_destroy(brume_tank* tank) BRUME_NOEXCEPT {
 
 brume_result brume_tank_set_lighting(brume_tank* tank, const brume_tank_lighting* lighting) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
-    brume_tank& of = call.handle(tank);
-    auto light = brume::host::lit(*of.content, required_params(lighting, brume_tank_lighting_defaults()));
-    call.change(of, [&] { of.light = std::move(light); });
+    brume_tank& object = call.handle(tank);
+    auto light = brume::host::lit(*object.content, required_params(lighting, brume_tank_lighting_defaults()));
+    call.change(object, [&] { object.light = std::move(light); });
   });
 }
 

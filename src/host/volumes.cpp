@@ -12,7 +12,7 @@ using namespace brume::api;
 namespace brume::host {
 namespace {
 
-/// Of a volume's device memory: half floats.
+/// Device memory of a brick of a volume: half floats.
 constexpr std::uint64_t kBrickBytes = 2 * std::uint64_t{shared::kTexelsPerBrick};
 
 std::string text_of(const char* given) {
