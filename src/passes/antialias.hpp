@@ -16,7 +16,7 @@ class AntialiasPass {
 
   struct Inputs {
     const gpu::Buffer& frame;  ///< FrameConstants with the camera of this frame, jitter included.
-    const gpu::Image& depth;   ///< Of the G-buffer.
+    const gpu::Image& depth;   ///< GBuffer::depth.
     const gpu::Image& media;   ///< Premultiplied radiance and transmittance.
     const gpu::Image& radiance;
   };

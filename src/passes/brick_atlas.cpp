@@ -107,11 +107,15 @@ std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
     if (i < before.size() && before[i].id == volume.id()) entry = before[i];
     entry.id = volume.id();
     entry.reserved_generation = volume.structure_generation();
+
+    // Room for pages doubles, or grows in steps where memory is tight.
     const std::size_t pages = volume.pages().root().size() + volume.pages().nodes().size();
     constexpr std::size_t kPageStep = 1u << 14;
     const std::size_t page_room =
         tight_ && pages > kPageStep ? (pages + kPageStep - 1) / kPageStep * kPageStep : std::bit_ceil(pages);
     entry.pages = std::max(entry.pages, static_cast<std::uint32_t>(page_room));
+
+    // What moves is uploaded whole.
     entry.everything |= entry.layout.first_page != first_page || entry.layout.first_slot != first_slot;
     entry.layout = volume.layout().bricks;
     entry.layout.first_page = first_page;

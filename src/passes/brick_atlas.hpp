@@ -71,7 +71,7 @@ class BrickAtlas {
   glm::ivec3 atlas_bricks() const { return atlas_bricks_; }
 
   // References stay valid; the resources that they refer to are replaced by `reserve`.
-  /// Of each volume the root of the page table, then its nodes (shared/volume.h).
+  /// Page tables of all volumes: the root of each, then its nodes (shared/volume.h).
   const gpu::Buffer& pages() const { return pages_; }
   /// Per slot its brick, an ivec3 [bricks].
   const gpu::Buffer& slot_bricks() const { return slot_bricks_; }

@@ -161,6 +161,7 @@ void DebugViewPass::find_distances(const DebugSubject& subject) {
 
 void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject, const Inputs& in,
                            const gpu::Image& display) {
+  // What changed in the level and the distances.
   if (!level_words_.empty()) recorder.upload(level_, 0, std::as_bytes(std::span(level_words_)));
   if (!distance_words_.empty()) recorder.upload(distances_, 0, std::as_bytes(std::span(distance_words_)));
   level_words_ = {};
@@ -176,6 +177,8 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   params.slice_world = subject.slice.at_world;
   params.full = ramp_end(subject.view, subject.state ? *subject.state : sim::State());
   params.labels = labels_of(subject.view, params.full);
+
+  // Every view has the same bindings, whatever it reads.
   const gpu::Buffer& level = level_ ? level_ : nothing_;
   const gpu::Buffer& distances = distances_ ? distances_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;

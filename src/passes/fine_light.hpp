@@ -35,7 +35,7 @@ class FineLightPass {
   gpu::Sampler repeat_;
   gpu::Image light_;
   gpu::Buffer pages_, slots_;
-  std::uint32_t page_count_ = 0;  ///< Of the reserved plan.
+  std::uint32_t page_count_ = 0;  ///< Pages of the plan that was reserved.
 };
 
 }  // namespace brume::passes

@@ -17,7 +17,7 @@ struct GBuffer {
   gpu::Image emission;          ///< Half floats: radiance; 0 without a surface.
   gpu::Image depth;             ///< Reverse depth, 0: no surface.
   GBuffer(gpu::Context& context, glm::uvec2 size_px);
-  /// Of surfaces that a host draws (SurfaceImport): depth, and an emission of 0.
+  /// A G-buffer of surfaces that a host draws (SurfaceImport): depth, and an emission of 0.
   static GBuffer imported(gpu::Context& context, glm::uvec2 size_px);
   /// Adds the normals of such surfaces, for SurfaceNormalPass. Throws resource_limit.
   void add_imported_normals(gpu::Context& context);
@@ -48,7 +48,7 @@ class GBufferPass {
   struct DepthFirst {
     explicit DepthFirst(gpu::Context& context);
     gpu::GraphicsPipeline depth, dull;
-    gpu::ComputePipeline clear;  // of the emission
+    gpu::ComputePipeline clear;  ///< Sets the emission to 0.
   };
   void draw_depth_first(gpu::Recorder& recorder, const SceneResources& scene,
                         std::span<const VisibleDraw> draws, std::span<const VisibleDraw> dull,

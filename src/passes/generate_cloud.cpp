@@ -9,7 +9,7 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kVoxels = 512;  // of a brick
+constexpr std::uint32_t kVoxels = 512;  // in a brick
 
 }  // namespace
 

@@ -70,7 +70,7 @@ class IndirectLightPass {
   gpu::Buffer patches_, probes_, hits_, emitter_samples_, emitter_rays_, irradiance_, radiance_, lights_;
   gpu::Image cube_, next_cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
   std::uint32_t patch_count_ = 0, probe_count_ = 0, small_emitters_ = 0;
-  shared::IndirectParams params_{};  ///< Of the light that is being found.
+  shared::IndirectParams params_{};  ///< For the light that is being found.
 };
 
 }  // namespace brume::passes

@@ -94,6 +94,8 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
   const auto base_color = maps_.sampled(scene, material.base_color),
              normal = maps_.sampled(scene, material.normal),
              roughness = maps_.sampled(scene, material.roughness);
+
+  // What is behind, filtered by the pane; then what the pane itself sends, added.
   recorder.bind_for_draws(filter_, {
                                        {shared::kBindFrame, gpu::uniform(in.frame)},
                                        {shared::kBindVertices, gpu::read(scene.vertices)},

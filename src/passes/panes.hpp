@@ -19,7 +19,7 @@ struct VisiblePanes {
   std::span<const Draw> moving;
   HiddenObjects hidden;
   const planning::ViewFrustum& view;
-  glm::vec3 forward{0, 0, -1};  ///< Of the camera, unit.
+  glm::vec3 forward{0, 0, -1};  ///< View axis of the camera, unit.
 };
 
 class PanePass {

@@ -28,7 +28,7 @@ class RaycastPass {
 
   struct Inputs {
     VolumeResources volumes;
-    const gpu::Image& depth;  ///< Of the scene: rays end there. GBuffer::depth.
+    const gpu::Image& depth;  ///< GBuffer::depth: rays end there.
   };
   /// Draws the volumes of the plan, whose instances are those of `inputs`, in the same order. `target`, of
   /// half floats and with kRaycastTargetUsage, holds premultiplied radiance and transmittance then: what a
@@ -36,7 +36,7 @@ class RaycastPass {
   void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::RaycastPlan& plan,
               const gpu::Image& target) const;
 
-  /// Of the last volume drawn; only for two_pass.
+  /// Interval surfaces of the last volume drawn; only for two_pass.
   const IntervalSurfaces& surfaces() const { return *surfaces_; }
 
  private:

@@ -157,6 +157,8 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, c
   const Geometry geometry = gather_geometry(scene);
   out.light_list =
       planning::device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
+
+  // Geometry, lights with room for flashes, and textures.
   stream.run([&](gpu::Recorder& recorder) {
     out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
@@ -166,6 +168,8 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, c
   });
   upload_images(context, stream, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
+
+  // Draws in order of material, and which of them emit.
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     out.draws.emplace_back(place(scene, geometry, scene.objects[i])).object = i;
   for (const Draw& draw : out.draws) {

@@ -19,13 +19,13 @@ struct Draw {
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
   std::uint32_t material = 0;
-  std::uint32_t object = scene::kNone;  ///< Of Scene::objects.
+  std::uint32_t object = scene::kNone;  ///< Index into Scene::objects.
   glm::mat4 world_from_mesh{1};
   glm::vec3 centre_world{0};  ///< Bounding sphere.
   float radius = 0;
   glm::vec3 half_world{0};  ///< Half of the edges of the bounding box.
   float alpha_cutoff = 0;   ///< scene::cutoff_of.
-  bool is_pane = false;     ///< Of PanePass: neither in the G-buffer nor in shadow maps.
+  bool is_pane = false;     ///< PanePass draws it: not in the G-buffer, casts no shadow.
 };
 
 /// `moves`: over the level.
@@ -48,13 +48,13 @@ using planning::kMaxFlashes;  // capacity for temporary lights behind those of t
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;
   std::vector<gpu::Image> images;   ///< The first three: white, flat normal, white.
-  std::vector<scene::Wraps> wraps;  ///< Of each image.
+  std::vector<scene::Wraps> wraps;  ///< By image.
   std::vector<MaterialImages> materials;
   std::vector<Draw> draws;                  ///< In order of material.
   Draw grenade;                             ///< Draws nothing where the scene has none.
   std::vector<shared::Light> light_list;    ///< The first ones in `lights`; temporary lights follow.
   bool has_panes = false;                   ///< Whether any of `draws` is one.
-  std::vector<planning::Emitter> emitters;  ///< Those of `draws` that emit.
+  std::vector<planning::Emitter> emitters;  ///< Bounds of the `draws` that emit.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 

@@ -26,6 +26,7 @@ void ShadePass::reserve(const Needs& needs) {
 void ShadePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs& in,
                        const Outputs& out) const {
   const gpu::ComputePipeline& pipeline = pipelines_.at(needs);
+  // Without decals the shader does not read it, but a binding needs an image.
   const gpu::Image& occlusion = in.occlusion ? *in.occlusion : in.gbuffer.emission;
   recorder.bind(pipeline,
                 {

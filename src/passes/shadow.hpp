@@ -42,7 +42,7 @@ class ShadowPass {
   };
   void record_layer(gpu::Recorder& recorder, const SceneResources& scene, const ShadowMaps& maps,
                     const Layer& layer, VkImageView view) const;
-  gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< Of what no texture cuts out, and of the rest.
+  gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< For what no texture cuts out, and for the rest.
   MapSamplers maps_;
 };
 

@@ -7,7 +7,7 @@
 namespace brume::passes {
 namespace {
 
-/// Of smoke::SmokeBricks' channels: kDensityChannel.
+/// Formats of the channel of smoke::SmokeBricks that is uploaded, kDensityChannel.
 constexpr std::array kSmokeChannels{VK_FORMAT_R8G8_UNORM};
 
 /// The images that passes write, in the order of their formats.

@@ -12,7 +12,7 @@ gpu::Image voxel_image(gpu::Context& context, const glm::uvec3& size, VkFormat f
   return gpu::Image(context, gpu::storage_image_3d(size, format));
 }
 
-// Of all voxels.
+// An image of all voxels.
 gpu::Image whole_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
   const std::uint32_t most = context.limits().maxImageDimension3D;
   if (std::max({size.x, size.y, size.z}) > most)

@@ -33,7 +33,7 @@ class SurfaceImport {
 
 /// The normals of a host's surfaces.
 struct HostNormals {
-  const gpu::Image* image = nullptr;  ///< Of the frame's size; null: they follow from the depth.
+  const gpu::Image* image = nullptr;                ///< As large as the frame; null: from the depth.
   std::uint32_t encoding = shared::kNormalsSigned;  ///< One of shared::kNormals....
   bool of_view = false;                             ///< Along right, up and against forward.
   bool alpha_receives = false;                      ///< Surfaces where its alpha is 0 have no decals.
@@ -60,10 +60,10 @@ class SurfaceShadowPass {
 
   struct Inputs {
     const gpu::Buffer& frame;   ///< FrameConstants.
-    const gpu::Buffer& lights;  ///< Of the frame: SceneResources::lights.
+    const gpu::Buffer& lights;  ///< SceneResources::lights.
     const gpu::Buffer& sun;     ///< ShadowMaps::sun.
     const SmokeShadows& shadows;
-    const gpu::Image& depth;  ///< Of GBuffer::imported.
+    const gpu::Image& depth;  ///< Depth of GBuffer::imported.
   };
   /// Writes which fraction of each light arrives through the media at the surface of each pixel, 1 without a
   /// surface or a light. `lights`: numbers in the frame's lights, kNoLight: none. `target`: half floats.

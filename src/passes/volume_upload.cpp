@@ -12,7 +12,7 @@ constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FO
 /// The grids of all volumes, each once: the densities, those that glow, and the previews of both.
 struct GridList {
   std::vector<const volume::SparseVolume*> grids;
-  std::vector<StreamedBricks> streams;  ///< Of each, if residency is known.
+  std::vector<StreamedBricks> streams;  ///< By grid, if residency is known.
 
   void add(const volume::SparseVolume* grid, const planning::BrickUpload* upload) {
     if (!grid) return;
@@ -131,6 +131,8 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
   const auto layout_of = [&](const volume::SparseVolume* grid) {
     return atlas_.layout(position(grids, grid));
   };
+
+  // Instances of the plan, with where the atlases hold their bricks.
   std::vector<shared::VolumeInstance> instances;
   for (const planning::PlacedVolume& volume : visible) {
     shared::VolumeInstance instance = volume.instance;
