@@ -14,8 +14,8 @@ struct PlacedDecal {
   std::size_t volume = 0;  ///< DecalInput::volume.
 };
 
-/// Those of the decals that may be in view, in `memory`. Throws bad_input for more than shared::kMaxDecals
-/// and for a transform without an inverse.
+/// The decals that may be in view, in `memory`. Throws bad_input for more than shared::kMaxDecals and for a
+/// transform without an inverse.
 FrameVector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum& frustum, Allocator memory);
 
 }  // namespace brume::planning

@@ -14,12 +14,12 @@ namespace brume::planning {
 inline constexpr std::uint32_t kMostFinePages = 160;
 
 struct FineLightPlan {
-  FrameVector<std::uint32_t> slots;  ///< Of each page.
-  FrameVector<std::uint32_t> pages;  ///< Of each slot its page + 1; 0: none.
+  FrameVector<std::uint32_t> slots;  ///< Slot of each page.
+  FrameVector<std::uint32_t> pages;  ///< By slot, its page + 1; 0: none.
 };
 
-/// The visible bricks of which a fine texel is wider than two pixels, the nearest first. `pixel_width`: of a
-/// pixel at a distance of 1 m [m].
+/// The visible bricks of which a fine texel is wider than two pixels, the nearest first. `pixel_width`: what
+/// a pixel spans at a distance of 1 m [m].
 FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibility& visibility,
                               const glm::vec3& eye_world, float pixel_width, Allocator memory = {});
 /// Leaves only the first pages of a plan, which are the nearest.

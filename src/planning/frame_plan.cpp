@@ -63,7 +63,7 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
   plan.residency =
       history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
                                     plan.input.quality.volume_upload_bytes);
-  std::array<bool, shared::kMaxVolumes> shown{}, lit{};  // of more, plan_media makes no plan
+  std::array<bool, shared::kMaxVolumes> shown{}, lit{};  // plan_media refuses more
   for (std::size_t i = 0; i < std::min(plan.residency.size(), shown.size()); ++i) {
     shown[i] = plan.residency[i].shows_preview;
     lit[i] = plan.residency[i].lit_by_preview;

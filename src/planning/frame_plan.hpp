@@ -35,7 +35,7 @@ struct PlanRoom {
 
 /// What plans follow from besides the frame's input: the scene, and what the renderer draws into.
 struct PlanTarget {
-  std::span<const shared::Light> lights;  ///< Of the scene.
+  std::span<const shared::Light> lights;  ///< The scene's; a frame adds its own.
   Box<float> scene_bounds;                ///< Around all surfaces.
   std::span<const Emitter> emitters;      ///< Surfaces that emit.
   glm::mat4 sun_clip_from_world{1};
@@ -49,7 +49,7 @@ struct PlanTarget {
 };
 
 struct FramePlan {
-  /// The plan of a frame in which nothing is visible; its lists are in `memory`, as those of copies are not.
+  /// The plan of a frame in which nothing is visible; its lists are in `memory`. The lists of copies are not.
   FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory = {});
 
   const FrameInput& input;   ///< Outlives the plan.
@@ -59,8 +59,8 @@ struct FramePlan {
   // What is visible.
   shared::Camera camera;
   ViewFrustum frustum;
-  FrameVector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
-  /// That the device holds, in the history; null: none. Slots and voxels of the plan are of this.
+  FrameVector<shared::Light> lights;  ///< The scene's and the frame's that reach what is in view.
+  /// The smoke that the device holds, in the history; null: none. Slots and voxels of the plan are in it.
   const smoke::SmokeBricks* smoke = nullptr;
   SmokeVisibility visibility;
   MediaPlan media;
@@ -73,10 +73,10 @@ struct FramePlan {
   bool level_changed = false;  ///< Walls or hidden objects.
 
   // What is updated.
-  std::vector<VolumeResidency> residency;  ///< Of the input's volumes.
+  std::vector<VolumeResidency> residency;  ///< By volume of the input.
   HolePlan holes;
   NoisePlan noise;
-  std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
+  std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: the shadows of the frame before hold.
   FineLightPlan fine_light;
   const SmokeLightPlan* smoke_light = nullptr;  ///< In the history, until it plans again; not null in a plan.
 

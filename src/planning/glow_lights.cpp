@@ -15,7 +15,7 @@ constexpr double kMostRange = 1e5;  // [m]
 /// [K, W/sr].
 constexpr double kMostKelvin = 1e5, kMostIntensity = 1e9;
 
-/// Of a ball of this radiant intensity [m, W/sr].
+/// The light of a ball. `radius` [m], radiant `intensity` [W/sr].
 shared::Light light_at_ball(const glm::vec3& middle_world, double radius, const glm::dvec3& intensity,
                             double exposure) {
   shared::Light light{};

@@ -9,7 +9,7 @@ namespace brume::planning {
 namespace {
 
 constexpr std::uint32_t kMaxChunks = 7000;  // 112 MiB of cells: every device takes 128 in one buffer
-constexpr std::size_t kMaxWords = 1 << 24;  // of the lists: 64 MiB
+constexpr std::size_t kMaxWords = 1 << 24;  // in the lists: 64 MiB
 
 /// How many bricks a hole can reach: their centres lie in its capsule grown by half their diagonal, and so
 /// all of them lie in the capsule grown by a whole one.

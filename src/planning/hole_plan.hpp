@@ -18,15 +18,15 @@ constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 /// All that is known of a frame's holes before the device has clustered them.
 struct HolePlan {
   FrameVector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
-  FrameVector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
+  FrameVector<shared::HoleReach> reaches;  ///< Reach of each hole, inside the smoke's bounds.
   float time = 0;                          ///< [s]
   std::uint32_t slot_count = 0;            ///< Slots of the volume's bricks.
   /// Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
   std::uint32_t pair_capacity = 0;
   std::uint32_t chunk_capacity = 0;  ///< Bricks with holes that have cells.
-  glm::uvec2 coarse_tiles{0};        ///< Of the frame.
+  glm::uvec2 coarse_tiles{0};        ///< How many cover the frame.
   std::uint32_t cluster_count = 0;   ///< Entries of the lists before their words.
-  std::uint32_t word_capacity = 0;   ///< Of those words.
+  std::uint32_t word_capacity = 0;   ///< Words that the lists may take.
 
   /// As the frame's constants describe the clusters to shaders.
   shared::HoleClusterLayout layout() const;

@@ -22,7 +22,7 @@ struct IndirectLightPlan {
   /// What is done in this frame, of bounces * kSlicesPerBounce slices; empty: the light of the frame before
   /// holds. The first slice finds the light of the lights; after the last one all light shows.
   volume::IndexRange slices{};
-  std::uint64_t version = 0;  ///< Of the light that shows in this frame: another one, other light.
+  std::uint64_t version = 0;  ///< Changes with the light that this frame shows.
 };
 
 /// Parts of a bounce that can be done in different frames.

@@ -28,7 +28,7 @@ const scenario::LensOpening* opening_of(const scenario::LensOpenings& openings, 
 /// What a pinhole sees at a time of the shutter.
 struct CameraSample {
   ViewSample view;
-  float time = 0;  ///< Of the shutter, [0, 1].
+  float time = 0;  ///< While the shutter is open, [0, 1].
 };
 
 /// The samples whose mean is the picture of a camera with a lens and a shutter, in the order of their times.

@@ -20,13 +20,13 @@ struct SmokeLightRoom {
 
 /// What the light in the smoke of a frame follows from.
 struct SmokeLightInputs {
-  const smoke::SmokeBricks* volume = nullptr;  ///< null: no smoke.
-  /// All smoke, of which `volume` holds a part; its changes count wherever they are. null: `volume`.
+  const smoke::SmokeBricks* volume = nullptr;  ///< Null: no smoke.
+  /// All smoke, of which `volume` holds a part; its changes count wherever they are. Null: `volume`.
   const smoke::SmokeBricks* all_smoke = nullptr;
   const SmokeVisibility* visibility = nullptr;  ///< Not null where there is smoke.
-  std::span<const shared::Light> lights;        ///< Of the frame.
+  std::span<const shared::Light> lights;        ///< FramePlan::lights.
   std::span<const shared::Hole> holes;
-  float time = 0;  ///< Of holes and noise [s].
+  float time = 0;  ///< Time of holes and noise [s].
   shared::SmokeLook look{};
   shared::Sky sky{};
   glm::vec3 eye_world{0};
@@ -68,7 +68,7 @@ class LightChangeTracker {
   void store_inputs(const SmokeLightInputs& inputs);
   /// There is no frame before.
   void reset() { last_.reset(); }
-  /// Of the volume of the last stored frame.
+  /// The layout of the last stored frame's volume.
   const shared::VolumeLayout& layout() const { return layout_; }
 
  private:
@@ -85,7 +85,7 @@ class LightChangeTracker {
   std::optional<Last> last_;
   shared::VolumeLayout layout_{}, all_layout_{};
   std::vector<shared::Hole> holes_;
-  std::vector<glm::ivec3> brick_of_slot_;  // of all slots of all smoke
+  std::vector<glm::ivec3> brick_of_slot_;  // by slot of all smoke
   std::uint64_t generation_ = 0;
 };
 

@@ -17,8 +17,8 @@ namespace brume::planning {
 /// What the noise of a frame follows from.
 struct NoiseInputs {
   const smoke::SmokeBricks* volume = nullptr;    ///< Not null.
-  std::span<const std::uint32_t> slots;          ///< Of the smoke that is visible or casts visible shadows.
-  std::span<const shared::CloudMotion> motions;  ///< Of the state's clouds.
+  std::span<const std::uint32_t> slots;          ///< Smoke that is visible or casts visible shadows.
+  std::span<const shared::CloudMotion> motions;  ///< How the state's clouds move.
   std::span<const shared::Impulse> impulses;
   shared::SmokeLook look{};
   float time = 0;  ///< [s]
@@ -60,7 +60,7 @@ class NoiseUpdates {
     std::optional<Last> last;
     std::vector<shared::CloudMotion> motions;
     std::vector<shared::Impulse> impulses;
-    std::vector<std::uint64_t> last_frame;  // of each slot, the last frame that had it
+    std::vector<std::uint64_t> last_frame;  // by slot, the last frame that had it
     std::uint64_t frames = 0;
   };
   bool all_are_due(const NoiseInputs& inputs) const;
@@ -69,7 +69,7 @@ class NoiseUpdates {
 
   Proposed<State> state_;
   // Lists of the frame that is being planned.
-  std::vector<std::uint8_t> changed_;  // of each slot
+  std::vector<std::uint8_t> changed_;  // by slot
   std::vector<std::uint32_t> slots_due_;
 };
 

@@ -22,7 +22,7 @@ bool is_in_view(const Emitter& emitter, const LevelState& level, const ViewFrust
   return moves || frustum.may_intersect(emitter.bounds);
 }
 
-/// Of an opaque part of a volume, or of one as thick as the volume's shortest side.
+/// Radiance of an opaque part of a volume, or of a part as thick as the volume's shortest side.
 float brightest_in(const VolumeInput& volume, const PlacedVolume& placed) {
   float brightest = largest(placed.instance.look.emission);
   const HeatInput& heat = volume.heat;

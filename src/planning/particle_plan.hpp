@@ -17,10 +17,10 @@ namespace brume::planning {
 struct ParticleInput {
   glm::mat4 world_from_uvw{1};       ///< Affine, with an inverse; the volume's box is [0, 1]^3.
   std::uint32_t slices = 0;          ///< Its place among the renderer's SliceTextures.
-  std::array<glm::vec3, 4> tints{};  ///< Of each channel: linear radiance per metre where it is 1; >= 0.
+  std::array<glm::vec3, 4> tints{};  ///< By channel, linear radiance per metre where it is 1; >= 0.
   float extinction = 0;              ///< Where the largest channel is 1 [1/m]; >= 0, 0: emission only.
   std::uint32_t count = 400;         ///< Particles, [1, shared::kMaxParticles].
-  float radius = 0.6f;               ///< Of a quad's footprint, a fraction of the box's shortest edge; > 0.
+  float radius = 0.6f;               ///< Where a quad ends, in shortest edges of the box; > 0.
   std::uint32_t seed = 0;
   double time = 0;           ///< [s]
   float drift = 0;           ///< Edges of the box that particles move along its z axis in a second.

@@ -21,10 +21,10 @@ struct RaycastLight {
 /// Lengths are in metres along the normalized ray. Where the samples of a ray at that length do not reach
 /// across the longest diagonal of a volume, its steps are longer, so that they do.
 struct RaycastSteps {
-  float length = 0;                  ///< Of view rays; 0: half the shortest edge of the volume's voxels.
-  std::uint32_t samples = 1024;      ///< Per view ray and volume, >= 2.
-  float light_length = 0;            ///< Of light rays; 0: twice that edge.
-  std::uint32_t light_samples = 64;  ///< Per light ray, >= 1.
+  float length = 0;                          ///< Step of view rays; 0: half the shortest edge of the voxels.
+  std::uint32_t samples = 1024;              ///< Per view ray and volume, >= 2.
+  float light_length = 0;                    ///< Step of light rays; 0: twice that edge.
+  std::uint32_t light_samples = 64;          ///< Per light ray, >= 1.
   float opaque_transmittance = 1.0f / 1024;  ///< Below it a ray is opaque; [0, 1].
 };
 

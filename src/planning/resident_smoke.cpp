@@ -61,7 +61,7 @@ void nearest_first(std::span<glm::ivec3> bricks, glm::vec3 eye_brick) {
   });
 }
 
-/// Of `others`, those that are not in `known`; both in order.
+/// Adds what is in `others` but not in `known`; both are in order.
 void add_others(std::span<const glm::ivec3> known, std::span<const glm::ivec3> others,
                 FrameVector<glm::ivec3>& bricks) {
   std::set_difference(others.begin(), others.end(), known.begin(), known.end(), std::back_inserter(bricks),

@@ -24,10 +24,10 @@ class ResidentSmoke final : public smoke::SmokeBricks {
   ResidentSmoke();
 
   struct Request {
-    const smoke::SmokeVolume& volume;  ///< As of its last update.
+    const smoke::SmokeVolume& volume;  ///< Updated for the frame.
     bool all = false;                  ///< Not only what is visible, but the whole volume.
     glm::vec3 eye_world{0};
-    /// Of the device at present, in which there is room to begin with: 0, or as of volume::grown_atlas.
+    /// The device's atlas at present, which has room to begin with: 0, or what volume::grown_atlas returns.
     glm::ivec3 atlas_bricks{0};
     std::uint32_t most_bricks = kUnlimited;  ///< > 0; what such an atlas has room for, or kUnlimited.
   };
@@ -75,7 +75,7 @@ class ResidentSmoke final : public smoke::SmokeBricks {
   void write(std::uint32_t slot);
   void end();
 
-  const smoke::SmokeVolume* source_ = nullptr;  // of the last update
+  const smoke::SmokeVolume* source_ = nullptr;  // volume of the last update
   volume::SparseVolume held_;
   std::uint64_t source_id_ = 0, source_revision_ = 0, source_generation_ = 0;
   int level_ = 0;
@@ -84,9 +84,9 @@ class ResidentSmoke final : public smoke::SmokeBricks {
   std::vector<std::uint64_t> last_frame_;  // by slot, the last frame that required it
   std::uint64_t frames_ = 0, generation_ = 0;
 
-  // Of the update.
+  // While it updates, and for readers after it.
   bool updating_ = false, everything_changed_ = false;
-  std::vector<glm::ivec3> changed_bricks_;  // of the level, in order
+  std::vector<glm::ivec3> changed_bricks_;  // at the level, in order
   std::vector<std::uint32_t> dirty_cell_slots_;
   std::vector<volume::IndexRange> dirty_boundary_cells_, dirty_corner_sets_;
 };

@@ -17,13 +17,13 @@ namespace brume::planning {
 /// What the smoke shadows of a frame follow from: all that shaders/smoke_shadow.comp reads. It reads no
 /// camera; that counts only as far as it changes the plan, or which smoke casts visible shadows.
 struct SmokeShadowInputs {
-  const smoke::SmokeBricks* volume = nullptr;   ///< null: no smoke.
+  const smoke::SmokeBricks* volume = nullptr;   ///< Null: no smoke.
   const SmokeVisibility* visibility = nullptr;  ///< Not null.
-  std::span<const shared::Light> lights;        ///< Of the frame, those of the plan.
+  std::span<const shared::Light> lights;        ///< FramePlan::lights.
   const HolePlan* holes = nullptr;              ///< Not null.
   const NoisePlan* noise = nullptr;             ///< Not null.
   shared::SmokeLook look{};
-  float time = 0;             ///< Of the noise [s].
+  float time = 0;             ///< Time of the noise [s].
   bool rebuild = false;       ///< Surfaces changed, or shadows are to be marched again for another reason.
   float update_fraction = 1;  ///< Quality::light_update_fraction.
 };

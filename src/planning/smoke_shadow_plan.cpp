@@ -16,7 +16,7 @@ struct FacePart {
   glm::vec2 low{1e30f}, high{-1e30f};  // uv
   float metres = 0;                    // that the whole face spans at the far end of the smoke
   float coarseness = 1;                // how much larger its texels may be than those of the brightest light
-  bool is_soft = false;                // of a light that is a ball
+  bool is_soft = false;                // its light is a ball
   bool is_sun = false;
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };

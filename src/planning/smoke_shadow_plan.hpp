@@ -13,7 +13,7 @@ namespace brume::planning {
 
 struct SmokeShadowPlan {
   FrameVector<shared::SmokeShadowFace> faces;  ///< kFacesPerLight for each light, in their order.
-  std::uint32_t blocks = 0;                    ///< Of all faces together.
+  std::uint32_t blocks = 0;                    ///< Blocks of all faces together.
   bool operator==(const SmokeShadowPlan& other) const;
   /// The same with blocks of every `spread`th texel along both axes.
   SmokeShadowPlan spread_by(std::uint32_t spread, Allocator memory = {}) const;

@@ -24,8 +24,8 @@ struct TankLight {
 
 /// Where a tank is in a world: turned, scaled and moved.
 struct TankPlacement {
-  glm::mat3 axes{1};  ///< Unit vectors at right angles, right-handed: the tank's axes in the world.
-  glm::vec3 position_world{0};  ///< Of its middle.
+  glm::mat3 axes{1};            ///< Unit vectors at right angles, right-handed: the tank's axes in the world.
+  glm::vec3 position_world{0};  ///< The tank's middle.
   float scale = 1;              ///< > 0
 
   bool operator==(const TankPlacement&) const = default;

@@ -6,7 +6,8 @@
 namespace brume::planning {
 namespace {
 
-/// Of the farthest layer, along each axis: so many that no more than 1 in 100 voxels is off by more than 5 %.
+/// Rays through a voxel of the farthest layer, along each axis. With so many, at most 1 in 100 voxels is off
+/// by more than 5 %.
 constexpr float kRaysPerVoxel = 2.2f;
 
 // The layers of a map along an axis: depths of the first and the last one whose middles are before the light.
@@ -67,7 +68,7 @@ std::vector<shared::LightMap> light_maps(const glm::vec3& position, const glm::i
                                          std::uint64_t most_texels) {
   const glm::vec3 extent(size);
   // Outside: along the axis where the farthest layer is the least times farther than the nearest.
-  constexpr float kNearest = 1;  // Of the first layer: nearer ones make the slopes too steep.
+  constexpr float kNearest = 1;  // distance of the first layer: nearer, slopes are too steep
   std::vector<shared::LightMap> maps;
   float least = 1e30f;
   for (int axis = 0; axis < 3; ++axis)

@@ -29,12 +29,14 @@ shared::TankCamera tank_camera(const shared::Camera& pinhole, const scene::Camer
   return lens;
 }
 
-/// Of all but the camera.
+/// All of the plan but the camera.
 TankPlan plan_tank_alone(const scene::TankScene& scene, const spheres::Tank& tank, double time,
                          glm::uvec2 size_px) {
   const ToVoxels voxels(tank);
   TankPlan plan;
   shared::TankConstants& constants = plan.constants;
+
+  // The medium and the glass, in voxels.
   constants.air = {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient, scene.fog.color,
                    scene.fog.extinction / voxels.per_metre};
   if (scene.glass) {

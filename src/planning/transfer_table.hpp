@@ -8,7 +8,7 @@
 
 namespace brume::planning {
 
-/// Of a valid function; kTransferNone for an empty one.
+/// What shaders read of a valid function; kTransferNone for an empty one.
 shared::VolumeTransfer device_transfer(const TransferInput& transfer);
 
 /// The shared::kTransferEntries entries of its table. `albedo` is its colour without a map.

@@ -47,7 +47,7 @@ class UpdateScheduler {
   std::uint32_t slices_for(float update_fraction) const;
 
   std::uint32_t slice_count_;
-  std::uint32_t per_frame_, first_ = 0;  // of the frame
+  std::uint32_t per_frame_, first_ = 0;  // slices of the frame
   std::uint32_t frame_ = 0, pending_ = 0;
 };
 

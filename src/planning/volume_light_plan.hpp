@@ -35,11 +35,11 @@ struct VolumeLightRoom {
 /// What the light in the volumes follows from.
 struct VolumeLightInputs {
   const MediaPlan* media = nullptr;       ///< Not null.
-  std::span<const VolumeInput> volumes;   ///< Of the frame.
-  std::span<const shared::Light> lights;  ///< Of the frame.
+  std::span<const VolumeInput> volumes;   ///< FrameInput::volumes.
+  std::span<const shared::Light> lights;  ///< FramePlan::lights.
   const smoke::SmokeBricks* smoke = nullptr;
   shared::SmokeLook smoke_look{};
-  float time = 0;  ///< Of the smoke's noise and holes [s].
+  float time = 0;  ///< Time of the smoke's noise and holes [s].
   shared::Sky sky{};
   bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
   std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.

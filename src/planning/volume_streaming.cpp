@@ -158,7 +158,7 @@ class VolumeStreaming::Frame {
   std::span<Item> items_;
   const ViewFrustum* frustum_;
   glm::vec3 eye_world_;
-  std::uint64_t remaining_;  ///< Of the budget [bytes].
+  std::uint64_t remaining_;  ///< Rest of the budget [bytes].
   bool any_ = false;         ///< Something is uploaded.
 };
 

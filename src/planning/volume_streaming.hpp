@@ -58,18 +58,18 @@ class VolumeStreaming {
   struct Node {
     glm::ivec3 at{0};
     std::uint32_t number = 0;   ///< In the page table.
-    std::uint32_t bricks = 0;   ///< Of the volume.
-    std::uint32_t missing = 0;  ///< Those that are not on the device.
+    std::uint32_t bricks = 0;   ///< Bricks of the volume in it.
+    std::uint32_t missing = 0;  ///< Bricks that are not on the device.
   };
   struct State {
     std::uint64_t id = 0;
     bool pages = false;
     std::vector<bool> resident;  ///< By slot.
     std::vector<Node> nodes;     ///< Rising.
-    std::uint32_t missing = 0;   ///< Of all nodes.
+    std::uint32_t missing = 0;   ///< Bricks of all nodes that are not on the device.
     bool is_complete() const { return pages && missing == 0; }
   };
-  /// One that is complete does not change, and proposals share it.
+  /// A complete state does not change, and proposals share it.
   using States = std::vector<std::shared_ptr<State>>;
   struct Item;
   struct Candidate;
