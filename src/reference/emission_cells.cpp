@@ -21,6 +21,7 @@ float power_of(const Medium& medium, std::uint32_t cell) {
 }  // namespace
 
 EmissionCells::EmissionCells(std::span<const Medium* const> media) {
+  // Power of each cell that may emit.
   double whole = 0;
   std::vector<float> powers;
   for (const Medium* medium : media) {
@@ -38,6 +39,8 @@ EmissionCells::EmissionCells(std::span<const Medium* const> media) {
       whole += double{powers.back()};
     }
   }
+
+  // The whole is 1.
   double sum = 0;
   for (const float power : powers) {
     sum += double{power} / whole;

@@ -20,7 +20,7 @@ class Medium;
 class EmissionCells {
  public:
   EmissionCells() = default;
-  /// Of the media that emit, which must outlive it.
+  /// Cells of the media, which must outlive it.
   explicit EmissionCells(std::span<const Medium* const> media);
 
   bool empty() const { return power_up_to_.empty(); }

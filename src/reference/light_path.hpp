@@ -16,7 +16,7 @@ namespace brume::reference {
 /// all techniques that make a path share, or which are unknown, do not count.
 struct Link {
   bool in_medium = false;
-  float inverse_d2 = 0;  ///< Of the distance to the vertex before [1/m^2].
+  float inverse_d2 = 0;  ///< 1 / squared distance to the vertex before [1/m^2].
   float density = 0;     ///< Per solid angle, of the direction to the vertex after [1/sr].
 };
 

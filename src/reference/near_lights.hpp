@@ -19,7 +19,7 @@ class LightChord {
   /// `begin` and `end` > begin along the line.
   LightChord(float nearest, float distance, float begin, float end);
 
-  /// Of 1 / max(d^2, kConstantWithin^2) over the part [1/m].
+  /// The integral of 1 / max(d^2, kConstantWithin^2) over the part [1/m].
   float integral() const { return before_ + within_ + after_; }
   /// A place along the line [m] for `u` in [0, 1).
   float sample(float u) const;
@@ -46,9 +46,9 @@ class NearChords {
   bool empty() const { return chords_.empty(); }
 
   struct Point {
-    std::uint32_t light = 0;  ///< Of Scene::lights.
+    std::uint32_t light = 0;  ///< Index into Scene::lights.
     float t = 0;              ///< Along the ray [m].
-    float density = 0;        ///< Of this light and place [1/m].
+    float density = 0;        ///< Probability of the light, per length [1/m].
   };
   /// A light in proportion to what it gives to its whole chord if nothing hides it, and a place on that, for
   /// `u` in [0, 1)^2. Some chord must be there.
@@ -68,7 +68,7 @@ class NearChords {
     float power;  // intensity times integral
   };
   std::vector<Chord> chords_;
-  float power_ = 0;  // of all
+  float power_ = 0;  // sum over the chords
 };
 
 }  // namespace brume::reference

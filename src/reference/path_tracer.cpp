@@ -37,10 +37,10 @@ struct Vertex {
   const Medium* medium = nullptr;
   glm::vec3 position{0};
   glm::vec3 arriving{0};  ///< Direction of the path before, unit.
-  glm::vec3 albedo{1};    ///< Of a medium.
+  glm::vec3 albedo{1};    ///< Single-scattering albedo of a medium.
   float t = 0;            ///< Along the ray that leads there, from the last pane on [m].
   float distance = 0;     ///< From the vertex before [m].
-  float time = 0;         ///< Of the shutter.
+  float time = 0;         ///< While the shutter is open, [0, 1].
 
   /// Radiance back along the path for unit irradiance from a direction, with the cosine of a surface.
   glm::vec3 value(const glm::vec3& to_light) const {
@@ -63,9 +63,9 @@ struct Vertex {
 
 /// What a path has of near lights in media; one for all paths of a thread, whose memory is reused.
 struct NearLightsOfPath {
-  NearChords chords;        ///< Of the eye's ray.
+  NearChords chords;        ///< Along the eye's ray.
   LightPath light_path;     ///< Its vertices are joined with those of the path.
-  std::vector<Link> links;  ///< Of the path, if a light may have one.
+  std::vector<Link> links;  ///< By vertex, if near lights may reach the path.
 };
 
 class Path {
@@ -107,9 +107,9 @@ class Path {
   PathSample found_;
   glm::vec3 throughput_{1};
   std::uint32_t bounces_ = 0;
-  float last_density_ = 0;  // of the direction of the path; 0: the eye's
+  float last_density_ = 0;  // per solid angle, of the last direction; 0: the eye's
   Ray from_last_;           // the ray from the last vertex, whatever panes it passes
-  float passed_m_ = 0;      // of it, up to the last pane
+  float passed_m_ = 0;      // along it, up to the last pane
   NearLightsOfPath& near_;
 };
 

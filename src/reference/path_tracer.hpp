@@ -20,10 +20,10 @@ struct PathLimits {
 
 /// What one path from the eye found.
 struct PathSample {
-  glm::vec3 seen{0};               ///< Radiance that met nothing: of emitters and the sky.
+  glm::vec3 seen{0};               ///< Radiance of emitters and the sky, unscattered.
   glm::vec3 single{0};             ///< Scattered or reflected once.
   glm::vec3 multiple{0};           ///< More than once.
-  glm::vec3 albedo{0}, normal{0};  ///< Of the nearest surface; 0: none.
+  glm::vec3 albedo{0}, normal{0};  ///< At the nearest surface; 0: none.
   float distance = std::numeric_limits<float>::infinity();  ///< Along the ray to it [m].
   bool through_media = true;  ///< The ray reached the surface or the sky without a collision.
 };

@@ -105,6 +105,8 @@ void Render::add_paths(const Tile& tile, const std::function<bool()>& stopped) {
       sampler.stop_by(&stopped);
       const Ray ray = eye_ray({x, y}, sampler);
       const PathSample found = trace_(ray, sampler);
+
+      // Radiance, by how often it was scattered.
       Sums& sums = sums_[index(x, y)];
       sums.seen += found.seen;
       sums.single += found.single;
@@ -112,6 +114,8 @@ void Render::add_paths(const Tile& tile, const std::function<bool()>& stopped) {
       const double all =
           luminance(glm::dvec3(found.seen) + glm::dvec3(found.single) + glm::dvec3(found.multiple));
       sums.squares += all * all;
+
+      // The nearest surface, and what lies before it.
       sums.albedo += found.albedo;
       sums.normal += found.normal;
       const bool hit = std::isfinite(found.distance);
@@ -217,6 +221,8 @@ image::LayeredImage Render::layers() const {
       add(names[static_cast<std::size_t>(c)],
           [&](const Sums& sums, double n) { return glm::dvec3(value(sums))[c] / n; });
   };
+
+  // What is before the sky and the sky, its parts, the surface, and how sure the mean is.
   add_three({"R", "G", "B"},
             [](const Sums& sums) { return sums.seen - sums.background + sums.single + sums.multiple; });
   add_three({"background.R", "background.G", "background.B"},

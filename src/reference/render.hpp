@@ -29,10 +29,10 @@ struct RenderSettings {
   glm::uvec2 size_px{0};  ///< At most kMostPixels.
   /// At equal steps while the shutter is open, at least one.
   std::vector<Eye> eyes;
-  std::uint32_t blades = 0;                        ///< Of the lens, as scene::Lens.
+  std::uint32_t blades = 0;                        ///< scene::Lens::blades.
   const scenario::LensOpening* opening = nullptr;  ///< In the place of blades; null: none.
   PathLimits limits;
-  std::uint32_t samples = 0;  ///< Of each pixel, at most; 0: without end. At most kMostSamples.
+  std::uint32_t samples = 0;  ///< Most per pixel, up to kMostSamples; 0: without end.
   /// Standard error of a tile's pixels relative to its mean at which it is done; 0: never.
   float noise = 0;
 };
@@ -79,7 +79,7 @@ class Render {
   struct Sums {
     glm::dvec3 seen{0}, single{0}, multiple{0};
     glm::dvec3 background{0};  ///< What is seen by paths that met nothing.
-    double squares = 0;        ///< Of the luminance.
+    double squares = 0;        ///< Squared luminance.
     glm::vec3 albedo{0}, normal{0};
     float depth = 0, hits = 0;  ///< Along the view axis, of those that met a surface.
     float clear = 0;            ///< That met neither a surface nor a medium.

@@ -32,7 +32,7 @@ struct Environment {
 
 /// Light of a source without extent at a point, before anything that hides it.
 struct Incident {
-  glm::vec3 irradiance{0};  ///< Of a surface that faces the light.
+  glm::vec3 irradiance{0};  ///< On a surface that faces the light.
   glm::vec3 to_light{0};    ///< Unit.
   float distance = 0;       ///< [m]; infinite for the sun.
 };
@@ -45,7 +45,7 @@ Incident light_at(const shared::Light& light, const glm::vec3& p_world);
 
 /// A point or spot light with media nearby, for NearChords and LightPath.
 struct NearLight {
-  std::uint32_t light = 0;  ///< Of Scene::lights.
+  std::uint32_t light = 0;  ///< Index into Scene::lights.
   float solid_angle = 0;    ///< Into which it shines [sr].
 };
 

@@ -80,7 +80,7 @@ TankModel::TankModel(const spheres::Tank& tank, const scene::TankScene& scene)
     glass_ = TankLensBody{voxel_from_world(scene.glass->position_world),
                           glm::dvec3(scene.glass->radii) / voxel_, static_cast<double>(scene.glass->index)};
 
-  // Of all bytes.
+  // Tables of all bytes.
   for (int byte = 0; byte < 256; ++byte) {
     linear_.push_back(scene::linear_from_srgb(byte / 255.0));
     extinctions_.push_back(byte < 255 ? -std::log1p(-byte / 255.0) : kInfinity);

@@ -23,13 +23,13 @@ struct TankBall {
   glm::dvec3 center{0};
   double radius = 0;        ///< 0: a point, which only direct light is from.
   glm::dvec3 intensity{0};  ///< [W/sr] times the squared voxels of a metre.
-  glm::dvec3 radiance{0};   ///< Of its surface, to the outside; 0 of a point.
+  glm::dvec3 radiance{0};   ///< That its surface sends outwards; 0 for a point.
 };
 
 /// An ellipsoid of a clear dielectric.
 struct TankLensBody {
   glm::dvec3 center{0}, radii{1};
-  double index = 1;  ///< Of refraction, relative to the outside.
+  double index = 1;  ///< Index of refraction relative to the outside.
 
   bool contains(const glm::dvec3& at) const;
   /// Where a line enters and leaves it, in units of its direction; x > y: nowhere.
@@ -77,7 +77,7 @@ class TankModel {
   /// Linear colour.
   glm::dvec3 albedo(std::uint32_t sphere) const;
   bool is_opaque(std::uint32_t sphere) const { return tank_.colors[sphere] >> 24 == 255; }
-  /// Of a sphere that is not opaque, per voxel's length.
+  /// Extinction of a sphere that is not opaque, per length of a voxel.
   double extinction(std::uint32_t sphere) const { return extinctions_[tank_.colors[sphere] >> 24]; }
   glm::dvec3 normal(std::uint32_t sphere, const glm::dvec3& at) const {
     return glm::normalize(at - glm::dvec3(tank_.spheres[sphere].center));
@@ -104,7 +104,7 @@ class TankModel {
   scene::SkyOptions sky_;
   scene::TankFog fog_;
   double fog_extinction_;
-  std::vector<double> linear_, extinctions_;  ///< Of a byte of a colour.
+  std::vector<double> linear_, extinctions_;  ///< By byte of a colour.
   trace::SphereTree tree_;
 };
 

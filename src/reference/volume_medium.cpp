@@ -87,6 +87,7 @@ VolumeMedium::VolumeMedium(const planning::VolumeInput& volume,
       values_(*volume.volume),
       transfer_(volume.transfer, volume.look.albedo) {
   if (effect_.amplitude.x > 0 || detail_.strength > 0) noise_ = &noise();
+  // Heat, with a table of its radiance by value.
   if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
     heat_ = BrickField<1>(*volume.heat.volume);
     heat_from_world_ = glm::inverse(volume.heat.world_from_voxel);
@@ -98,6 +99,7 @@ VolumeMedium::VolumeMedium(const planning::VolumeInput& volume,
                              planning::blackbody_color(volume.heat.kelvin * value));
     }
   }
+  // Colours of what scatters, or masks, which emit; up to two masks have bricks of two channels.
   if (volume.colors) {
     has_masks_ = !volume.tints.empty();
     has_colors_ = !has_masks_;
@@ -181,7 +183,7 @@ void VolumeMedium::find_majorants() {
 }
 
 void VolumeMedium::divide_cells(const Box<int>& all, float edge) {
-  // Of fewer possible collisions, dividing saves little; 64 bounds each fit into 64 MiB.
+  // With fewer possible collisions, dividing saves little; 64 bounds each fit into 64 MiB.
   constexpr float kManyCollisions = 32, kMuchLess = 0.25f;
   constexpr std::uint32_t kMostDivided = 1u << 18;
   const int cell = majorants_.cell_voxels();

@@ -29,7 +29,7 @@ class TransferCurve {
  private:
   shared::VolumeTransfer device_{};
   std::vector<glm::vec4> table_;
-  std::vector<std::vector<float>> largest_;  // of 2^level cells from each on, by level
+  std::vector<std::vector<float>> largest_;  // by level and cell: over 2^level cells from it on
 };
 
 class VolumeMedium final : public Medium {
