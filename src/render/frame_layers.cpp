@@ -31,7 +31,7 @@ std::array<Half, 256> linear_halves() {
   return table;
 }
 
-/// Of an albedo, 0 without a surface.
+/// A channel of the albedo, 0 without a surface.
 Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel,
                          std::span<const float> depth) {
   static const std::array<Half, 256> table = linear_halves();

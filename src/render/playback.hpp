@@ -61,7 +61,7 @@ class Playback {
   double fraction_marched() const;
   /// How the last frame became colours.
   const image::Display& display() const { return display_; }
-  /// Of the last image.
+  /// Samples of each pixel in the last image.
   std::uint32_t samples() const { return samples_drawn_; }
   const scenario::Simulation& simulation() const { return *simulation_; }
 

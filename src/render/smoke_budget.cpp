@@ -18,7 +18,7 @@ constexpr std::uint32_t kFramesToWait = 600;
 // How long room is kept that is not wanted: it takes time to fill it again.
 constexpr std::uint32_t kSpareFrames = 256;
 
-/// Of the device, on average: texels of all images of the atlas, cells, and the light's rays.
+/// Device memory of a brick, on average: texels of all images of the atlas, cells, and the light's rays.
 constexpr VkDeviceSize kBrickBytes = 40 * shared::kTexelsPerBrick;
 
 }  // namespace

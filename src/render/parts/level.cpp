@@ -103,10 +103,14 @@ void LevelPart::record_indirect_light(gpu::Recorder& recorder, const FramePlan& 
     in.g = shared::mean_cosine(plan.input.smoke.look.phase);
   else if (!plan.media.volumes.empty())
     in.g = plan.media.volumes.front().instance.look.anisotropy;
+
+  // Cells of the level as it is now.
   if (indirect.level_changed) {
     indirect_light_.upload(recorder, light_cells_);
     recorder.change(uploaded_levels_) = levels_;
   }
+
+  // The cells that media touch.
   const shared::IndirectLayout& layout = light_cells_.layout;
   Box<int> cells{glm::ivec3(0), glm::ivec3(0)};
   if (!indirect.media.empty())

@@ -35,8 +35,8 @@ class TanksPart {
  private:
   /// A tank on the device.
   struct Slot {
-    Slot(gpu::Context& context, gpu::CommandStream& stream, const planning::TankContent& of)
-        : sampler(context, stream, of.tank, of.bricks) {}
+    Slot(gpu::Context& context, gpu::CommandStream& stream, const planning::TankContent& tank_content)
+        : sampler(context, stream, tank_content.tank, tank_content.bricks) {}
     std::shared_ptr<const planning::TankContent> content;
     std::shared_ptr<const planning::TankLight> light;
     std::optional<scene::TankView> view;
