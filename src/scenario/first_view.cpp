@@ -143,7 +143,7 @@ float light_level(const scene::Scene& scene) {
 }
 
 void scale_sky(scene::SkyOptions& sky, float factor) {
-  constexpr float kMost = 1000;  // of the options
+  constexpr float kMost = 1000;  // what the options allow
   for (glm::vec3* color : {&sky.zenith, &sky.horizon, &sky.ambient})
     *color = glm::min(*color * factor, glm::vec3(kMost));
 }

@@ -19,13 +19,13 @@ struct FirstViewOptions {
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
   bool has_smoke = true;                       ///< Whether there is smoke without `smokes`.
   bool has_ground = true;                      ///< Whether there may be a ground to the horizon.
-  /// What is looked from instead of the camera of the result [m]: the smoke is placed for it.
+  /// Replaces the camera of the result [m]; the smoke is placed for it.
   std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};
   std::optional<float> exposure;              ///< [EV]; empty: measured (Scenario::measure_exposure).
   std::optional<std::uint32_t> bounces = {};  ///< Timeline::bounces; empty: none.
   std::optional<scene::ToneCurve> tone = {};
-  // Of a volume alone, as in scene::VolumeOptions.
+  // For a volume alone, as in scene::VolumeOptions.
   std::string density = {}, heat = {};
   std::optional<float> kelvin = {}, volume_frame_rate = {};
   std::vector<scene::OpacityPoint> opacity = {};

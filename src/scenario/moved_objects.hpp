@@ -12,7 +12,7 @@
 namespace brume::scenario {
 
 struct MovedObject {
-  std::uint32_t object = 0;  ///< Of Scene::objects.
+  std::uint32_t object = 0;  ///< Index into Scene::objects.
   glm::mat4 world_from_mesh{1};
 };
 

@@ -29,11 +29,13 @@ void complete_grenade(const scene::Timeline& timeline, scene::Scene& scene) {
   scene::add_built_in_grenade(scene);
 }
 
-/// From a timeline and its loaded scene.
+/// Makes a scenario of a timeline and its loaded scene.
 Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
                           std::shared_ptr<volumes::Volumes> volumes, float aspect,
                           const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
+
+  // The level: roles of its objects, and its voxels, from the cache if there is one.
   complete_grenade(timeline, scene);
   for (const scene::RoleOptions& options : timeline.roles)
     for (scene::Object& object : scene.objects)
@@ -45,6 +47,8 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
   if (!cache_folder.empty()) cache = cache_folder / timeline.scene.filename().replace_extension(".vxl");
   auto voxels = load_or_voxelize(scene, *layout, cache);
   if (!voxels) return voxels.failure();
+
+  // The camera, and what the timeline's files hold.
   const bool is_fitted = !scene.camera;
   const scene::Camera camera = scene::default_camera(scene, aspect);
   auto masks = load_masks(timeline);
@@ -233,7 +237,7 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   std::vector<std::filesystem::path> files = scenario.scene.files;
   if (scenario.volumes)
     for (const std::filesystem::path& file : scenario.volumes->files()) {
-      // Of a description that cannot be read only itself; to load it fails.
+      // A description that cannot be read is listed alone; to load it fails.
       const auto all = grids::files_of(file);
       if (all)
         files.insert(files.end(), all->begin(), all->end());

@@ -24,10 +24,10 @@ struct Scenario {
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
-  std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
-  SliceVolumes slices = {};                               ///< Of Timeline::decals.
-  LensOpenings lens_openings = {};                        ///< Of the camera's keys.
-  /// Whether `camera` is none of the scene's file: it frames the scene.
+  std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Timeline::volumes, loaded; null: none.
+  SliceVolumes slices = {};                               ///< Volumes of Timeline::decals.
+  LensOpenings lens_openings = {};                        ///< Images of openings in the camera's keys.
+  /// Whether `camera` frames the scene, whose file has none.
   bool camera_is_fitted = false;
 };
 

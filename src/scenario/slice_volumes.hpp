@@ -12,18 +12,18 @@
 
 namespace brume::scenario {
 
-/// Where one of them is.
+/// Where the volume of a decal is, or the masks of a volume.
 struct SliceVolume {
   std::size_t volume = 0;      ///< In SliceVolumes::volumes.
   glm::mat4 file_from_box{1};  ///< From the box of its grids to the world of its file.
-  glm::vec3 middle{0};         ///< Of the mesh whose occlusion it holds, about, in the box of its grids.
+  glm::vec3 middle{0};         ///< About the middle of the mesh that occludes, in the box of its grids.
   float radius = 0;            ///< About how far the mesh reaches from there; 0: unknown.
 };
 
 struct SliceVolumes {
   std::shared_ptr<const grids::DenseVolumes> volumes;  ///< Null: none.
-  std::vector<SliceVolume> of_decals;  ///< Of each decal: two channels, occlusion of what faces up and down.
-  /// Of each volume with masks: a channel of each; empty: it has none, or is too large for an image of
+  std::vector<SliceVolume> of_decals;  ///< By decal. Two channels: occlusion of what faces up, down.
+  /// By volume; each mask is a channel. Empty: the volume has no masks, or is too large for an image of
   /// slices.
   std::vector<std::optional<SliceVolume>> of_volumes;
 };
@@ -33,7 +33,7 @@ struct SliceVolumes {
 /// larger than an image of slices.
 Result<SliceVolumes> load_slice_volumes(const scene::Timeline& timeline);
 
-/// Every file that they are read from.
+/// Every file that load_slice_volumes reads.
 std::vector<std::filesystem::path> slice_files_of(const scene::Timeline& timeline);
 
 /// world_from_file of a decal at a time [s]: moved by its carrier.

@@ -13,7 +13,7 @@ enum class UpAxis { y, z };
 
 struct SmokeGridOptions {
   UpAxis up = UpAxis::y;
-  float extinction = 0;  ///< Of full density [1/m], for the metadata.
+  float extinction = 0;  ///< At full density [1/m], for the metadata.
 };
 
 /// The densities at the centres of voxels, State::density / 255, without holes and without the noise that the

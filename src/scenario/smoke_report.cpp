@@ -55,7 +55,7 @@ bool is_above_solid(const voxel::BitGrid& grid, glm::ivec3 voxel) {
 
 /// Where and when a throw of the log goes off.
 struct Throw {
-  std::uint32_t id = 0, tick = 0;   // of the detonation
+  std::uint32_t id = 0, tick = 0;   // when it goes off
   std::optional<glm::ivec3> voxel;  // nothing: it never does
   glm::vec3 target_world{0};        // what it was thrown at
   bool placed = false;              // not thrown from elsewhere
@@ -170,6 +170,7 @@ std::string warning_of(const SmokeReport& report, std::size_t number, const Scen
   const std::string smoke = (report.place.empty() ? "" : report.place + ": ") + "smoke " +
                             std::to_string(number) + " at " + text_of(report.at_world);
   const std::string works = report.works_at ? "; it fits at " + text_of(*report.works_at) : "";
+  // What is wrong, with the numbers to see by how much, and what works.
   switch (report.fault) {
     case SmokeFault::none:
       return "";

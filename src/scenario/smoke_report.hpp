@@ -21,17 +21,17 @@ enum class SmokeFault {
 };
 
 struct SmokeReport {
-  glm::vec3 at_world{0};     ///< Where it goes off [m]; where it was to, for the two faults of places.
+  glm::vec3 at_world{0};     ///< Where it goes off, or for the two faults of places should have [m].
   double time = 0;           ///< When it goes off [s].
-  std::uint32_t voxels = 0;  ///< That it fills when grown.
+  std::uint32_t voxels = 0;  ///< How many it fills when grown.
   std::uint32_t budget = 0;  ///< SmokeOptions::voxels.
   SmokeFault fault = SmokeFault::none;
-  std::optional<glm::vec3>
-      works_at;            ///< The nearest place found where it fills all of them, for places at fault.
+  /// For faults of places: the nearest place found where it fills all of its voxels.
+  std::optional<glm::vec3> works_at;
   std::string place = {};  ///< SmokeEvent::place.
 };
 
-/// Of at most this many smokes, the first ones.
+/// At most this many smokes are reported, the first ones.
 constexpr std::size_t kMostReportedSmokes = 64;
 
 /// "none", "outside_grid", "in_solid", "confined" or "after_end".

@@ -75,9 +75,9 @@ double radiance_of(const grids::GlowColumn& column, double kelvin, const scene::
   return absorbed > 1e-3 ? emitted * -std::expm1(-absorbed) / absorbed : emitted;
 }
 
-/// That of daylight, or as much less as the brightest of all frames that were measured asks for: its bright
-/// columns, the 95th percentile, are white at most [EV]. What is red is mostly so by one channel, and counts
-/// as more than its luminance.
+/// The exposure of daylight, or less, so that bright columns of the brightest frame that was measured, the
+/// 95th percentile, are white at most [EV]. Red light is mostly in one channel, and counts as more than its
+/// luminance.
 float fire_exposure(const volumes::VolumeFrame& frame, const volumes::VolumeExtent& extent,
                     const scene::VolumeOptions& volume) {
   constexpr double kBright = 0.95, kWhite = 1900, kRed = 1000;  // [K]

@@ -60,6 +60,7 @@ Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridLayout& lay
                     contents->triangles,       std::move(contents->roles)};
   }
 
+  // Voxels of what stops smoke, its surfaces, and what has other roles.
   const auto start = std::chrono::steady_clock::now();
   auto grid = voxel::voxelize(triangles.smoke, layout);
   const double milliseconds = milliseconds_since(start);

@@ -16,7 +16,7 @@ struct Voxels {
   voxel::SurfacePlanes planes;
   bool cached = false;          ///< Read from the cache instead of voxelized.
   double milliseconds = 0;      ///< Time of voxelize() alone, without planes; 0 when cached.
-  std::uint64_t triangles = 0;  ///< Of what stops smoke.
+  std::uint64_t triangles = 0;  ///< Triangles that stop smoke.
   voxel::RoleGrids roles = {};
   voxel::Solids solids() const { return {grid, roles}; }
 };

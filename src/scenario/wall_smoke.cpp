@@ -63,7 +63,7 @@ class CellShares {
       if (density > 0) give(density / kSamplesOfCell, place, visible);
     });
   }
-  float of(int bit) const { return shares_[static_cast<std::size_t>(bit)]; }
+  float share(int bit) const { return shares_[static_cast<std::size_t>(bit)]; }
 
  private:
   /// To the visible corners, those nearest to the place first; without any, to the voxels nearest to it.
@@ -118,8 +118,8 @@ std::vector<Deposit> deposits_of(const smoke::Field& field, std::uint32_t slot) 
       const int bit = std::countr_zero(rest);
       const bool is_corner = (kCorners >> bit & 1) != 0;
       const float interpolated = is_corner ? around.density[static_cast<std::size_t>(bit)] / 8 : 0;
-      if (shares.of(bit) != interpolated)
-        deposits.push_back({cell - 1 + smoke::neighbour_offset(bit), shares.of(bit) - interpolated});
+      if (shares.share(bit) != interpolated)
+        deposits.push_back({cell - 1 + smoke::neighbour_offset(bit), shares.share(bit) - interpolated});
     }
   });
   return deposits;
