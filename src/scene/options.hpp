@@ -148,7 +148,7 @@ void visit_volume_options(Options& o, Visitor&& visit) {
         o.glow);
 }
 
-/// Of a VolumeMask or a MaskKey.
+/// What a VolumeMask and a MaskKey share.
 template <typename Options, typename Visitor>
 void visit_mask_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"color", "", "colour of what the mask emits", 0, 1}, o.color);
@@ -181,7 +181,7 @@ void visit_particle_options(Options& o, Visitor&& visit) {
         o.particle_size);
 }
 
-/// Of a CarrierKey, besides its position.
+/// All of a CarrierKey but its time and position.
 template <typename Options, typename Visitor>
 void visit_carrier_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -36000, 36000},

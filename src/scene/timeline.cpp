@@ -85,6 +85,7 @@ class TimelineReader {
   explicit TimelineReader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
 
   Result<Timeline> read(const toml::table& document) {
+    // The root, and which tables it has.
     TomlTable root(document, "the timeline", file_);
     std::uint32_t version = 0;
     std::string scene;
@@ -110,6 +111,7 @@ class TimelineReader {
     const auto events = root.tables("event");
     if (auto done = root.finish(); !done) return done.failure();
 
+    // The tables, up to the first fault.
     timeline_.scene = path_.parent_path() / scene;
     Result<void> outcome;
     if (grid != nullptr && outcome) outcome = read_grid(*grid);

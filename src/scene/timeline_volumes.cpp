@@ -9,7 +9,7 @@
 namespace brume::scene {
 namespace {
 
-/// Of keys in order of time.
+/// The time of the next key, which must be later than the last one's.
 template <typename Key>
 void read_key_time(TomlTable& table, const std::vector<Key>& keys, double& time) {
   table.require("time");
@@ -105,10 +105,12 @@ void read_transfer(TomlTable& table, VolumeOptions& volume) {
     const std::string what = in_quotes(key) + point + ": " + fault->what;
     fault->point ? table.fail(key, *fault->point, what) : table.fail(key, what);
   };
+  // Values between which the curves lie.
   table.read("range", volume.range, -kFarthestValue, kFarthestValue);
   if (volume.range)
     if (const auto fault = fault_of_range(*volume.range)) table.fail("range", "\"range\": " + *fault);
 
+  // Opacity: points. The table has reported rows of other lengths.
   std::vector<std::vector<float>> rows;
   if (table.has("opacity")) {
     table.read("opacity", rows, 2);
@@ -117,6 +119,7 @@ void read_transfer(TomlTable& table, VolumeOptions& volume) {
     fail("opacity", fault_of(std::span(std::as_const(volume.opacity))));
   }
 
+  // Colours: the name of a map, or points.
   ColorMap& map = volume.color_map;
   if (table.is_text("color_map")) {
     table.read("color_map", map.name);
@@ -150,6 +153,8 @@ Result<void> read_carrier(const toml::table& source, const std::filesystem::path
     carrier.keys.push_back(key);
     if (auto done = key_table.finish(); !done) return done;
   }
+
+  // Events and volumes name carriers, and an object moves with one.
   if (carrier.name.empty()) table.fail("name", "\"name\": expected a name");
   if (carrier.keys.empty()) table.fail("key", "\"key\": expected at least one [[carrier.key]]");
   for (const Carrier& other : timeline.carriers) {

@@ -98,10 +98,14 @@ class Writer : private TomlText {
     if (!volume.heat.empty()) line("heat", volume.heat);
     if (!volume.color.empty()) line("color", volume.color);
     line("position", volume.position_world);
+
+    // Options that differ from their defaults, one of which masks change.
     VolumeOptions defaults;
     if (!volume.masks.empty()) defaults.extinction = kMaskedExtinction;
     options(volume, defaults, "", [](auto& o, auto& v) { visit_volume_options(o, v); });
     if (volume.loop) line("loop", volume.loop);
+
+    // The transfer function.
     if (volume.range) line("range", *volume.range);
     std::vector<std::vector<float>> rows;
     for (const OpacityPoint& point : volume.opacity) rows.push_back({point.at, point.opacity});
@@ -111,6 +115,8 @@ class Writer : private TomlText {
     if (!volume.color_map.name.empty()) line("color_map", volume.color_map.name);
     if (!rows.empty()) line("color_map", rows);
     if (!volume.carrier.empty()) line("carrier", volume.carrier);
+
+    // Particles, then tables.
     options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_particle_options(o, v); });
     write_noise(volume.disturbance, "\n[volume.disturb]\n",
                 [](auto& o, auto& v) { visit_disturbance_options(o, v); });
