@@ -72,7 +72,7 @@ class Field {
   const PlaneSource& planes() const { return planes_; }
   const SmokeVolume& volume() const { return volume_; }
   sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
-  /// Those of the state, at its time. Throws as holes_of.
+  /// The state's holes at its time. Throws as holes_of.
   std::span<const shared::Hole> holes() const;
   /// Lines of sight at the state's time; the last sight with noise and the last without are kept. Throws as
   /// Sight and holes_of.
@@ -93,7 +93,7 @@ class Field {
   const voxel::Solids loaded_;
   const voxel::SurfacePlanes& loaded_planes_;
   const MaskAtlas* masks_;
-  sim::EditedLevel edited_;  // of the last state that was copied
+  sim::EditedLevel edited_;  // level of the last state that was copied
   sim::State copied_;        // that state
   const sim::State* state_;  // the last one
   std::optional<voxel::Solids> now_;
