@@ -201,7 +201,7 @@ std::vector<CellPatches> add_patches(const CellGrid& grid, const Surfaces& surfa
 /// voxelized, as what smoke passes through.
 std::uint32_t trace(const Surfaces& surfaces, const PatchFinder& patch_at, Ray ray, float cell_size) {
   constexpr int kMostSurfaces = 16;
-  constexpr float kBehind = 1e-3f;  // of a surface, its next one [m]
+  constexpr float kBehind = 1e-3f;  // from a surface to where the ray goes on [m]
   const glm::vec3 from = ray.origin;
   for (int i = 0; i < kMostSurfaces; ++i) {
     const std::optional<Surfaces::Place> place = surfaces.place(ray);

@@ -15,13 +15,13 @@ namespace brume::surfaces {
 /// from its middle.
 class SmallEmitters {
  public:
-  /// Of the emitters of `surfaces`, which must outlive it, for cells of this size [m].
+  /// Finds the pieces among the emitters of `surfaces`, which must outlive it. `cell_size` [m].
   SmallEmitters(const Surfaces& surfaces, float cell_size);
 
   bool empty() const { return pieces_.empty(); }
-  /// Whether a hit surface is part of one.
+  /// Whether a hit surface is part of a piece.
   bool contains(const SurfaceHit& hit) const;
-  /// Places on them.
+  /// Places on the pieces.
   std::span<const shared::EmitterSample> samples() const { return samples_; }
   /// Rays from a probe to samples, chosen by how much light they may send, kEmitterRays of them. Their sum is
   /// an estimate of the light that arrives directly; neighbouring probes of other phases have others.

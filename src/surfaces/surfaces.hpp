@@ -19,11 +19,11 @@ namespace brume::surfaces {
 struct SurfaceHit {
   float t = 0;  ///< [m]
   glm::vec3 position{0};
-  glm::vec3 geometric_normal{0};  ///< Of the triangle, unit, towards the ray's origin.
+  glm::vec3 geometric_normal{0};  ///< Normal of the triangle, unit, towards the ray's origin.
   Reflection reflection;
   glm::vec3 emission{0};
   bool is_pane = false;
-  glm::vec3 passes{0};  ///< Of a pane: which fraction of light goes straight on.
+  glm::vec3 passes{0};  ///< Fraction of light that goes straight on through a pane.
   std::uint32_t part = 0, triangle = 0;
 };
 
@@ -72,7 +72,7 @@ class Surfaces {
     const scene::Material* material = nullptr;
     bool is_pane = false;
     float alpha_cutoff = 0;
-    // At equal steps of the shutter's time; one of what rests.
+    // At equal steps of the shutter's time; a single step for what rests.
     std::vector<glm::mat4> world_from_mesh;
     std::vector<std::vector<glm::vec3>> corners_world;
     float handedness = 1;
@@ -82,7 +82,7 @@ class Surfaces {
   void add_emitters(Part& part);
   struct Tree {
     trace::TriangleTree triangles;
-    std::vector<std::uint32_t> parts;  // of its geometries
+    std::vector<std::uint32_t> parts;  // by geometry
   };
   void build(Tree& tree, bool of_panes);
   static std::optional<RTCRayHit> intersect(const Tree& tree, const Ray& ray);
