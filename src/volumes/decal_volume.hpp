@@ -24,7 +24,7 @@ Occluder occluder_of(const grids::DenseGrid& up, const grids::DenseGrid& down);
 struct SampledGrids {
   std::shared_ptr<const grids::DenseVolume> volume;
   glm::dmat4 file_from_box{1};
-  Occluder occluder = {};  ///< Of decals whose channels differ, in the box.
+  Occluder occluder = {};  ///< In the box, where the decal's channels differ.
 };
 
 /// The grid of a name; null: there is none.

@@ -17,15 +17,15 @@ VolumeExtent extent_of(const VolumeFrame& frame) {
   VolumeExtent extent{.bounds = frame.bounds};
   Box<float> bulk = kEmptyBox;
   const auto add = [&](const grids::BrickVolume& volume, float fraction) {
-    const grids::DensityExtent of = grids::measure_extent(volume, fraction);
+    const grids::DensityExtent measured = grids::measure_extent(volume, fraction);
     const glm::mat4 matrix(volume.world_from_voxel);
     // Nothing is drawn beyond the bounds, where heat may be.
-    const Box<float> seen = intersection(transformed(matrix, of.seen), frame.bounds);
-    if (!of.seen.empty() && !seen.empty()) extent.seen = united(extent.seen, seen);
-    if (!of.bulk.empty()) bulk = united(bulk, transformed(matrix, of.bulk));
-    extent.stray_part = std::max(extent.stray_part, of.stray_part);
-    extent.stray_reach = std::max(extent.stray_reach, of.stray_reach);
-    return of.depth;
+    const Box<float> seen = intersection(transformed(matrix, measured.seen), frame.bounds);
+    if (!measured.seen.empty() && !seen.empty()) extent.seen = united(extent.seen, seen);
+    if (!measured.bulk.empty()) bulk = united(bulk, transformed(matrix, measured.bulk));
+    extent.stray_part = std::max(extent.stray_part, measured.stray_part);
+    extent.stray_reach = std::max(extent.stray_reach, measured.stray_reach);
+    return measured.depth;
   };
   extent.depth = add(frame.density, kSeen);
   if (frame.heat) {

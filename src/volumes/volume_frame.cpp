@@ -73,6 +73,7 @@ bool glows(const ChosenGrids& chosen, const scene::VolumeOptions& options, Volum
   if (!chosen.heat) return false;
   const std::string name = '"' + chosen.heat->name + '"';
   frame.heat_is_kelvin = frame.heat_is_kelvin || any_above(*chosen.heat, double{kMostFactor});
+  // Nothing in the heat or the fire.
   if (chosen.names_heat && !any_above(*chosen.heat, 0)) {
     frame.heat_note = name + " does not glow: none of its values is above 0";
     return false;
@@ -81,6 +82,7 @@ bool glows(const ChosenGrids& chosen, const scene::VolumeOptions& options, Volum
     frame.heat_note = name + " does not glow, as nothing of \"" + chosen.fire->name + "\" burns";
     return false;
   }
+  // A temperature that lifts smoke, or one too cold to see.
   const bool has_kelvin = options.kelvin != scene::VolumeOptions().kelvin;
   if (!chosen.names_heat && !chosen.fire && !has_kelvin && !frame.heat_is_kelvin) {
     frame.heat_note =
@@ -149,8 +151,8 @@ Box<double> world_box(const grids::Grid& grid) {
   return box;
 }
 
-/// Those of a vector grid or of channels. Blender's solver saves these multiplied by the density, which files
-/// that other programs wrote again do not say.
+/// Colours of a vector grid or of channels. Blender's solver saves them multiplied by the density, which
+/// files that other programs wrote again do not say.
 Result<std::unique_ptr<volume::SparseVolume>> color_bricks(const fs::path& file, const ChosenGrids& chosen,
                                                            const grids::BrickVolume& density) {
   const grids::Grid& first = chosen.color ? *chosen.color : *chosen.channels[0];
@@ -211,8 +213,8 @@ struct FrameMaker {
 
   bool has_colors() const { return chosen.color || chosen.channels[0]; }
   /// Heat has the same room as the density.
-  std::uint32_t part(std::uint64_t of, std::uint32_t fewest, std::uint32_t most) const {
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(heat ? of / 2 : of, fewest, most));
+  std::uint32_t part(std::uint64_t total, std::uint32_t fewest, std::uint32_t most) const {
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(heat ? total / 2 : total, fewest, most));
   }
   std::uint32_t max_bricks() const {
     return part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
@@ -270,15 +272,15 @@ void FrameMaker::cut_heat() {
   const shared::VolumeLayout& layout = frame.heat->volume->layout();
   const Box<float> place =
       transformed(glm::mat4(frame.heat->world_from_voxel), {layout.bounds_min, layout.bounds_max});
-  const std::string name = '"' + heat->name + '"', of = '"' + density->name + '"';
+  const std::string name = '"' + heat->name + '"', dense = '"' + density->name + '"';
   if (!intersection(place, frame.bounds).empty()) {
-    log_warning(file.string() + ": " + name + " is drawn only where " + of +
-                " is: beyond it takes more voxels of " + of + " than one volume has");
+    log_warning(file.string() + ": " + name + " is drawn only where " + dense +
+                " is: beyond it takes more voxels of " + dense + " than one volume has");
     return;
   }
   frame.heat.reset();
   frame.glow.clear();
-  frame.heat_note = name + " does not glow: it lies too far from " + of + " to be drawn with it";
+  frame.heat_note = name + " does not glow: it lies too far from " + dense + " to be drawn with it";
 }
 
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const ChosenGrids& chosen,

@@ -23,25 +23,25 @@ struct MaskGlow {
   std::size_t mask = 0;
   glm::dvec3 middle{0};
   double radius = 0;
-  double integral = 0;  ///< Of the mask over the part's volume.
+  double integral = 0;  ///< The mask over the part's volume.
 };
 
 /// The grids of one file that are rendered.
 struct VolumeFrame {
   grids::BrickVolume density;
   std::optional<grids::BrickVolume> heat;
-  std::vector<grids::GlowBall> glow;  ///< Of the heat.
+  std::vector<grids::GlowBall> glow;  ///< Balls that stand for the heat.
   /// As grids::make_color_bricks, or of a volume with masks as grids::make_mask_bricks; null: none.
   std::unique_ptr<volume::SparseVolume> colors;
-  std::vector<MaskGlow> mask_glow;  ///< Of its masks.
-  double mean_density = 0;          ///< Of the active voxels.
+  std::vector<MaskGlow> mask_glow;  ///< Balls that stand for its masks.
+  double mean_density = 0;          ///< Over the active voxels.
   Box<float> bounds;                ///< Around what can be dense, in the file's world.
   /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
   bool is_extinction = false;
   /// Whether values of the heat, or of that of another frame, are above kMostFactor: kelvin, and no factors
   /// of a temperature.
   bool heat_is_kelvin = false;
-  std::string density_name;  ///< Of the grid that is dense.
+  std::string density_name;  ///< Name of the grid that is dense.
   std::string heat_note;     ///< What was decided about the heat, a sentence; empty: there is none.
   /// ChosenGrids::notes.
   std::vector<std::string> grid_notes;

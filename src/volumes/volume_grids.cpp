@@ -114,7 +114,7 @@ std::string missing_channels(const ColorParts& parts, const std::string& name) {
   return "the colour of " + there + " is not drawn, as the file has no " + missing;
 }
 
-/// Of several grids of a name the first is drawn, unless the options number it.
+/// Notes that the first of several grids with one name is drawn, unless the options number it.
 void note_of_several(GridList grids, const grids::Grid* grid, const std::string& chosen_name,
                      std::vector<std::string>& notes) {
   if (!grid || (!chosen_name.empty() && chosen_name != grid->name)) return;

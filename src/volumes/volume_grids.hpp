@@ -24,7 +24,7 @@ struct ChosenGrids {
   const grids::Grid* fire = nullptr;   ///< A grid that says where it burns; null: none.
   bool names_heat = false;             ///< Whether the options do.
   const grids::Grid* color = nullptr;  ///< Null: no colours, or in channels.
-  ColorParts channels = {};            ///< Of colours; null: none.
+  ColorParts channels = {};            ///< Channels of colours; null: none.
   std::vector<const grids::Grid*> masks = {};
   /// Where another grid might have been meant, and which colours are not drawn: sentences.
   std::vector<std::string> notes = {};

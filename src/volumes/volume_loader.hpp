@@ -57,7 +57,7 @@ class VolumeLoader {
   std::optional<Key> next() const;
 
   Load load_;
-  std::mutex mutex_;  ///< Of all below but the thread.
+  std::mutex mutex_;  ///< Guards all below but the thread.
   std::condition_variable changed_;
   std::vector<Key> wanted_;
   std::optional<Key> loading_;

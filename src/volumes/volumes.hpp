@@ -69,13 +69,13 @@ class Volumes {
   /// in which there is something to see, and after measure_sequence the deepest of those that it looked at.
   const VolumeFrame& typical_frame(std::size_t volume) const { return *sequences_[volume].typical.frame; }
   bool is_sequence(std::size_t volume) const { return sequences_[volume].files.size() > 1; }
-  /// Frames of a sequence, those that are missing between its first and its last included; 1 of a single
+  /// Frames of a sequence, those that are missing between its first and its last included; 1 for a single
   /// file.
   std::int64_t length(std::size_t volume) const;
   /// Loads up to a dozen frames of a sequence, for its extent, its typical frame, and whether its heat is in
   /// kelvin, which one frame decides for all.
   void measure_sequence(std::size_t volume);
-  /// Of the frames that were measured; else of the typical one.
+  /// The extent of all frames that were measured; else of the typical one.
   VolumeExtent extent(std::size_t volume) const;
   /// All files of all sequences, without what they describe or are described by (grids::files_of).
   std::vector<std::filesystem::path> files() const;
@@ -86,9 +86,9 @@ class Volumes {
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
     LoadedVolume typical = {}, shown = {};
     std::int64_t typical_number = 0, shown_number = 0;
-    std::optional<VolumeExtent> extent = {};  ///< Of measure_sequence.
+    std::optional<VolumeExtent> extent = {};  ///< After measure_sequence.
     std::set<std::int64_t> unreadable = {};   ///< Frames of which a warning was given.
-    VolumeRoom room = {};                     ///< Of each frame.
+    VolumeRoom room = {};                     ///< What each frame may take.
     bool in_kelvin = false;                   ///< Whether a frame that was loaded has heat in kelvin.
   };
   std::optional<std::int64_t> frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
@@ -103,7 +103,7 @@ class Volumes {
   grids::GridReader read_ = nullptr;
   std::vector<Sequence> sequences_;
   bool has_previews_ = false, is_behind_ = false;
-  std::unique_ptr<VolumeLoader> loader_;  ///< Of the rooms and previews as they are.
+  std::unique_ptr<VolumeLoader> loader_;  ///< Another one when rooms or previews change.
 };
 
 /// The part of `total` that each of several gets: what it wants where that is at most a fair part, and else
