@@ -100,7 +100,7 @@ std::string option_entry(const CLI::Option& option) {
   std::string entry = ".TP\n" + names + "\n" + roff(option.get_description()) + "\n";
   std::string choices;
   for (const std::string& choice : choices_of(option)) choices += (choices.empty() ? "" : ", ") + choice;
-  // Those that the text names already need no list.
+  // Choices that the text names already need no list.
   if (!choices.empty() && option.get_description().find(choices_of(option).front()) == std::string::npos)
     entry += ".br\nOne of: " + roff(choices) + "\n";
   return entry;

@@ -21,9 +21,9 @@ std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
 std::string fish_completion(const CLI::App& program);
 
-/// In the order in which they are declared.
+/// The commands of a program, in the order in which they are declared.
 std::vector<const CLI::App*> commands_of(const CLI::App& program);
-/// Those that --help shows, without arguments by position.
+/// The options that --help shows, without arguments by position.
 std::vector<const CLI::Option*> options_of(const CLI::App& command);
 /// What an option is completed to, if it is one of a few words.
 std::vector<std::string> choices_of(const CLI::Option& option);

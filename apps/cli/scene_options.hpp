@@ -40,7 +40,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options);
 void declare_size_options(const Arguments& arguments, SceneOptions& options);
 
 /// Loads a timeline, or a scene with `timeline` (empty: none), with the options applied. Throws Error; the
-/// code is usage for a file whose suffix is neither that of a timeline nor of a scene.
+/// code is usage for a file whose suffix neither timelines nor scenes have.
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options);
 

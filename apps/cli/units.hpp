@@ -58,8 +58,8 @@ using RunUnit = std::function<void(const Unit&, Outputs&)>;
 /// Runs the command once where the output has no number, otherwise for each number of the shard; without
 /// --frames from the first file of the input to the last. The hidden file ".OUTPUT.key" beside each output
 /// says what it was made from (UnitKey, the names and hashes of the files read and written). With --resume
-/// those stay whose key, inputs and outputs are right, and the reasons for the others are printed. All files
-/// of all units are checked before the first one. Throws Error, what `run` throws, and Interrupted.
+/// outputs stay whose key, inputs and contents are right, and the reasons for the others are printed. All
+/// files of all units are checked before the first unit. Throws Error, what `run` throws, and Interrupted.
 void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
                const UnitJob& job, const RunUnit& run);
 

@@ -35,7 +35,7 @@ class Argument {
 };
 
 /// The arguments of one command. Parsing writes the referenced values, so they must outlive it. Numbers are
-/// those of checked_number, texts are not empty.
+/// checked by checked_number, texts are not empty.
 class Arguments {
  public:
   Arguments() = default;

@@ -18,8 +18,8 @@
 
 namespace brume::cli {
 
-/// One file, whatever path leads to it: its device and inode or, where nothing exists yet, those of its
-/// folder and its name. Symbolic links are followed.
+/// One file, whatever path leads to it: its device and inode or, where nothing exists yet, its folder's
+/// and its name. Symbolic links are followed.
 struct FileIdentity {
   dev_t device = 0;
   ino_t inode = 0;

@@ -67,10 +67,10 @@ struct SequenceSettings {
 /// The text of a frame that carries its key (to_text), in a PNG or an OpenEXR file.
 inline constexpr const char* kFrameKeyword = "Brume frame";
 
-/// Draws the frames and writes each as a file, with progress. A frame carries its key. With `resume` those of
-/// the right key that decode without an error are skipped; all others are written again, and the reasons are
-/// printed. The result is the same byte for byte. Throws as write_film
-/// does: the frames that were finished stay, and `outputs` knows them.
+/// Draws the frames and writes each as a file, with progress. A frame carries its key. With `resume` it
+/// skips frames of the right key that decode without an error, and writes all others again and prints why.
+/// The result is the same byte for byte. Throws as write_film does: the frames that were finished stay, and
+/// `outputs` knows them.
 void write_sequence(const SequenceSettings& settings, Outputs& outputs,
                     const std::function<Picture(std::uint32_t)>& draw);
 

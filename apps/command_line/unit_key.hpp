@@ -20,8 +20,8 @@ struct UnitKey {
 /// "12 inputs:HEX settings:HEX device:HEX program:HEX".
 std::string to_text(const UnitKey& key, std::uint32_t unit);
 
-/// How the text that an output carries differs from that of this unit: "of other settings"; empty: not at
-/// all.
+/// How the text that an output carries differs from the text of this unit: "of other settings"; empty: not
+/// at all.
 std::string difference(const std::string& text, const UnitKey& key, std::uint32_t unit);
 
 /// The hash of the contents of all files, in this order; empty names count as empty files. Throws Error and

@@ -19,7 +19,7 @@ void set_key(scene::Carrier& carrier, const scene::CarrierKey& pose);
 /// Removes the key of a time; false if there is none, or no other.
 bool remove_key(scene::Carrier& carrier, double seconds);
 
-/// Times of the keys before and after a time, without that of the time itself.
+/// Times of the keys before and after a time, not of a key at the time itself.
 std::optional<double> key_time_before(const scene::Carrier& carrier, double seconds);
 std::optional<double> key_time_after(const scene::Carrier& carrier, double seconds);
 

@@ -56,7 +56,7 @@ class Game {
   std::uint64_t changes() const { return changes_; }
   void change_picture() { ++changes_; }
 
-  /// Takes an action along a direction; those of window and files are not its own.
+  /// Takes an action along a direction; actions of the window and of files are not its own.
   void act(Action action, glm::vec3 aim_world);
   /// Handles input that moves the player, and `passed` seconds of real time.
   void move(const Input& input, double passed);
@@ -84,7 +84,7 @@ class Game {
     Weapons weapons;
     scenario::WalkerOptions body;
     Optics optics;
-    std::string what;  ///< That led to it.
+    std::string what;  ///< The edit that led to it.
   };
   Edits edits(const std::string& what) const;
   void go_to_start();

@@ -10,11 +10,11 @@ namespace brume::viewer {
 
 class NoticeList {
  public:
-  static constexpr double kSeconds = 4;  ///< That a message shows.
+  static constexpr double kSeconds = 4;  ///< How long a message shows.
   static constexpr std::size_t kMost = 4;
 
   void add(const std::string& line);
-  /// Those that still show, the newest last.
+  /// Messages that still show, the newest last.
   std::vector<std::string> recent();
 
  private:

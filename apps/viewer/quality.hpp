@@ -20,11 +20,11 @@ struct Quality {
   bool detail = false;                      ///< planning::Quality::detail.
 };
 
-/// From best to fastest; the first one is that of `brume render`.
+/// From best to fastest; `brume render` has the first.
 std::span<const Quality> quality_levels();
 
-/// The fraction of a level for a frame this long after the last one [s]: more than that of the level where
-/// frames are few, up to 1/4, so that the light of growing smoke is seldom older than a second.
+/// The light update fraction of a frame this long after the last one [s]: more than the level's where frames
+/// are few, up to 1/4, so that the light of growing smoke is seldom older than a second.
 float light_update_fraction(float level_fraction, double frame_seconds);
 
 /// Chooses a level from the measured frame times. Lowers the quality as soon as frames are too slow, and

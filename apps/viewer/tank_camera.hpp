@@ -24,7 +24,7 @@ scene::Camera glided(const scene::Camera& camera, const glm::vec3& steps);
 std::optional<glm::vec2> in_picture(const scene::Camera& camera, glm::vec2 size, const glm::vec3& world);
 /// A point after a drag in the plane through it that is parallel to the picture: it is where the mouse is.
 glm::vec3 dragged(const scene::Camera& camera, glm::vec2 drag, const glm::vec3& world);
-/// The distance of a point along the view, at least that of the near plane [m].
+/// The distance of a point along the view, no nearer than the near plane [m].
 float depth_of(const scene::Camera& camera, const glm::vec3& world);
 
 /// The distance along the view of the first sphere in the middle of the picture, or of the tank's middle

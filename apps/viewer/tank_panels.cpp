@@ -136,7 +136,7 @@ bool choice_row(const std::string& key, Choice& chosen, std::uint32_t count, con
   return changed;
 }
 
-/// In which space the colours between those of the palette are.
+/// The colour space in which a palette is interpolated.
 void space_row(TankState& state) {
   std::string space = state.scene().palette_space;
   bool changed = false;

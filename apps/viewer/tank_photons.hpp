@@ -29,7 +29,7 @@ class TankPhotons {
 
   /// What is to be shown from now on: `count` light paths of a scene, for a picture that has `samples`.
   /// Returns a preview for another scene; all of them are traced when nothing `moves`, and returned by a
-  /// later call, as are those of the next batch (render::TankRenderer::batch_of). `tank` is the same until
+  /// later call, as is the next batch (render::TankRenderer::batch_of). `tank` is the same until
   /// restart().
   std::optional<Change> update(const spheres::Tank& tank, const spheres::LightPathScene& scene,
                                std::uint32_t count, std::uint32_t samples, bool moves);

@@ -22,7 +22,7 @@ struct TankChoices : WindowChoices {
 /// What overlay and panels of a tank say besides.
 struct TankFigures {
   std::uint32_t samples;  ///< Samples of each pixel so far.
-  double seconds;         ///< That the device took for them.
+  double seconds;         ///< Device time of those samples.
   bool moves;             ///< The picture is a preview.
   glm::uvec2 picture_px;
   std::size_t spheres;

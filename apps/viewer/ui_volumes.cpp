@@ -63,7 +63,7 @@ bool look_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file, 
   });
 }
 
-/// The values that the curves span: those of the first frame, or chosen.
+/// The values that the curves span: the first frame's, or chosen.
 bool range_row(scene::VolumeOptions& options, const volumes::VolumeFrame& frame) {
   begin_row("range of values", "what the curve and the colours span");
   bool is_set = options.range.has_value();

@@ -1,4 +1,4 @@
-// Enlarges an image to that of the window along its edges.
+// Enlarges an image to the window's size along its edges.
 #pragma once
 
 #include "gpu/recorder.hpp"

@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 // A device that keeps getting lost is broken.
 constexpr std::size_t kMostLostDevices = 5;
-// A window whose picture stays sleeps between events.
+// How long the window sleeps between events while its picture does not change.
 constexpr double kIdleSeconds = 0.05;
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
@@ -108,7 +108,8 @@ class Viewer {
     return work;
   }
 
-  // In another thread, which has the device for itself: the window draws nothing new, but stays alive.
+  // Prepares in another thread, which has the device for itself: the window draws nothing new, but stays
+  // alive.
   void prepare(bool takes_made) {
     screen_->wait();
     auto done = std::async(std::launch::async, [&] { document_.prepare(*screen_, takes_made); });
@@ -117,7 +118,7 @@ class Viewer {
     if (takes_made) document_.adopt();
   }
 
-  // What the finished job has made takes the place of what was there before.
+  // Replaces what was shown by what the finished job has made.
   void adopt() {
     const std::unique_ptr<Job> job = std::move(job_);
     const bool is_first = !document_.is_loaded();
@@ -160,7 +161,7 @@ class Viewer {
 
   // A frame.
 
-  /// Without input that the panels capture.
+  /// The input that the panels leave.
   Input take_input() {
     Input input = window_.take_input();
     window_.capture_mouse(document_.captures_mouse(input));
