@@ -60,7 +60,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const volumes::Volum
                        exposure);
 }
 
-/// What leaves a ball of a mask; the extinction that dims it is that of the volume where all masks are 1.
+/// What leaves a ball of a mask; the volume dims it with the extinction that it has where all masks are 1.
 void add_mask_lights(const scene::VolumeOptions& options, const volumes::VolumeAt& volume, double seconds,
                      double exposure, bool scattered, std::vector<shared::Light>& lights) {
   const volumes::VolumeFrame& frame = *volume.frame;

@@ -1,4 +1,4 @@
-// The light of flames: that of what glows in volumes, on all around it.
+// The light of flames: what glows in volumes lights all around it.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,8 @@
 namespace brume::planning {
 
 /// A light for each ball of glow in a volume (grids::find_glow), of its heat and of its masks at a time [s],
-/// that is seen beyond its edge at an exposure (View::exposure). Its intensity is that of all that the ball
-/// emits and that leaves a homogeneous ball straight, and with `scattered` of what leaves it after having
-/// been scattered, too.
+/// that is seen beyond its edge at an exposure (View::exposure). Its intensity counts all that the ball emits
+/// and that leaves a homogeneous ball straight, with `scattered` also what leaves after scattering.
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                                        double seconds, float exposure, bool scattered);
 

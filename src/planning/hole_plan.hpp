@@ -17,7 +17,7 @@ constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 
 /// All that is known of a frame's holes before the device has clustered them.
 struct HolePlan {
-  FrameVector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
+  FrameVector<shared::Hole> holes;         ///< Holes that may remove smoke: the last kMaxHoles.
   FrameVector<shared::HoleReach> reaches;  ///< Reach of each hole, inside the smoke's bounds.
   float time = 0;                          ///< [s]
   std::uint32_t slot_count = 0;            ///< Slots of the volume's bricks.

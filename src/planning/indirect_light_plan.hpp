@@ -1,5 +1,5 @@
-// Which indirect light a frame has (shaders/shared/indirect_light.h), and whether that of the frame before
-// holds.
+// Which indirect light a frame has (shaders/shared/indirect_light.h), and whether the light of the frame
+// before holds.
 #pragma once
 
 #include <cstddef>

@@ -38,8 +38,8 @@ std::vector<CameraSample> camera_samples(std::uint32_t count, const scene::Lens&
                                          const scenario::LensOpening* opening);
 
 /// The sample of a frame of a film that is antialiased over its frames: one of eight points of the pixel,
-/// those of multisampling with eight samples (Vulkan, "Standard sample locations"), in turn. Their mean is
-/// the middle of the pixel.
+/// the places of multisampling with eight samples (Vulkan, "Standard sample locations"), in turn. Their mean
+/// is the middle of the pixel.
 constexpr std::uint32_t kFilmSamples = 8;
 ViewSample film_sample(std::uint32_t frame_index);
 

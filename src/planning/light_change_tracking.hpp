@@ -41,11 +41,11 @@ struct SmokeLightInputs {
 /// Whether a hole removes the same everywhere at two times [s].
 bool same_opening(const shared::Hole& hole, float time_a, float time_b);
 
-/// Compares a frame's inputs with those of the frame before.
+/// Compares a frame's inputs with the frame before.
 class LightChangeTracker {
  public:
-  /// Whether the volumes are those of the frame before, one revision later at most: older changes are not
-  /// known.
+  /// Whether the volumes are the same as in the frame before, one revision later at most: older changes are
+  /// not known.
   bool is_continuous(const SmokeLightInputs& inputs) const;
   /// Whether no cached ray holds, wherever it runs. Like all below, only where there is a frame before.
   bool all_rays_changed(const SmokeLightInputs& inputs) const;

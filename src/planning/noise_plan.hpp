@@ -12,7 +12,7 @@ struct NoisePlan {
   smoke::NoiseMotion motion;
   /// The slots whose noise the frame advects; empty: all of its slots.
   std::optional<FrameVector<std::uint32_t>> slots_due = std::nullopt;
-  /// Time-sliced noise catches up: it changes, though its inputs may be those of the frame before.
+  /// Time-sliced noise catches up: it changes, though its inputs may not.
   bool catches_up = false;
 };
 

@@ -24,9 +24,9 @@ struct NoiseInputs {
   float time = 0;  ///< [s]
 };
 
-/// Time-sliced noise: a frame advects the noise in a quarter of the bricks. Never late are bricks that come
-/// into view or whose densities changed, and those that a shot, a body or an explosion moves; all bricks are
-/// due while a cloud blooms, and all that remain where a frame of the same time is drawn again.
+/// Time-sliced noise: a frame advects the noise in a quarter of the bricks. Bricks that come into view,
+/// whose densities changed, or that a shot, a body or an explosion moves are never late. All bricks are due
+/// while a cloud blooms, and all that remain when a frame of the same time is drawn again.
 class NoiseUpdates {
  public:
   /// Whether frames of this light_update_fraction take one slice, and require `slots_due`.
@@ -36,7 +36,7 @@ class NoiseUpdates {
   /// The slots whose noise the frame must advect, in their order. From `commit` on they are up to date. Valid
   /// until the next call.
   std::span<const std::uint32_t> slots_due(const NoiseInputs& inputs);
-  /// The frame advects the noise of all slots without this class, or none.
+  /// For a frame that advects the noise of all slots, or of none, without asking this class.
   void skip_frame() { state_.propose().last.reset(); }
   /// Whether some noise of the last frame, unless it was skipped, is of an earlier time: not all slots were
   /// due.

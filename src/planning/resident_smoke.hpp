@@ -91,7 +91,7 @@ class ResidentSmoke final : public smoke::SmokeBricks {
   std::vector<volume::IndexRange> dirty_boundary_cells_, dirty_corner_sets_;
 };
 
-/// Sets the texels of a brick at a level above 0 from those of the volume.
+/// Sets the texels of a brick at a level above 0 from the volume's.
 void fill_coarse_brick(const smoke::SmokeVolume& volume, int level, glm::ivec3 brick,
                        std::span<smoke::Texel, shared::kTexelsPerBrick> texels);
 

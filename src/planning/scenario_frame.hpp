@@ -14,7 +14,7 @@ using CameraAt = std::function<scene::Camera(double seconds)>;
 
 struct FrameOptions {
   volumes::VolumeWait wait = volumes::VolumeWait::until_loaded;
-  /// In place of the timeline's carriers; of the same names and objects. null: those of the timeline.
+  /// In place of the timeline's carriers; of the same names and objects. Null: the timeline's.
   const std::vector<scene::Carrier>* steered = nullptr;
   /// Whether volumes that the timeline shows as particles are; else they are volumes like others.
   bool particles = true;
@@ -28,8 +28,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
                        double seconds, std::vector<shared::Hole>& holes, const FrameOptions& options = {});
 
 /// Moves the camera and what carriers move from where they are at the frame's time to where they are at
-/// another one [s]. All else stays: smoke, holes, lights, the contents of volumes. `options` are those of the
-/// frame.
+/// another one [s]. All else stays: smoke, holes, lights, the contents of volumes. `options`: the frame's.
 void move_frame(const scenario::Scenario& scenario, double from_seconds, double to_seconds,
                 const FrameOptions& options, FrameInput& input);
 

@@ -67,7 +67,7 @@ std::optional<SmokeShadowUpdate> SmokeShadowCache::update(const SmokeShadowPlan&
   next.key = key;
   next.has_texels = true;
 
-  // Texels of one frame lie beside those of the others.
+  // Texels of one frame lie beside texels of the others.
   constexpr std::array<glm::uvec2, 4> kFirstTexels{{{1, 1}, {0, 1}, {1, 0}, {0, 0}}};
   if (!same_plan || !same_inputs) next.scheduler.restart();
   if (next.scheduler.pending() == 0) return std::nullopt;

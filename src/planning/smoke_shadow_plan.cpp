@@ -14,8 +14,8 @@ namespace {
 struct FacePart {
   std::uint32_t index = 0;             // into the plan's faces
   glm::vec2 low{1e30f}, high{-1e30f};  // uv
-  float metres = 0;                    // that the whole face spans at the far end of the smoke
-  float coarseness = 1;                // how much larger its texels may be than those of the brightest light
+  float metres = 0;                    // what the whole face spans at the far end of the smoke
+  float coarseness = 1;                // how much larger its texels may be than the brightest light's
   bool is_soft = false;                // its light is a ball
   bool is_sun = false;
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
@@ -35,7 +35,7 @@ void add_to_cube_face(FacePart& part, const shared::Light& light, std::uint32_t 
   constexpr float kNearest = 1e-3f;
   const glm::vec3 forward = shared::cube_forward(face), right = shared::cube_right(face),
                   up = shared::cube_up(face);
-  // The face's axes are those of the world up to their signs.
+  // The face's axes are the world's up to their signs.
   const glm::vec3 low = box.low - light.position_world, high = box.high - light.position_world;
   const auto along = [&](glm::vec3 axis) {
     const float a = glm::dot(axis, low), b = glm::dot(axis, high);

@@ -113,7 +113,7 @@ bool mark_slots(const smoke::SmokeVolume& volume, const Box<float>& cloud, const
   return any;
 }
 
-/// Bounds with those of one more cloud.
+/// Bounds that hold one more cloud.
 Box<float> with(const Box<float>& bounds, const Box<float>& cloud) {
   if (bounds.low == bounds.high) return cloud;
   return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};

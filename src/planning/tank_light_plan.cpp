@@ -20,7 +20,7 @@ Layers layers_of(float position, float size, float sign) {
   // Depths of the middles of the voxels at both ends, the nearer first.
   const float low = sign > 0 ? 0.5f - position : position - (size - 0.5f);
   const float high = low + size - 1;
-  // Those behind the light belong to the opposite direction; in the plane of the light to neither.
+  // Layers behind the light belong to the opposite direction; a layer in the plane of the light to neither.
   const float first = low > 0 ? low : low + std::floor(-low) + 1;
   return {first, high};
 }

@@ -24,7 +24,7 @@ inline glm::vec3 size_of(const spheres::Tank& tank) {
   return tank.voxel * glm::vec3(tank.size);
 }
 
-/// The camera: that of the scene, or another one.
+/// The camera of the scene, or another one.
 TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
                    const std::optional<scene::Camera>& camera = {});
 

@@ -36,7 +36,7 @@ std::vector<glm::vec4> transfer_table(const TransferInput& transfer, glm::vec3 a
     return glm::vec4(glm::dvec4(opacity * color_of(transfer, albedo, at), opacity));
   };
   std::vector<glm::vec4> table{at_end(0)};
-  // A cell has one colour: that of its middle.
+  // A cell has one colour, from its middle.
   glm::dvec4 sum(0);
   table.emplace_back(sum);
   for (std::uint32_t cell = 0; cell < shared::kTransferCells; ++cell) {

@@ -13,8 +13,8 @@ namespace brume::planning {
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
                  const FrameOptions& frame, FrameInput& input);
 
-/// Adds one volume as it is at a time [s], and the light of what glows in it. `typical`: that of its
-/// sequence.
+/// Adds one volume as it is at a time [s], and the light of what glows in it. `typical`: its sequence's
+/// typical frame.
 void add_volume(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                 const volumes::VolumeFrame& typical, double seconds, FrameInput& input);
 

@@ -1,5 +1,5 @@
-// How the light in the volumes of a frame is found (shaders/shared/volume_light.h), and whether that of the
-// frame before still holds.
+// How the light in the volumes of a frame is found (shaders/shared/volume_light.h), and whether the light
+// of the frame before still holds.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct VolumeLightPlan {
   bool is_lit = true;                       ///< A volume in view scatters or emits by its extinction.
   bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
-  bool volumes_changed = false;             ///< Those that cast shadows are not those of the frame before.
+  bool volumes_changed = false;             ///< Other volumes cast shadows than in the frame before.
 };
 
 /// The cubes of light that the device holds: where a plan needs others, their light is lost.
