@@ -113,7 +113,7 @@ struct Memory::MemoryBlock {
   // With room for what each range may leave, so that nothing is allocated when it is freed.
   std::vector<Hole> holes;            // rising, never adjacent
   std::vector<VkDeviceSize> retired;  // offsets of ranges that are to be freed
-  std::size_t ranges = 0;             // that are not freed
+  std::size_t ranges = 0;             // how many are not freed
 
   bool is_empty() const { return ranges == 0; }
 };

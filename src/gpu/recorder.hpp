@@ -115,15 +115,15 @@ class Recorder {
 
   /// Calls `record`, all of whose commands are collected or, where it throws, none.
   void collect(const std::function<void(Recorder&)>& record);
-  /// Records all that was collected into `commands`, which are in the recording state and remain so. Without
-  /// it nothing is recorded at all.
+  /// Records all that was collected into `commands`, which are in the recording state and remain so. Nothing
+  /// is recorded before.
   void record(VkCommandBuffer commands);
-  /// The recorded commands will be executed. The last call.
+  /// The last call: the recorded commands will be executed.
   void keep() { is_kept_ = true; }
 
-  /// For what is in use no longer than this recorder.
+  /// Memory for lists that live no longer than this recorder.
   FrameMemory& memory() { return slot_.memory_; }
-  /// What the commands change: see Recorded.
+  /// A value that the commands change, to be changed with them (Recorded).
   template <typename T>
   T& change(Recorded<T>& value) {
     return value.change(context_, id_);

@@ -13,7 +13,7 @@ constexpr VkDeviceSize kStagingBytes = 8ull << 20;
 /// Whether a copy is a part of the commands: a device takes longer to begin a copy from memory of the CPU
 /// than to write a few kilobytes.
 bool is_inline(const VkBufferCopy& region) {
-  constexpr VkDeviceSize kMostBytes = 65536;  // that vkCmdUpdateBuffer takes
+  constexpr VkDeviceSize kMostBytes = 65536;  // the most that vkCmdUpdateBuffer takes
   return region.size <= kMostBytes && region.size % 4 == 0 && region.dstOffset % 4 == 0;
 }
 

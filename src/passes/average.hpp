@@ -1,4 +1,4 @@
-// The mean of the frames of a picture, such as those of the points of a lens.
+// The mean of the frames of a picture, such as one frame for each point of a lens.
 #pragma once
 
 #include "gpu/recorder.hpp"

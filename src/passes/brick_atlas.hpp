@@ -39,23 +39,23 @@ class BrickAtlas {
   enum class Upload { nothing, changes, everything };
 
   /// `channels` are the formats of the volumes' channels, in order, with texels of the same size in bytes;
-  /// `derived` those of further images of the same layout, which passes write and nothing is uploaded to. The
-  /// images have room for `room` bricks until the first `reserve`. `tight`: volumes do not grow, and images
-  /// are as small as tight_atlas makes them. Throws resource_limit.
+  /// `derived` the formats of further images of the same layout, which passes write and nothing is uploaded
+  /// to. The images have room for `room` bricks until the first `reserve`. `tight`: volumes do not grow, and
+  /// images are as small as tight_atlas makes them. Throws resource_limit.
   BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
              std::span<const VkFormat> derived = {}, bool tight = false, std::uint32_t room = 1);
   BrickAtlas(const BrickAtlas&) = delete;
   BrickAtlas& operator=(const BrickAtlas&) = delete;
 
   /// Makes room for what the volumes hold. Growth replaces images, derived ones too: their content is
-  /// undefined then. A volume that comes, goes or
-  /// grows may move those behind it in the list, which are then uploaded again. Not between the begin and the
-  /// end of a recording, and only when the device is done with what it recorded before. Throws resource_limit
-  /// when the device's 3D textures cannot hold the bricks; what was uploaded counts as lost then.
+  /// undefined then. A volume that comes, goes or grows may move volumes behind it in the list, which are
+  /// then uploaded again. To be called when the device is done with what it recorded before, and not while
+  /// recording. Throws resource_limit when the device's 3D textures cannot hold the bricks; what was uploaded
+  /// counts as lost then.
   void reserve(VolumeList volumes);
   /// Uploads what changed since the last record; all of a volume that has had more than one update since, or
-  /// that `reserve` moved. The volumes must be as `reserve` saw them. Returns the most of any volume.
-  /// `streams`: of each volume of the list; empty: none is streamed.
+  /// that `reserve` moved. The volumes must be as `reserve` saw them. Returns the most that it
+  /// uploaded of any volume. `streams`: by position in the list; empty: no volume is streamed.
   Upload record(gpu::Recorder& recorder, VolumeList volumes, std::span<const StreamedBricks> streams = {});
   /// Whether nothing of a volume is on the device since the last `reserve`.
   bool is_missing(std::size_t volume) const { return entries_.get(context_)[volume].everything; }
@@ -65,7 +65,7 @@ class BrickAtlas {
     return entries_.get(context_)[volume].layout;
   }
 
-  /// Images of another size, as of volume::grown_atlas, without any volume.
+  /// Images of another size, as volume::grown_atlas returns it, without any volume.
   void clear(glm::ivec3 bricks);
   /// Bricks per axis of its images.
   glm::ivec3 atlas_bricks() const { return atlas_bricks_; }

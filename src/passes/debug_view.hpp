@@ -19,7 +19,7 @@ namespace brume::passes {
 using planning::DebugView;
 using planning::ViewSlice;
 
-/// The names of all views by their number, that of `none` first.
+/// The names of all views by their number, `none` first.
 constexpr std::array<std::string_view, shared::kViewCount> kDebugViewNames{
     "none",  "solid",  "distance", "density", "light", "holes",
     "steps", "bricks", "normals",  "albedo",  "depth", "overdraw"};
@@ -45,7 +45,7 @@ struct DebugSubject {
   ViewSlice slice;
   LevelView level;
   const smoke::SmokeBricks* volume = nullptr;  ///< null: no smoke.
-  const sim::State* state = nullptr;           ///< Whose clouds have distances; null: there are none.
+  const sim::State* state = nullptr;           ///< Its clouds have distances; null: there are none.
 };
 
 class DebugViewPass {

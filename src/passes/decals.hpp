@@ -23,7 +23,7 @@ class DecalPass {
               const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices, bool continues);
   /// The next frame has no past: one was drawn without decals.
   void invalidate_past(gpu::Recorder& recorder) { recorder.change(past_).frames = 0; }
-  /// Half floats, of the image's size: that of the last record.
+  /// Half floats, of the image's size, from the last record.
   const gpu::Image& occlusion() const { return occlusion_[past_.get(context_).current]; }
 
  private:

@@ -25,7 +25,7 @@ class GenerateCloudPass {
 class CloudGenerator {
  public:
   explicit CloudGenerator(gpu::Context& context);
-  /// A grids::CloudEvaluator. The values differ from those of the CPU by rounding. Throws DeviceLost.
+  /// A grids::CloudEvaluator. The values differ from the CPU's by rounding. Throws DeviceLost.
   void evaluate(gpu::CommandStream& stream, shared::CloudParams params,
                 std::span<const glm::ivec3> first_voxels, std::span<float> values);
 

@@ -24,7 +24,7 @@ class NoiseAdvectionPass {
   void trim();
   /// Uploads the reserved plan.
   void upload(gpu::Recorder& recorder, const planning::NoisePlan& plan);
-  /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is that of point +
+  /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is read at point +
   /// GBA) and smoke.filtered_density for the slots of the reserved plan.
   void record(gpu::Recorder& recorder, const planning::NoisePlan& plan, const Inputs& inputs);
 

@@ -27,7 +27,7 @@ class PanePass {
   /// What a frame needs; each thing that it does not is faster.
   struct Needs {
     bool voxel_shadows = true;  ///< A light may be shadowed by voxels (kShadowByVoxels).
-    std::uint32_t media = ~0u;  ///< Those that light meets: FramePlan::media.casters.
+    std::uint32_t media = ~0u;  ///< Media that light meets: FramePlan::media.casters.
     auto operator<=>(const Needs&) const = default;
   };
   struct Inputs {

@@ -30,7 +30,7 @@ class RaycastPass {
     VolumeResources volumes;
     const gpu::Image& depth;  ///< GBuffer::depth: rays end there.
   };
-  /// Draws the volumes of the plan, whose instances are those of `inputs`, in the same order. `target`, of
+  /// Draws the volumes of the plan, whose instances `inputs` holds in the same order. `target`, of
   /// half floats and with kRaycastTargetUsage, holds premultiplied radiance and transmittance then: what a
   /// MarchPass writes.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::RaycastPlan& plan,

@@ -43,7 +43,7 @@ struct MaterialImages {
   std::uint32_t base_color = 0, normal = 0, roughness = 0;  ///< Into SceneResources::images.
 };
 
-using planning::kMaxFlashes;  // capacity for temporary lights behind those of the scene
+using planning::kMaxFlashes;  // capacity for temporary lights behind the scene's
 
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;

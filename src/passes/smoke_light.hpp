@@ -39,7 +39,7 @@ class SmokeLightPass {
   void upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan);
   // The three steps of a part bring smoke.inscatter to the plan's frame, where a ray of its camera can meet
   // smoke. The parts come one after the other; the dispatches of a step are independent
-  // (gpu::Recorder::concurrently), and those of record_texel_lists also of what advects noise and lists
+  // (gpu::Recorder::concurrently). record_texel_lists is also independent of what advects noise and lists
   // holes.
   using Part = planning::SmokeLightPlan::Part;
   void record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const Part& part) const;

@@ -40,7 +40,7 @@ class SmokeShadowPass {
   /// Uploads the plan of an update.
   static void upload(gpu::Recorder& recorder, const planning::SmokeShadowUpdate& update,
                      const SmokeShadows& shadows);
-  /// Marches the rays of an uploaded update for the atlas; its plan's lights are those of the scene's buffer.
+  /// Marches the rays of an uploaded update for the atlas; its plan's lights are in the scene's buffer.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowUpdate& update,
               const SmokeShadows& shadows) const;
 

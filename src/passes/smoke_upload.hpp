@@ -60,7 +60,7 @@ class SmokeUpload {
   /// Gives back the memory of what `reserve` makes room for, but for an atlas of this size; all is uploaded
   /// again. When `reserve` may be called, and before it is.
   void trim(glm::ivec3 atlas_bricks);
-  /// Uploads changes since the last record; true when there were any. The volume is that of `reserve`.
+  /// Uploads changes since the last record; true when there were any. `reserve` was given the same volume.
   bool record(gpu::Recorder& recorder, const smoke::SmokeBricks& volume);
 
   /// Uploads which slots of the volume that `reserve` saw are visible in the frame.
@@ -80,7 +80,7 @@ class SmokeUpload {
   BrickAtlas atlas_;
   gpu::Sampler linear_;
   SmokeResources resources_;
-  std::uint64_t reserved_volume_ = 0, reserved_generation_ = 0;  // that `reserve` saw last
+  std::uint64_t reserved_volume_ = 0, reserved_generation_ = 0;  // what `reserve` saw last
   /// What of a volume is on the device.
   struct Uploaded {
     std::uint64_t volume = 0, revision = 0;

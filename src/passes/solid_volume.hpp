@@ -29,7 +29,7 @@ class SolidVolume {
   void reserve(const LevelView& level);
   /// The next record takes everything: the level may be another one of the same layout, or none.
   void invalidate();
-  /// Uploads changes since the last record; true when there were any. The level is that of `reserve`.
+  /// Uploads changes since the last record; true when there were any. `reserve` was given the same level.
   bool record(gpu::Recorder& recorder, const LevelView& level);
 
   const shared::SolidLayout& layout() const { return frame_; }

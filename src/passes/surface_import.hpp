@@ -21,8 +21,8 @@ class SurfaceImport {
  public:
   explicit SurfaceImport(gpu::Context& context);
 
-  /// Writes the depth of GBuffer::imported, near_z / distance, from that of a host, of the same size;
-  /// `near_z`: of the frame's camera. Where the host's depth is that of far_plane there is no surface.
+  /// Writes the depth of GBuffer::imported, near_z / distance, from a host's depth of the same size;
+  /// `near_z`: of the frame's camera. There is no surface where the host's depth is far_plane's.
   void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
               float near_z, const GBuffer& target) const;
 
@@ -44,7 +44,7 @@ class SurfaceNormalPass {
   explicit SurfaceNormalPass(gpu::Context& context);
 
   /// Writes the normals of GBuffer::imported, after SurfaceImport::record. Where the host's normal is 0 or
-  /// not finite it is that of the plane through the depths around, which faces the camera.
+  /// not finite it is the normal of the plane through the depths around, facing the camera.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const HostNormals& normals,
               const GBuffer& target) const;
 

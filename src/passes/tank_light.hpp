@@ -19,7 +19,7 @@ class TankLightPass {
   void reserve(const TankVolume& volume, std::span<const shared::TankLight> lights,
                scene::TankLighting lighting);
   /// Finds the light of all voxels with a colour: `ambient`, and what each light brings that reaches them; in
-  /// `light`, a word per voxel (shared::pack_rgb9e5). The lights are those of reserve().
+  /// `light`, a word per voxel (shared::pack_rgb9e5). reserve() was given the lights.
   void record(gpu::Recorder& recorder, const TankVolume& volume, const gpu::Image& light,
               const glm::vec3& ambient);
 

@@ -48,7 +48,7 @@ bool has_pair(const planning::VolumeInput& volume) {
   return volume.colors && !volume.tints.empty() && volume.tints.size() <= 2;
 }
 
-/// The grids of colours, or those of pairs of masks, each once.
+/// The grids of colours, or of pairs of masks, each once.
 std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes,
                                                        bool pairs) {
   std::vector<const volume::SparseVolume*> list;
