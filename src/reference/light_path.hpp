@@ -20,9 +20,9 @@ struct Link {
   float density = 0;     ///< Per solid angle, of the direction to the vertex after [1/sr].
 };
 
-/// Sums the squares of the densities of other techniques that make the same path, relative to that of this
-/// one (Veach's power heuristic, 1995): those in which the last, the last two... of `links` come from the
-/// other end of the path. `first_density`: Link::density of where the links begin; infinite if that end
+/// Sums the squares of the densities of other techniques that make the same path, relative to the density of
+/// this one (Veach's power heuristic, 1995): those in which the last, the last two... of `links` come from
+/// the other end of the path. `first_density`: Link::density of where the links begin; infinite if that end
 /// always makes their first vertex. `last`: density with which the other end makes the last vertex [1/m^2],
 /// `before`: with which that then goes on to the vertex before [1/sr]. At most `most` vertices change their
 /// end, and only those in media.

@@ -29,7 +29,7 @@ class Medium {
   virtual bool emits() const { return false; }
 
   /// It moves while the shutter is open: `world_from_rest` at equal steps, affine; the first is the identity.
-  /// All points above are those of its rest.
+  /// All points above are relative to the medium at rest.
   void set_motion(std::vector<glm::mat4> world_from_rest);
   /// A ray past the medium at rest, of the same lengths.
   Ray at_rest(const Ray& ray) const;

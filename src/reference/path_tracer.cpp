@@ -61,10 +61,10 @@ struct Vertex {
   }
 };
 
-/// What a path has of near lights in media; one for all paths of a thread, whose memory is reused.
+/// What a path knows of near lights in media. All paths of a thread share one, to reuse its memory.
 struct NearLightsOfPath {
   NearChords chords;        ///< Along the eye's ray.
-  LightPath light_path;     ///< Its vertices are joined with those of the path.
+  LightPath light_path;     ///< Its vertices are joined with the path's.
   std::vector<Link> links;  ///< By vertex, if near lights may reach the path.
 };
 
@@ -79,9 +79,9 @@ class Path {
   PathSample trace(Ray ray);
 
  private:
-  // Dimensions of the sampler: those of the eye come before.
+  // Dimensions of the sampler; the eye's come before.
   static constexpr std::uint32_t kOfEye = 4, kOfBounce = 6;
-  // Far from those of bounces: of the eye's ray near lights, and of the light's path.
+  // For the eye's ray near lights, and for the light's path: far from all bounces.
   static constexpr std::uint32_t kNearLights = 1u << 30, kOfLightPath = kNearLights + 1;
 
   void add(const glm::vec3& radiance);
@@ -140,9 +140,9 @@ glm::vec3 Path::visible(Ray ray, float distance, float distance_of_surfaces) {
   return passed * scene_.media.transmittance(ray, sampler_);
 }
 
-/// What media scatter along the eye's ray near lights: at one place, beside collisions. These lie as densely
-/// as the extinction times a transmittance by which this technique, too, multiplies what it finds: without
-/// it, densities are compared.
+/// Adds what media scatter along the eye's ray near lights, at one place, besides collisions. The density of
+/// collisions is the extinction times a transmittance. This technique multiplies what it finds by the same
+/// transmittance, so that the densities are compared without it.
 void Path::add_near_lights(const Ray& ray) {
   near_.chords.find(scene_, ray);
   if (near_.chords.empty() || limits_.max_bounces == 0) return;
@@ -151,7 +151,7 @@ void Path::add_near_lights(const Ray& ray) {
   if (!(point.density > 0)) return;
   const Incident incident = light_at(scene_.lights[point.light], ray.at(point.t));
 
-  // By all media there.
+  // Scattering by all media there.
   float extinction = 0;
   glm::vec3 scattered(0);
   for (const auto& medium : scene_.media.all()) {
@@ -166,7 +166,7 @@ void Path::add_near_lights(const Ray& ray) {
       scattered * incident.irradiance * (power_heuristic(point.density, extinction) / point.density);
   if (!(largest(value) > 0)) return;
 
-  // To the light, and to the eye.
+  // Transmittance to the light and to the eye.
   glm::vec3 passed = visible({ray.at(point.t), incident.to_light, 0, ray.time}, incident.distance,
                              distance_to_housing(incident));
   if (!(largest(passed) > 0)) return;
@@ -204,7 +204,7 @@ void Path::weigh_collision(const Vertex& vertex, std::span<glm::vec3> values) co
   }
 }
 
-/// One of the lights, in proportion to what it would add if nothing hid it.
+/// Adds one of the lights, chosen in proportion to what it would add if nothing hid it.
 void Path::add_lights(const Vertex& vertex) {
   thread_local std::vector<glm::vec3> values;
   values.clear();
@@ -245,7 +245,8 @@ glm::vec3 Path::joined(const Vertex& vertex, std::size_t i) const {
   return value / static_cast<float>(1 + others);
 }
 
-/// One of the vertices of the light's path, in proportion to what it would add if nothing were in between.
+/// Adds the light of a vertex of the light's path, chosen in proportion to what it would add if nothing were
+/// in between.
 void Path::add_light_path(const Vertex& vertex) {
   thread_local std::vector<float> estimates;
   estimates.clear();
@@ -262,7 +263,7 @@ void Path::add_light_path(const Vertex& vertex) {
   while (i > 0 && estimates[i] <= 0) --i;
   if (estimates[i] <= 0) return;
 
-  // Past what is in between.
+  // Transmittance between the two vertices.
   const glm::vec3 apart = near_.light_path.vertices()[i].position - vertex.position;
   const float distance = glm::length(apart);
   const glm::vec3 passed = visible(vertex.leaving(apart / distance), distance, distance);
@@ -278,7 +279,7 @@ float Path::density_of_emitter(const Emitter& emitter) const {
   return largest(emitter.radiance) / scene_.emitted_power;
 }
 
-/// A point on one of the emitters, in proportion to their power.
+/// Adds the light of a point on one of the emitters, chosen in proportion to their power.
 void Path::add_emitters(const Vertex& vertex) {
   const std::span<const Emitter> emitters = scene_.surfaces.emitters();
   if (!(scene_.emitted_power > 0)) return;
@@ -299,7 +300,7 @@ void Path::add_emitters(const Vertex& vertex) {
   const float density = density_of_emitter(emitter) * d2 / cosine;
   const glm::vec3 value = vertex.value(direction) * emitter.radiance;
   if (!(largest(value) > 0)) return;
-  // Not as far as the emitter itself.
+  // Up to just before the emitter, which would hide itself.
   const float end = distance * (1 - 1e-4f);
   const glm::vec3 passed = visible(vertex.leaving(direction), end, end);
   if (largest(passed) > 0)

@@ -46,7 +46,7 @@ Incident light_at(const shared::Light& light, const glm::vec3& p_world);
 /// A point or spot light with media nearby, for NearChords and LightPath.
 struct NearLight {
   std::uint32_t light = 0;  ///< Index into Scene::lights.
-  float solid_angle = 0;    ///< Into which it shines [sr].
+  float solid_angle = 0;    ///< How wide it shines [sr].
 };
 
 struct Scene {

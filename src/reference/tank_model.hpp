@@ -23,7 +23,7 @@ struct TankBall {
   glm::dvec3 center{0};
   double radius = 0;        ///< 0: a point, which only direct light is from.
   glm::dvec3 intensity{0};  ///< [W/sr] times the squared voxels of a metre.
-  glm::dvec3 radiance{0};   ///< That its surface sends outwards; 0 for a point.
+  glm::dvec3 radiance{0};   ///< What its surface sends outwards; 0 for a point.
 };
 
 /// An ellipsoid of a clear dielectric.

@@ -16,7 +16,7 @@ constexpr double kTankPi = std::numbers::pi;
 /// else stays so long is less than 10^-20 of all.
 constexpr int kMostCrossings = 256;
 
-/// Dimensions of the sampler: those of the eye come before.
+/// Dimensions of the sampler; the eye's come before.
 constexpr std::uint32_t kTankOfEye = 4, kTankOfEvent = 3;
 
 /// Across a unit vector, with it a basis.

@@ -63,7 +63,7 @@ class Sampler {
   void throw_if_stopped() const;
 
   std::uint32_t morton_;      // code of the pixel
-  std::uint32_t block_;       // which holds the sample
+  std::uint32_t block_;       // number of the block that holds the sample
   std::uint32_t in_block_;    // number of the sample in its block
   std::uint32_t block_bits_;  // logarithm of the block's size
   std::uint32_t dimension_ = 0;
