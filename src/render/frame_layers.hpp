@@ -10,7 +10,7 @@ namespace brume::render {
 /// Reads the images of frames of one size back from the device.
 class FrameLayers {
  public:
-  /// `size_px`: that of the frames. Throws resource_limit.
+  /// `size_px`: the size of the frames. Throws resource_limit.
   FrameLayers(gpu::Context& context, glm::uvec2 size_px);
 
   /// Copies what `renderer` drew, after its record_frame in the same recording. The renderer has
@@ -19,12 +19,11 @@ class FrameLayers {
 
   /// The layers, when the device is done:
   ///
-  ///   R, G, B            half: radiance before exposure and tone curve; of a frame of several samples the mean
-  ///   so far
-  ///   A                  half: 1 where there is a surface, else 1 - transmittance
-  ///   Z                  float: distance of the nearest surface along the view axis [m]; infinity: none
-  ///   transmittance.V    half: of all media, up to the surface
-  ///   depth_in.V         float: distance along the ray at which the transmittance falls to
+  ///   R, G, B            half: radiance before exposure and tone curve; of a frame of several samples the
+  ///   mean so far A                  half: 1 where there is a surface, else 1 - transmittance Z float:
+  ///   distance of the nearest surface along the view axis [m]; infinity: none transmittance.V    half: of
+  ///   all media, up to the surface depth_in.V         float: distance along the ray at which the
+  ///   transmittance falls to
   ///                      shared::kEntryTransmittance [m]; infinity: it does not
   ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none
   ///   media.R, .G, .B    half: radiance of the media alone, premultiplied

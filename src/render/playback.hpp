@@ -27,7 +27,7 @@ class Playback {
       : Playback(context, scenario, RendererOptions{size_px}) {}
 
   /// The image at a time [s]: the same for the same time, whatever came before and whatever its index. With
-  /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
+  /// RendererOptions::temporal a frame whose index is one more than in the draw before goes on from it;
   /// any other starts over. The image of a camera with a lens or a shutter is the mean of its samples.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// The same frame as numbers (FrameLayers). Without a debug view, and with

@@ -87,7 +87,7 @@ planning::PlanTarget Renderer::plan_target() const {
           holds_all_smoke()};
 }
 
-/// History follows the commands: that of a frame whose recording was dropped does not move.
+/// History follows the commands: where a recording was dropped, it does not move.
 void Renderer::commit_recorded() {
   if (recorded_.get(context_).plan == history_.plans) history_.commit();
 }
@@ -172,7 +172,7 @@ FrameResources Renderer::resources(const FramePlan& plan) const {
           .step_counters = picture_ ? picture_->step_counters(plan) : nullptr};
 }
 
-// The kinds of frames: on our own surfaces, of a part of a volume, over those of a host.
+// The kinds of frames: on our own surfaces, of a part of a volume, over a host's surfaces.
 
 void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   for (int part = 0; part < kParts; ++part) record_part(recorder, plan, part);
@@ -221,7 +221,7 @@ const gpu::Image* Renderer::shadows() const {
   return recorded_.get(context_).has_shadows ? &host_->shadows() : nullptr;
 }
 
-// What they consist of.
+// The steps of a frame.
 
 void Renderer::upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   shared::FrameConstants frame = planning::frame_constants(plan);
@@ -253,7 +253,7 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
 }
 
-/// Decals are on the host's own surfaces, tanks are surfaces before them.
+/// Decals lie on the host's surfaces; tanks are surfaces in front of them.
 void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                               const HostSurfaces& host) {
   decals_.begin(recorder, plan);
@@ -265,7 +265,7 @@ void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, co
   if (tanks_) tanks_->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
 }
 
-/// What later frames rely on, too: everything that the plan's history counts as updated.
+/// Records all that later frames rely on: what the plan's history counts as updated.
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                             const HostSurfaces* host) {
   record_until_sweeps(recorder, plan, in, host);

@@ -13,7 +13,7 @@ namespace brume::render {
 /// never given back.
 class SmokeBudget {
  public:
-  /// `reserved`: bricks that there is always room for, > 0, as of volume::grown_atlas.
+  /// `reserved`: bricks that always have room, > 0: as many as some volume::grown_atlas holds.
   explicit SmokeBudget(std::uint32_t reserved);
 
   /// Before a frame is planned. `room`: bricks of the atlas at present; `wanted`: how many of them the frame

@@ -71,7 +71,7 @@ void VolumePartRenderer::set_halves(const gpu::Image& image, std::span<const std
 }
 
 std::vector<float> VolumePartRenderer::find_depths(const FrameInput& input) {
-  plan_.reset();  // its lists end before those of the next one begin in their memory
+  plan_.reset();  // its lists end before the next plan's begin in their memory
   plan_.emplace(renderer_.plan(input));
   check_frame(*plan_);
   volume_bytes_ = std::uint64_t{input.volumes.front().volume->slot_count()} * shared::kTexelsPerBrick *

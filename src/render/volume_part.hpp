@@ -3,7 +3,7 @@
 //
 // Optical depths along rays of light add up, so that each part finds the light of the whole. Along a ray of
 // the eye all parts take the same steps, of which each adds those in its own bricks: radiance and
-// transmittance of the whole are those of the parts, composited front to back.
+// transmittance of the whole are the parts', composited front to back.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ volumes::VolumeRoom volume_room(const gpu::Context& context, std::uint64_t memor
 
   volumes::VolumeRoom room;
   room.bricks = std::min({bytes / kBrickBytes, passes::most_slots(edge), buffer_bytes / sizeof(glm::ivec3)});
-  // Each volume's part of the atlas is rounded up by an eighth, that of a small one by more; a layer may be
+  // Each volume's part of the atlas is rounded up by an eighth, for a small one by more; a layer may be
   // incomplete.
   room.bricks = room.bricks / 7 * 6;
   room.bricks -= std::min<std::uint64_t>(room.bricks / 4, 2 * shared::kMaxVolumes * passes::kVolumeSlotStep);

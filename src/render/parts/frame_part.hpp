@@ -43,7 +43,7 @@ struct MediaOptions {
   /// The device holds the smoke that is in view, not all of it. Pictures then depend on the frames before by
   /// the rounding of places in the atlas.
   bool memory_follows_view = false;
-  /// Bricks of smoke that there is always memory for, as of volume::grown_atlas.
+  /// Bricks of smoke that always have memory: as many as some volume::grown_atlas holds.
   std::uint32_t reserved_bricks = 64;
 };
 

@@ -33,7 +33,7 @@ class HostSurfacesPart {
   void record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                     const HostSurfaces& surfaces) const;
   void record_normals(gpu::Recorder& recorder, const FrameResources& in, const HostSurfaces& surfaces) const;
-  /// The media's shadows on the surfaces, of up to four lights: those of the scene by their place in it, then
+  /// The media's shadows on the surfaces, of up to four `lights`: the scene's by their place in it, then
   /// the frame's flashes.
   void record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                       std::span<const std::uint32_t> lights);

@@ -61,7 +61,7 @@ class LevelPart {
   passes::IndirectLightPass indirect_light_;
   surfaces::LightCellsMaker light_cells_maker_;
   surfaces::LightCells light_cells_;  ///< The cells of the last plan with indirect light.
-  std::uint64_t levels_ = 0;          ///< That light cells were made of.
+  std::uint64_t levels_ = 0;          ///< Counts levels whose light cells were made.
   gpu::Recorded<std::uint64_t> uploaded_levels_;
 };
 
