@@ -12,8 +12,8 @@
 
 namespace brume::scenario {
 
-/// At any time its simulation equals, state hash for state hash, that of its timeline saved and loaded again,
-/// regardless of the edits, their times and their order.
+/// At any time its simulation equals, state hash for state hash, the simulation of its timeline saved and
+/// loaded again, regardless of the edits, their times and their order.
 class EditableScenario {
  public:
   /// Starts the scenario's own timeline at time 0. Stores the current grid in the timeline, so that loading

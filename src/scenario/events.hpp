@@ -53,7 +53,7 @@ struct EventSettings {
   const voxel::GridLayout& layout;
   const scene::SmokeOptions& smoke;
   const ShotMasks& masks;
-  const Scenario& level;  ///< Whose surfaces decide where placed smoke begins (smoke_start.hpp).
+  const Scenario& level;  ///< Its surfaces decide where placed smoke begins (smoke_start.hpp).
   std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second;
 };
 

@@ -19,7 +19,7 @@ glm::vec3 subject_point(const scene::Scene& scene, const scene::Camera& camera);
 
 /// On the floor before the subject; where it would not be seen there, nearer to the camera, beside the
 /// subject, or in the air. Where it would hide a small scene from the camera of that, beside it, if that is
-/// in view. `diameter` is that of the grown smoke [m].
+/// in view. `diameter`: of the grown smoke [m].
 glm::vec3 choose_smoke_place(const scene::Scene& scene, const SmokeView& view, float diameter);
 
 /// Whether most of a grown smoke at this place is neither behind something solid, nor beyond the level's

@@ -14,9 +14,9 @@ namespace {
 
 /// Diameter of a ball of the default smoke in the default voxels [m]: the scale of its noise and extinction.
 constexpr float kUsualSmoke = 3.8f;
-/// From the side of the default camera and behind it.
+/// Sunlight from behind the default camera, and from its side.
 constexpr scene::SunOptions kUsualSun{1.4f, 0.85f};
-/// Largest coordinate of a scene, half of that of its events [m].
+/// Largest coordinate of a scene, half as large as events may have [m].
 constexpr float kFarthestScene = static_cast<float>(scene::kFarthestEvent / 2);
 /// Extent below which a scene's ground shrinks no more [m].
 constexpr float kSmallestExtent = 0.1f;
@@ -265,7 +265,7 @@ void apply_level_options(const scene::Timeline& timeline, scene::Scene& scene) {
   if (timeline.sun) std::erase_if(scene.lights, is_sun);
   if (timeline.sun || scene.lights.empty())
     scene.lights.push_back(sunlight(timeline.sun.value_or(scene::SunOptions{})));
-  // Brightened by more than 2 EV, a picture shows where lights would end.
+  // A picture that is brightened by more than 2 EV would show where lights end.
   const float brightened = std::exp2(std::max(timeline.exposure - 2, 0.0f));
   for (scene::Light& light : scene.lights) light.least = scene::Light{}.least / brightened;
 }
@@ -279,12 +279,12 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   timeline.scale = chosen_scale(scene, path, options);
   timeline.origin = chosen_origin(scene, path, timeline.scale);
   const float light = choose_light(timeline, scene, options.sun);
-  // As long as it is not measured, by the lights alone.
+  // Until it is measured, the lights alone decide the exposure.
   timeline.exposure = options.exposure.value_or(std::clamp(-std::log2(light), -20.0f, 20.0f));
   if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
   if (options.bounces.value_or(0) > 0 && scene.objects.empty())
     log_warning(path.string() + ": bounces change nothing without a level");
-  // What volumes are lit by from below is the ground, as nothing else is there.
+  // Volumes are lit from below by the ground, where nothing else is there.
   if (timeline.ground && scene.objects.empty()) timeline.sky.bounce = luminance(kGroundColor);
   apply_level_options(timeline, scene);
   const Box<float> bounds = scene::world_bounds(scene);

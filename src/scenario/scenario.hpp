@@ -21,7 +21,7 @@ struct Scenario {
   scene::Camera camera;  ///< Used when the timeline has no camera keys.
   Voxels voxels;
   smoke::MaskAtlas masks = {};  ///< The masks of its shots and texts.
-  ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
+  ShotMasks shot_masks = {};    ///< Which mask each shot and text uses.
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
   std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Timeline::volumes, loaded; null: none.

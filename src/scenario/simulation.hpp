@@ -56,7 +56,7 @@ class Simulation {
   std::vector<std::uint32_t> hidden_after(std::size_t events) const;
 
   std::vector<LevelEvent> level_events_;
-  std::optional<std::size_t> in_effect_ = 0;  // number of level_events_ that show; none: those of others do
+  std::optional<std::size_t> in_effect_ = 0;  // how many level_events_ show; none: another's show
   std::vector<std::uint32_t> hidden_objects_;
   mutable std::shared_ptr<const NextLevel> next_level_;  // null: yet to be made
   sim::World world_;

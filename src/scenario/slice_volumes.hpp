@@ -1,4 +1,4 @@
-// Volumes of a timeline that are sampled without a march: those of decals, and those that particles show.
+// Volumes of a timeline that are sampled without a march: for decals, and for particles.
 #pragma once
 
 #include <memory>

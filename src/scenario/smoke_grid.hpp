@@ -17,8 +17,8 @@ struct SmokeGridOptions {
 };
 
 /// The densities at the centres of voxels, State::density / 255, without holes and without the noise that the
-/// renderer erodes them with. A fog volume "density" of float32 whose active voxels are those with smoke;
-/// voxel (i, j, k) is that of the simulation, its world is in metres. Metadata: `time` [s] (double), `tick`
+/// renderer erodes them with. A fog volume "density" of float32 whose active voxels have smoke;
+/// voxel (i, j, k) is the simulation's, its world is in metres. Metadata: `time` [s] (double), `tick`
 /// (int32) and `extinction` [1/m] (float).
 grids::Grid smoke_grid(const sim::State& state, const SmokeGridOptions& options);
 

@@ -153,7 +153,7 @@ GltfMaterials::Converted GltfMaterials::texture_coordinates(const tinygltf::Mate
   if (pbr.metallicRoughnessTexture.index >= 0) uses.push_back(texture_use(pbr.metallicRoughnessTexture));
   if (uses.empty()) return {};
 
-  // A vertex has one pair of coordinates: those of the first image.
+  // A vertex has one pair of coordinates, for the first image.
   for (const TextureUse& use : uses) {
     if (use == uses.front()) continue;
     log_warning(

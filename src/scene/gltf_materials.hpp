@@ -27,7 +27,7 @@ class GltfMaterials {
   };
   /// The material with the document's index, or the default one for -1.
   Converted material(int index);
-  /// What a mesh of a material stops; `index` as of Converted.
+  /// What a mesh of a material stops; `index`: Converted::index.
   Role role(std::uint32_t index, const Mesh& mesh) const;
   /// The role in `extras`, which may be any value; warns of the first one of the file that is no role.
   std::optional<Role> role_of_extras(const tinygltf::Value& extras, const std::string& place);

@@ -199,7 +199,7 @@ class ObjParser {
     }
     if (face_.size() < 3) return reader_.expected("at least 3 corners of a face", {});
     if (model_.parts.empty()) use_part();
-    // Those that follow wait as well, so that triangles stay in the order of the file.
+    // Faces that follow wait as well, so that triangles stay in the order of the file.
     if (pending_.empty() && !std::ranges::any_of(face_, [&](const FaceCorner& c) { return is_ahead(c); }))
       return add_face(face_, part_);
     pending_.push_back({part_, pending_corners_.size(), face_.size()});

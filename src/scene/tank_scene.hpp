@@ -80,7 +80,7 @@ struct TankScene {
   std::filesystem::path file;  ///< The tank's file, resolved; empty: it is packed.
   spheres::PackOptions pack;   ///< Without its palette.
   std::string palette;         ///< "NAME:0.2-0.6" (palettes/choice.hpp), a file resolved; empty: white.
-  std::string palette_space = "oklab";  ///< In which its colours are interpolated (palettes::Space).
+  std::string palette_space = "oklab";  ///< Where its colours are interpolated (palettes::Space).
   TankView view = TankView::spheres;
   TankLighting lighting = TankLighting::maps;  ///< How TankView::voxels are lit.
   LensPoints lens_points = LensPoints::remap;

@@ -240,7 +240,7 @@ Result<void> check_events(const Timeline& timeline) {
 }
 
 Result<void> check_settings(const Timeline& timeline) {
-  // The timeline's own settings, then those of its tables.
+  // The timeline's own settings, then its tables.
   Checker look("the timeline");
   visit_timeline_options(timeline, look);
   visit_bounce_options(timeline, look);
