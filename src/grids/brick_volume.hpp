@@ -79,7 +79,7 @@ struct BrickVolume {
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 
 /// The same at the first lower resolution that takes at most `max_bricks` bricks (at least
-/// kFewestVolumeBricks), in the same unit and bounds: means of the stored halves, or with `glows` those of
+/// kFewestVolumeBricks), in the same unit and bounds: means of the stored halves, or with `glows` of
 /// their fourth powers.
 BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool glows = false);
 

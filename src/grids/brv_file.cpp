@@ -292,7 +292,7 @@ Result<GridFile> decode_brv(View bytes, const GridLimits& limits, const GridChoi
     directory->grids = std::move(grids);
   }
 
-  // That every chunk can be what it claims, before memory is taken for all.
+  // Every chunk must be able to hold what it claims, before memory is taken for all.
   for (const BrvGrid& grid : directory->grids)
     for (std::size_t i = 0; i < grid.chunks.size(); ++i)
       if (!may_unpack(grid.chunks[i].stored_bytes, grid.brick_count(i) * raw_brick_bytes(grid.grid.type)))

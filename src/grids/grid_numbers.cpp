@@ -167,7 +167,7 @@ void GridNumbers::add_background(const Grid& grid) {
   const Box<int> box = brick_box();
   const glm::u64vec3 size(box.high - box.low);
   if (size.x > kMost || size.y > kMost || size.z > kMost || size.x * size.y * size.z > kMost) return;
-  // Those in bricks and cubes are taken.
+  // Bricks that are there, or in cubes, are taken.
   std::vector<bool> taken(size.x * size.y * size.z);
   const auto place_of = [&](glm::ivec3 at) {
     const glm::u64vec3 p(at - box.low);

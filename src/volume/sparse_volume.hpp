@@ -127,10 +127,10 @@ class SparseVolume {
         reinterpret_cast<const Texel*>(texels_of(channel, slot)), shared::kTexelsPerBrick);
   }
 
-  /// As of the last update, in an atlas that holds this volume alone.
+  /// The layout after the last update, in an atlas that holds this volume alone.
   const shared::VolumeLayout& layout() const { return layout_; }
-  /// Boxes that nothing lies outside of, at most kMaxBoxes, as of the last update [voxel space]: far
-  /// smaller together than the bounds where parts of the volume are far from each other.
+  /// Boxes that nothing lies outside of after the last update, at most kMaxBoxes [voxel space]: far smaller
+  /// together than the bounds where parts of the volume are far from each other.
   std::span<const Box<float>> boxes() const { return boxes_; }
   /// Slots below slot_count() whose texels the last update marked, acquired or released, in rising order.
   std::span<const std::uint32_t> dirty(ChannelId channel) const {

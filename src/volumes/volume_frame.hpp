@@ -38,7 +38,7 @@ struct VolumeFrame {
   Box<float> bounds;                ///< Around what can be dense, in the file's world.
   /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
   bool is_extinction = false;
-  /// Whether values of the heat, or of that of another frame, are above kMostFactor: kelvin, and no factors
+  /// Whether values of the heat, in this frame or another one, are above kMostFactor: kelvin, and no factors
   /// of a temperature.
   bool heat_is_kelvin = false;
   std::string density_name;  ///< Name of the grid that is dense.

@@ -21,7 +21,7 @@ bool is_whole_numbers(const grids::Grid* grid) {
          grid->type == grids::ValueType::boolean;
 }
 
-/// The position of a grid among those of its name.
+/// The position of a grid among all of its name.
 std::size_t number_of(GridList grids, const grids::Grid* grid) {
   std::size_t number = 0;
   for (const grids::Grid* one : grids) {
@@ -103,7 +103,7 @@ bool is_whole(const ColorParts& parts) {
   return std::ranges::count(parts, nullptr) == 0;
 }
 
-/// That a colour is not drawn, as channels of it are missing; empty: all are there, or none.
+/// A note that a colour is not drawn, as channels of it are missing; empty: all are there, or none.
 std::string missing_channels(const ColorParts& parts, const std::string& name) {
   std::string there, missing;
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -56,8 +56,8 @@ std::optional<std::int64_t> number_at(const scene::VolumeOptions& options, std::
   return first + std::clamp<std::int64_t>(passed, 0, count - 1);
 }
 
-/// Around the voxels of a brick and its apron that are not 0, and the filter's reach: a voxel from their
-/// centres [voxel space].
+/// A box around the voxels of a brick and its apron that are not 0, grown by the filter's reach, a voxel from
+/// their centres [voxel space].
 Box<float> dense_box(const volume::SparseVolume& volume, std::uint32_t slot) {
   const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
   const glm::vec3 apron = glm::vec3(shared::kBrickVoxels * volume.brick_of(slot) - 1);
@@ -220,7 +220,7 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
   return volumes;
 }
 
-/// Another loader: what the one before has loaded or is loading is no longer of use.
+/// Replaces the loader: what it has loaded or is loading is no longer useful.
 void Volumes::start_loader() {
   struct Source {
     scene::VolumeOptions options;
@@ -320,7 +320,7 @@ void Volumes::measure_sequence(std::size_t volume) {
   const bool was_in_kelvin = sequence.in_kelvin;
   measure(sequence);
   if (sequence.in_kelvin == was_in_kelvin) return;
-  // Again, without those frames that were taken for factors of a temperature.
+  // Measure again, without the frames whose heat was taken for factors of a temperature.
   for (const auto& [loaded, number] :
        {std::pair(&sequence.typical, sequence.typical_number), {&sequence.shown, sequence.shown_number}})
     if (auto frame = load_frame(sequence, number)) *loaded = {std::move(*frame), nullptr};
@@ -333,7 +333,7 @@ void Volumes::measure(Sequence& sequence) {
   sequence.extent = extent_of(*sequence.typical.frame);
   for (const std::int64_t number : measured_numbers(sequence.files)) {
     if (number == sequence.typical_number) continue;
-    // One that cannot be read is warned of when it is shown.
+    // A frame that cannot be read causes a warning when it is shown.
     auto frame = load_frame(sequence, number);
     if (!frame || shows_nothing(**frame)) continue;
     sequence.in_kelvin = sequence.in_kelvin || (*frame)->heat_is_kelvin;
@@ -416,7 +416,7 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
   all.insert(all.end(), ahead.begin(), ahead.end());
   VolumeLoader::Results late = loader_->want(all);
 
-  // What is there.
+  // Show what is loaded.
   is_behind_ = false;
   for (const VolumeLoader::Key& key : wanted) {
     auto loaded = wait == VolumeWait::until_loaded ? loader_->wait(key) : loader_->take(key);

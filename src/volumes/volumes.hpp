@@ -51,7 +51,7 @@ class Volumes {
   /// was. Frames remain loaded as long as they are shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds,
                            VolumeWait wait = VolumeWait::until_loaded);
-  /// Whether the last `at` showed frames of other times, since theirs were not loaded.
+  /// Whether the last `at` showed frames of other times, since the right ones were not loaded.
   bool is_behind() const { return is_behind_; }
 
   /// Chooses the grids that the options of a volume name, from its first frame on. On failure, as load,
@@ -82,7 +82,7 @@ class Volumes {
 
  private:
   struct Sequence {
-    scene::VolumeOptions options;                         ///< Those that loading follows.
+    scene::VolumeOptions options;                         ///< Options that loading follows.
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
     LoadedVolume typical = {}, shown = {};
     std::int64_t typical_number = 0, shown_number = 0;
@@ -109,8 +109,8 @@ class Volumes {
 /// The part of `total` that each of several gets: what it wants where that is at most a fair part, and else
 /// as much as all others that get less than they want. The sum of the parts is at most `total`.
 std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total);
-/// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its typical
-/// frame; from 0 on where all are the same.
+/// The values that the curves of a volume span, in the unit of its grid: as chosen, or its typical
+/// frame's; from 0 on where all are the same.
 glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& typical);
 
 /// Where a volume is.
@@ -120,7 +120,7 @@ scene::Volume place_of(const scene::VolumeOptions& options, const VolumeExtent& 
 /// its frames.
 std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Volumes& volumes, std::size_t i);
 
-/// From the world of a volume's file to that of the scene [m].
+/// From the world of a volume's file to the world of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);
 
 }  // namespace brume::volumes
