@@ -105,7 +105,7 @@ T& required(T* pointer, const char* name) {
   return *pointer;
 }
 
-/// The result for a failure of the code below; that of bad_input depends on the function.
+/// The result for a failure of the code below; for bad_input it depends on the function.
 brume_result result_of(ErrorCode code, brume_result bad_input = BRUME_ERROR_ARGUMENT);
 
 /// The value of a Result; throws its failure.

@@ -1,4 +1,4 @@
-// From the events of the C interface to those of the simulation.
+// From the events of the C interface to events of the simulation.
 #pragma once
 
 #include <vector>

@@ -18,7 +18,7 @@ void create_world(Call& call, const brume_level* level, const brume_world_params
   create(world, owner.settings, owner.data, sim::WorldSettings{params.ticks_per_second, masks});
 }
 
-/// Changes the log: `change(world, events)`, where the only failure that remains is that of history.
+/// Changes the log: `change(world, events)`, where only history can still fail.
 template <typename Change>
 void change_log(Call& call, brume_world* world, const brume_event* events, std::size_t count, Change change) {
   brume_world& object = call.handle(world);

@@ -45,7 +45,7 @@ class ChildProcess {
   bool running() const { return process_ > 0; }
   /// Ends the child at once; wait() then returns.
   void kill();
-  /// Waits for its end and returns its status, as of waitpid.
+  /// Waits for its end and returns its status, as waitpid reports it.
   int wait();
   /// The end of what it wrote to standard error, at most 4 KiB.
   std::string messages() const;

@@ -1,4 +1,4 @@
-// Four floats at once, by the vector types that g++ and clang++ share. Every operation is that of IEEE 754 on
+// Four floats at once, by the vector types that g++ and clang++ share. Every operation follows IEEE 754 on
 // each lane, so that results are the same bits with any instruction set.
 #pragma once
 

@@ -126,7 +126,7 @@ planning::DecalInput input_of(const brume_shown_decal& shown, const DecalData& d
           shown.falloff,  shown.fade, shown.scatter,  data.middle, data.radius};
 }
 
-/// The place of a decal's volume; that of none beyond the last.
+/// The place of a decal's volume; beyond the last for none.
 std::size_t place_of(const DecalData& decal, const grids::DenseVolumes& volumes) {
   const auto same = [&](const auto& volume) { return volume.get() == decal.volume.get(); };
   return static_cast<std::size_t>(std::ranges::find_if(volumes, same) - volumes.begin());

@@ -14,7 +14,7 @@ using ShownVolumes = std::vector<volumes::VolumeAt>;
 /// CallFailure for what brume_assets.h does not allow.
 ShownVolumes add_volumes(api::Call& call, const brume_frame_params& params, planning::FrameInput& input);
 
-/// What was read from a file. A failure is that of the file, also where brume-vdb is missing.
+/// What was read from a file. It fails as the file does, also where brume-vdb is missing.
 template <typename T>
 T loaded(Result<T> result) {
   if (!result && result.failure().code == ErrorCode::no_device)

@@ -57,8 +57,8 @@ std::vector<std::uint32_t> search(std::span<const Palette> palettes, const Filte
 
 /// The hue of HSV (0 red, 120 green, 240 blue) that a palette as a whole has [degrees, [0, 360)]: the
 /// direction of the sum of its colours' hues as vectors as long as their chroma (the largest less the
-/// smallest channel). Nothing where that sum is shorter than half the sum of the lengths, as of rainbows, or
-/// where the mean chroma is below 1/16, as of greys.
+/// smallest channel). Nothing where that sum is shorter than half the sum of the lengths (rainbows), or
+/// where the mean chroma is below 1/16 (greys).
 std::optional<double> main_hue(const Palette& palette);
 
 /// Parses lines of palettes.txt: "NAME COLLECTION KIND HEX", where KIND is g, q or p and HEX six digits for

@@ -11,7 +11,7 @@
 namespace brume::sim {
 
 /// Its voxels depend on the level as loaded and on edits() alone, not on how they came about. The grids are
-/// copied at the first edit; until then solids() refers to those of the level.
+/// copied at the first edit; until then solids() refers to the level's.
 class EditedLevel {
  public:
   /// The grids of `level` must outlive it unchanged.

@@ -36,11 +36,11 @@ struct SightLook {
 };
 
 /// Follows the states of a world in any order. What it holds is a function of the level as loaded, the last
-/// state and the patches alone: the same as that of a new field with one update, whatever came before.
+/// state and the patches alone: the same as in a new field after one update, whatever came before.
 ///
 /// Surfaces are, in each cell: the planes of the last patch that contains it; else none where a corner of the
 /// cell stops smoke and did not when the level was loaded, or the reverse, so that smoke ends at the faces of
-/// edited voxels; else those of the level as loaded.
+/// edited voxels; else the surfaces of the level as loaded.
 ///
 /// Any number of threads may call the const functions. What they return is valid until the next update.
 class Field {
@@ -58,7 +58,7 @@ class Field {
   /// as it is while the field is read.
   void update(const sim::World& world);
   /// The surfaces of edits whose geometry is known, the oldest first; none is null. An update has to follow,
-  /// which rebuilds the cells of those that came or went.
+  /// which rebuilds the cells of patches that came or went.
   void set_patches(std::vector<std::shared_ptr<const voxel::PlanePatch>> patches);
   /// To be called where the world or the masks change before the next update: holes and sights that are kept
   /// are made again on their next use.
@@ -72,10 +72,10 @@ class Field {
   const PlaneSource& planes() const { return planes_; }
   const SmokeVolume& volume() const { return volume_; }
   sim::MaskKey masks() const { return masks_ ? masks_->key() : sim::MaskKey{}; }
-  /// The state's holes at its time. Throws as holes_of.
+  /// The state's holes at its time. Throws as make_holes.
   std::span<const shared::Hole> holes() const;
   /// Lines of sight at the state's time; the last sight with noise and the last without are kept. Throws as
-  /// Sight and holes_of.
+  /// Sight and make_holes.
   std::shared_ptr<const Sight> sight(const SightLook& look) const;
 
  private:
@@ -94,7 +94,7 @@ class Field {
   const voxel::SurfacePlanes& loaded_planes_;
   const MaskAtlas* masks_;
   sim::EditedLevel edited_;  // level of the last state that was copied
-  sim::State copied_;        // that state
+  sim::State copied_;        // a copy of that state
   const sim::State* state_;  // the last one
   std::optional<voxel::Solids> now_;
   std::vector<std::shared_ptr<const voxel::PlanePatch>> patches_;  // all, the oldest first

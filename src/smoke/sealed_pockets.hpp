@@ -23,7 +23,7 @@ class SealedPockets {
   using HasSmoke = std::function<bool(glm::ivec3)>;
 
   /// True when the free voxels that can be reached from this one hold no smoke and are fewer than
-  /// kLeastRoom. Moves over faces reach as far as those of flood_fill, whose longer moves require every voxel
+  /// kLeastRoom. Moves over faces reach as far as flood_fill, whose longer moves require every voxel
   /// between to be free. `voxel` must be free and without smoke; `has_smoke` is whether a cloud ever fills a
   /// free voxel. `changed` reports `brick`, which queries, when the result may differ.
   bool sealed(const voxel::BitGrid& grid, const HasSmoke& has_smoke, glm::ivec3 voxel, glm::ivec3 brick);
@@ -40,7 +40,7 @@ class SealedPockets {
   };
   struct Space {
     bool sealed = false;
-    std::vector<glm::ivec3> bricks;  // that have voxels of it, some more than once
+    std::vector<glm::ivec3> bricks;  // with voxels of it, some more than once
     std::vector<glm::ivec3> queried_by;
   };
   const Page* page_of(glm::ivec3 brick) const;

@@ -5,10 +5,10 @@
 // shaders read it (docs/how/smoke.md) and integrated exactly; along holes by quadrature, with an error of
 // at most 0.3 %.
 //
-// The same bits for the same volume, holes and points: on every machine, for any number of threads, and for
-// one segment alone or among many. Segments that pass no smoke and points outside of the grid are fine: there
-// is air. Points that are not finite, or farther than kMaxSightMetres from the origin of the world, are
-// failures (bad_input), and no result is written.
+// Results are the same bits for the same volume, holes and points: on every machine, for any number of
+// threads, and for one segment alone or among many. Points may lie outside of the grid, where there is air.
+// Points that are not finite, or farther than kMaxSightMetres from the origin of the world, are failures
+// (bad_input), and no result is written.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ constexpr float kMaxSightMetres = 16384;
 struct SightSettings {
   float extinction = 3;           ///< Where density is 1 (255 steps) [1/m], [0, 10^6].
   glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
-  /// The masks that holes_of was given; must outlive the Sight. Required where a hole is a mask.
+  /// The masks that make_holes was given; must outlive the Sight. Required where a hole is a mask.
   const MaskAtlas* masks = nullptr;
   /// The smoke as it is drawn, whose optical depths take a hundred times as long. Must outlive the Sight and
   /// have the same volume; brings holes and time of its own. Null: smoke without its noise.
@@ -61,7 +61,7 @@ struct SensorRay {
 
 struct SensorSample {
   float distance = 0;                ///< To the first solid voxel, else max_distance [m].
-  std::optional<SightWall> surface;  ///< That the ray ends at; none up to max_distance.
+  std::optional<SightWall> surface;  ///< Where the ray ends; none up to max_distance.
   float optical_depth = 0;           ///< Depth of the smoke up to there, which transmits exp(-optical_depth).
   glm::vec3 surface_albedo{0};       ///< Black where there is no surface.
   glm::vec3 smoke_albedo{0};
@@ -72,14 +72,14 @@ using SurfaceAlbedo = std::function<glm::vec3(const SightWall&)>;
 
 class Sight {
  public:
-  /// The smoke of `volume` with `holes` at a time on their clock (State::seconds, holes_of), the walls of
+  /// The smoke of `volume` with `holes` at a time on their clock (State::seconds, make_holes), the walls of
   /// `level`: what stops sight, voxel::Solids::sight. Volume and level must be of the same tick, and
   /// stay as they are while the Sight is used. Throws Error (bad_input) for an extinction out of range, a
   /// time that is not finite, or a hole that is a mask where there are none.
   Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<const shared::Hole> holes,
         float time, const SightSettings& settings = {});
 
-  /// Optical depth between two points; walls do not matter. 0 for a point and itself.
+  /// Optical depth between two points, whatever walls are between them. 0 where both are the same.
   Result<float> optical_depth(glm::vec3 a_world, glm::vec3 b_world) const;
   /// The same for many, over all threads. `out` is as long as `segments`.
   Result<void> optical_depths(std::span<const Segment> segments, std::span<float> out) const;

@@ -18,7 +18,7 @@ struct TickSpan {
   std::uint32_t first = 1, last = 0;
 };
 
-/// A cloud as of the last update.
+/// A cloud, as the last update saw it.
 struct SmokeSource {
   std::uint32_t id = 0;
   std::shared_ptr<const sim::Cloud> cloud;
@@ -29,7 +29,7 @@ struct SmokeSource {
   TickSpan steady;                           ///< When its phase is known not to change.
 };
 
-/// A blast as of the last update.
+/// A blast, as the last update saw it.
 struct SmokeSink {
   std::uint32_t id = 0;
   std::shared_ptr<const sim::BlastField> field;

@@ -41,7 +41,7 @@ struct BrickCells {
   std::vector<std::uint16_t> cells;           ///< Local index of each: x + 8 y + 64 z.
   std::vector<shared::BoundaryCell> records;  ///< first_set counted within the brick
   std::vector<SmokeMean> means;
-  std::vector<std::uint32_t> mean_voxels;  ///< What the means take from, as of a corner,
+  std::vector<std::uint32_t> mean_voxels;  ///< Voxels that the means take from, as at a corner,
   std::vector<std::uint8_t> mean_weights;  ///< and how much.
   std::vector<CornerSource> sources;
   std::uint32_t set_count = 0;

@@ -68,7 +68,7 @@ void SmokeVolume::update(const sim::State& state, const voxel::BitGrid& grid) {
   grid_ = nullptr;
 }
 
-/// Puts a slot on the list of those that have something to do.
+/// Lists a slot for the update, and notes what is stale in it.
 void SmokeVolume::mark(std::uint32_t slot, bool Brick::*what) {
   Brick& brick = bricks_[slot];
   if (!brick.touched) touched_.push_back(slot);
@@ -151,11 +151,11 @@ void SmokeVolume::voxels_changed(glm::ivec3 block, std::uint64_t mask) {
 }
 
 void SmokeVolume::planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell) {
-  // A cell reads the planes of those next to it; its voxel numbers are its corners' lowest.
+  // A cell reads the planes of its neighbours; it has the number of its lowest corner's voxel.
   mark_walls(low_cell - 1, high_cell + 1);
 }
 
-/// Whatever depends on the walls of these voxels is stale.
+/// Marks all that depends on the walls of these voxels as stale.
 void SmokeVolume::mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel) {
   const auto mark_stale = [&](std::uint32_t slot) {
     mark(slot, &Brick::walls_stale);

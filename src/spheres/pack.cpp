@@ -28,7 +28,7 @@ constexpr std::size_t kTask = 128;  // spheres of a task
 // goes on until the end.
 constexpr std::uint32_t kWhole = 24, kShrinking = 24, kLeast = 8;
 
-// Spheres of a round: a part of those that are packed, since those of one round do not make room for each
+// Spheres of a round: a part of all that are packed, since spheres of one round do not make room for each
 // other.
 constexpr std::uint32_t kLeastRound = 64, kMostRound = 16384;
 

@@ -3,7 +3,7 @@
 // A ray visits the voxels that it crosses (shared/dda.h, in floats; bricks without spheres in one step) and
 // intersects the spheres of their ids in double precision. Where the DDA might take two planes in the wrong
 // order by rounding, it visits the voxels of both orders, so that no sphere is missed
-// (docs/how/path-tracer.md derives the bound): the result is that of a loop over all spheres.
+// (docs/how/path-tracer.md derives the bound): a loop over all spheres has the same result.
 //
 // Rays: points are origin_voxel + t * direction, in voxels of the tank, |coordinates| at most 2^20, any
 // direction but 0. One that is not finite meets nothing.
