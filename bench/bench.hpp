@@ -33,11 +33,11 @@ struct Measurement {
 /// A file of the scenes that the program comes with; its name alone if it is missing.
 std::filesystem::path scene_file(const std::string& name);
 
-/// Of the source tree, "unknown" outside of git.
+/// The commit of the source tree, "unknown" outside of git.
 std::string commit();
 
 struct Report {
-  std::string device, driver;  ///< Of the GPU cases; empty when none ran.
+  std::string device, driver;  ///< What GPU cases ran on; empty when none ran.
   std::string processor;
   unsigned threads = 1;
   std::string commit;

@@ -27,7 +27,7 @@ struct CloudScene {
   float extinction = 1, albedo = 0;
   scene::Camera camera;
   int copies = 1;  ///< All in the same place.
-  int away = 0;    ///< Of add_far_voxel; 0: there is none.
+  int away = 0;    ///< As add_far_voxel; 0: there is none.
 };
 
 /// A volume in an empty world under one sun, from a file that is removed again.

@@ -10,7 +10,7 @@
 namespace brume::bench {
 namespace {
 
-/// Of its ring and its beam, per metre.
+/// Radiance of its ring and its beam, per metre.
 constexpr std::array kExhaustTints{glm::vec3(18, 70, 180), glm::vec3(200, 280, 350)};
 
 /// The exhaust of an ion thruster, seen from the side so that it fills the image, without anything else.

@@ -40,7 +40,7 @@ Points points_of(const char* argument, const py::object& value);
 struct Lines {
   Points a, b;
   std::size_t count = 0;
-  std::vector<py::ssize_t> shape;  ///< Of the result: (...).
+  std::vector<py::ssize_t> shape;  ///< Shape of the result: (...).
   bool is_single() const { return shape.empty(); }
 };
 Lines lines_of(const py::object& a, const char* a_name, const py::object& b, const char* b_name);

@@ -14,7 +14,7 @@ constexpr std::array kTypes{ValueType::float32, ValueType::float64, ValueType::i
                             ValueType::int64,   ValueType::boolean, ValueType::mask,
                             ValueType::vec3f,   ValueType::vec3d,   ValueType::vec3i};
 
-/// Of one component.
+/// The data type of one component.
 const char* dtype_of(ValueType type) {
   switch (type) {
     case ValueType::float32:
@@ -93,7 +93,7 @@ struct Dense {
   Box<int> box;
   std::byte* values;
   bool* active;
-  std::size_t bytes;  // of a value
+  std::size_t bytes;  // size of a value
 
   std::size_t index(glm::ivec3 v) const {
     const glm::u64vec3 at(v - box.low), size(box.high - box.low);

@@ -17,7 +17,7 @@
 namespace brume::decals {
 namespace {
 
-constexpr double kOffset = 1e-4;  // of rays from surfaces [m]
+constexpr double kOffset = 1e-4;  // from surfaces to where rays begin [m]
 
 /// Where the first decal is.
 struct DecalBox {

@@ -19,7 +19,7 @@ enum class Part { all, inside, ceiling_and_floor, wall, oblique, rim, outside };
 constexpr std::array<const char*, 7> kPartNames{"all",     "inside", "up_down", "wall",
                                                 "oblique", "rim",    "outside"};
 
-/// Of decal minus reference.
+/// Statistics of decal minus reference.
 struct Difference {
   std::size_t pixels = 0;
   double sum = 0, sum_of_squares = 0, largest = 0;

@@ -86,7 +86,7 @@ nlohmann::json json_of(const decals::Differences& differences) {
 nlohmann::json compare_all(const Options& options) {
   gpu::Context context(gpu::ContextOptions{});
   gpu::CommandRunner runner(context);
-  std::vector<std::vector<float>> references;  // of each time, for all timelines
+  std::vector<std::vector<float>> references;  // by time, for all timelines
   nlohmann::json results = nlohmann::json::array();
   for (const std::filesystem::path& path : options.timelines) {
     const scenario::Scenario scenario = scenario::load_scenario(path, {}).value_or_throw();
