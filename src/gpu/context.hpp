@@ -49,7 +49,7 @@ struct WindowSemaphores {
 
 class Pipeline;
 
-/// A recording of a context. None is RecordingId{}.
+/// A recording of a context. RecordingId{} stands for none.
 enum class RecordingId : std::uint64_t {};
 
 /// Handles that are no longer used by commands yet to be recorded; null: none.

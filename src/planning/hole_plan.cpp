@@ -21,7 +21,7 @@ double bricks_reached(const shared::HoleReach& reach, float voxel_size) {
   return std::numbers::pi * r * r * (length + 4.0 / 3 * r) / (kEdge * kEdge * kEdge) + 1;
 }
 
-/// Whether it is wide open over its whole length: hole_opening gives 1 at both ends, and so between.
+/// Whether a hole is wide open over its whole length: hole_opening is 1 at both ends, and so between.
 bool is_wide_open(const shared::Hole& hole, float time) {
   constexpr float kTolerance = 1e-4f;  // [s], for rounding
   const float at_muzzle = time - hole.time_start, at_far = at_muzzle - hole.time_to_reach_far;
@@ -41,7 +41,7 @@ void choose_holes(HolePlan& plan, std::span<const shared::Hole> holes, float rim
   const glm::vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size;
   const glm::vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size;
   double pairs = 0;
-  // From the last on, so that the first of too many are omitted.
+  // Backwards, so that the first holes are omitted where there are too many.
   for (std::size_t i = holes.size(); i-- > 0 && plan.holes.size() < shared::kMaxHoles;) {
     const shared::HoleReach open = shared::hole_reach(holes[i], plan.time, rim);
     const shared::HoleReach reach = shared::hole_reach_within(open, low, high);

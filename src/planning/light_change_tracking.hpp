@@ -1,4 +1,4 @@
-// What changed between two frames of what light in the smoke depends on.
+// What changed between two frames that light in the smoke depends on.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct SmokeLightInputs {
   shared::Sky sky{};
   glm::vec3 eye_world{0};
   bool rebuild = false;  ///< Something else changed, walls for instance: no cached ray holds.
-  /// About which fraction of what changed is updated in this frame; in (0, 1].
+  /// About the fraction of what changed that this frame updates, (0, 1].
   float update_fraction = 1;
   bool noise_changed = false;          ///< The noise changed, though the time may not have.
   std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
@@ -64,7 +64,7 @@ class LightChangeTracker {
   /// Adds where densities or walls changed.
   void add_smoke_changes(const SmokeLightInputs& inputs, FrameVector<shared::LightChange>& changes) const;
 
-  /// The frame is the one before from now on.
+  /// From now on the frame is the frame before.
   void store_inputs(const SmokeLightInputs& inputs);
   /// There is no frame before.
   void reset() { last_.reset(); }

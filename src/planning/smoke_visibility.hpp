@@ -14,8 +14,8 @@
 namespace brume::planning {
 
 struct SmokeVisibility {
-  /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
-  /// dim light on its path to what is in view.
+  /// Slots in use whose smoke may be in view, then slots whose smoke may dim light on its path to what is in
+  /// view; both in rising order.
   FrameVector<std::uint32_t> slots;
   std::uint32_t visible_count = 0;  ///< How many of `slots` may be in view.
   Box<float> visible_bounds{};      ///< Around the clouds that may be in view; no volume: none.
@@ -36,14 +36,14 @@ inline float light_interpolation_margin(float voxel_size) {
 FrameVector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
                                           float slack, Allocator memory = {});
 
-/// `lights` are those that reach anything in view, `scene` is a box around all surfaces. Rays through the
+/// `lights` reach something in view, `scene` is a box around all surfaces. Rays through the
 /// smoke run from what is in view to these lights and, through smoke, to the sky (shared/smoke_light.h): all
 /// slots that they can meet are required. What one cloud requires does not depend on clouds that are not.
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
                            std::span<const shared::Light> lights, const Box<float>& scene,
                            Allocator memory = {});
 
-/// As if all were in view.
+/// All smoke, as if it were in view.
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume, Allocator memory = {});
 
 /// Boxes around the required smoke: one for each node of the page table that holds some.

@@ -43,13 +43,13 @@ class VolumeLoader {
   VolumeLoader& operator=(const VolumeLoader&) = delete;
 
   using Results = std::map<Key, Result<LoadedVolume>>;
-  /// Loads these, the first first, instead of those that earlier calls wanted and that have not begun.
-  /// Returns what was loaded of others: a frame that took longer than it was wanted is still newer than the
-  /// one that is shown.
+  /// Loads these keys in order; keys that earlier calls wanted and that have not begun are dropped. Returns
+  /// what was loaded for other keys: a frame that took longer than it was wanted is still newer than the
+  /// frame that is shown.
   Results want(std::vector<Key> keys);
   /// The result of a key, once: it is loaded again if it is wanted again. Empty until it is there.
   std::optional<Result<LoadedVolume>> take(const Key& key);
-  /// The same; waits for it. The last `want` must hold the key.
+  /// As take, but waits for the result. The last `want` must hold the key.
   Result<LoadedVolume> wait(const Key& key);
 
  private:
