@@ -33,7 +33,7 @@ struct BrickPoint {
 /// their border; not on it, where rounding would meet other bricks.
 vec4 texel_at(BrickPoint here, vec3 offset) {
   const vec3 local = clamp(here.local_voxel + offset, vec3(-kInside), vec3(float(kBrickVoxels) + kInside));
-  return textureLod(density_displacement_atlas, (here.corner + local) * frame.volume.bricks.atlas_texel, 0.0);
+  return textureLod(density_displacement_atlas, (here.corner + local) * frame.smoke.bricks.atlas_texel, 0.0);
 }
 
 /// Density before erosion at a point that a surface may run beside.
@@ -49,15 +49,15 @@ float depth_towards(BrickPoint here, float density, vec3 towards) {
   for (uint i = 0u; i < kSideSamples; ++i) {
     const vec3 offset = towards * side_sample(i);
     const vec4 texel = texel_at(here, offset);
-    const vec3 p_world = here.p_world + offset * frame.volume.voxel_size;
+    const vec3 p_world = here.p_world + offset * frame.smoke.voxel_size;
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
     sum += effective_erode(frame.look, texel.r < 0.0 ? density : texel.r, noise);
   }
-  return sum * side_depth(frame.look.extinction, frame.volume.voxel_size);
+  return sum * side_depth(frame.look.extinction, frame.smoke.voxel_size);
 }
 
 vec3 light_at(BrickPoint here, uint slot, vec4 inscatter) {
-  const vec4 side = textureLod(light_side_atlas, (here.corner + here.local_voxel) * frame.volume.bricks.atlas_texel,
+  const vec4 side = textureLod(light_side_atlas, (here.corner + here.local_voxel) * frame.smoke.bricks.atlas_texel,
                                0.0) / inscatter.a;
   const float fraction = length(side.xyz);
   const vec3 light = inscatter.rgb / inscatter.a;
@@ -75,11 +75,11 @@ void main() {
   const uint page = gl_WorkGroupID.z, slot = slots[page];
   BrickPoint here;
   here.local_voxel = fine_texel_position(texel);
-  here.corner = atlas_corner(frame.volume.bricks, slot);
-  here.p_world = frame.volume.origin_world +
-                 (vec3(slot_bricks[slot] * kBrickVoxels) + here.local_voxel) * frame.volume.voxel_size;
+  here.corner = atlas_corner(frame.smoke.bricks, slot);
+  here.p_world = frame.smoke.origin_world +
+                 (vec3(slot_bricks[slot] * kBrickVoxels) + here.local_voxel) * frame.smoke.voxel_size;
   const vec4 inscatter =
-      textureLod(inscatter_atlas, (here.corner + here.local_voxel) * frame.volume.bricks.atlas_texel, 0.0);
+      textureLod(inscatter_atlas, (here.corner + here.local_voxel) * frame.smoke.bricks.atlas_texel, 0.0);
   // What the interpolation of eight bits of weight may leave of nothing.
   const bool known = inscatter.a > 1.0 / 128.0;
   imageStore(fine_light, fine_page_corner(page) + texel,

@@ -23,8 +23,8 @@ void main() {
   const uint lane = gl_LocalInvocationID.x;
   if (lane == 0u) reached = false;
   barrier();
-  const float edge = float(kBrickVoxels) * frame.volume.voxel_size;
-  const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * edge;
+  const float edge = float(kBrickVoxels) * frame.smoke.voxel_size;
+  const vec3 low = frame.smoke.origin_world + vec3(slot_bricks[slot]) * edge;
   for (uint i = lane; i < frame.holes.count; i += 64u) {
     const HoleReach reach = reach_at(i);
     if (!hole_reaches_box(reach, low, edge)) continue;

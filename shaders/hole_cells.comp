@@ -28,13 +28,13 @@ float mean_strength(Hole hole, vec3 low_world, float cell) {
 void main() {
   const uint pair_count = min(counters.pairs, params.pair_capacity);
   const int lane = int(gl_LocalInvocationID.x);
-  const float cell = frame.volume.voxel_size / float(kHoleCellsPerVoxel);
+  const float cell = frame.smoke.voxel_size / float(kHoleCellsPerVoxel);
   for (uint p = gl_WorkGroupID.x; p < pair_count; p += gl_NumWorkGroups.x) {
     const uint slot = pairs[p].x, chunk = hole_cells[slot];
     if (chunk == 0u) continue;
     const Hole hole = hole_at(pairs[p].y);
     const HoleReach reach = reach_at(pairs[p].y);
-    const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
+    const vec3 low = frame.smoke.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
 
     // Slices of cells across the dominant axis of the hole; in each, a rectangle around the hole's axis.
     const vec3 a = abs(reach.forward);

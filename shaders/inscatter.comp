@@ -95,7 +95,7 @@ vec4 light_side_at(vec3 p_voxel, vec3 side, vec3 all) {
   }
   // The march does not know the holes on the path: where they cut the smoke, it replaces as much less.
   const float replaced = whole > 0.0 ? min(fraction, 1.0) * cut / whole : 0.0;
-  return vec4(towards * replaced, whole * side_depth(frame.look.extinction, frame.volume.voxel_size));
+  return vec4(towards * replaced, whole * side_depth(frame.look.extinction, frame.smoke.voxel_size));
 }
 
 void light_texel(LightGather brick, uint local) {
@@ -104,7 +104,7 @@ void light_texel(LightGather brick, uint local) {
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
   const SkyThroughSmoke sky = sky_through_smoke(brick.sky_page, local, p_world);
   const float density = max(texelFetch(filtered_density_atlas, at, 0).r, 0.0);
-  const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
+  const float texel_depth = density * frame.look.extinction * frame.smoke.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
   ManyScatterings many = multiple_scattering(frame.look, sky.escape);
   many.fraction *= excess / interpolation_excess(many.decay, texel_depth);

@@ -44,7 +44,7 @@ vec3 visibility_offset(uint i) {
 bool is_on_side(vec3 texel_voxel, vec3 offset) {
   const vec3 p = texel_voxel + offset, brick = floor(p / float(kBrickVoxels));
   int empty_edge;
-  const uint slot = slot_at(frame.volume.bricks, ivec3(brick), empty_edge);
+  const uint slot = slot_at(frame.smoke.bricks, ivec3(brick), empty_edge);
   return slot == kNoSlot || !is_behind_surface(slot, p - brick * float(kBrickVoxels), -offset);
 }
 

@@ -30,7 +30,7 @@ vec4 fetch_cut(sampler2D smoke, ivec2 tile) {
 }
 
 Estimate estimate(RayEnds e, ivec2 tile, float z) {
-  return at_distance(e, fetch_cut(near, tile), fetch_cut(far, tile), z, frame.media, frame.volume.voxel_size);
+  return at_distance(e, fetch_cut(near, tile), fetch_cut(far, tile), z, frame.media);
 }
 
 /// Largest error of the values between two depths of which only bounds are known.

@@ -62,7 +62,7 @@ vec3 displacement_by_clouds(uint slot, ivec3 local, vec3 p_world) {
     const CloudMotion motion = motions[part.y];
     const vec4 growth = growth_at(part.x, local);
     const vec3 swirl = frame.look.swirl * (motion.swirl_cos * one + motion.swirl_sin * other);
-    sum += cloud_displacement(motion, growth, swirl, frame.volume.voxel_size);
+    sum += cloud_displacement(motion, growth, swirl, frame.smoke.voxel_size);
   }
   return sum.xyz / max(sum.w, 1e-12);
 }
@@ -92,11 +92,11 @@ float retained_fraction(float density, vec3 p_world, vec3 displacement) {
   if (frame.look.erosion <= 0.0) return 1.0;
   vec4 remaining;
   for (uint i = 0u; i < 4u; ++i) {
-    const vec3 within = (vec3(i & 1u, i >> 1u, (i ^ i >> 1u) & 1u) - 0.5) * (0.5 * frame.volume.voxel_size);
+    const vec3 within = (vec3(i & 1u, i >> 1u, (i ^ i >> 1u) & 1u) - 0.5) * (0.5 * frame.smoke.voxel_size);
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + within + displacement, frame.time);
     remaining[i] = effective_erode(frame.look, density, noise);
   }
-  return effective_density(remaining, frame.look.extinction * frame.volume.voxel_size) / max(density, 1e-3);
+  return effective_density(remaining, frame.look.extinction * frame.smoke.voxel_size) / max(density, 1e-3);
 }
 
 void main() {

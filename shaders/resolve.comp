@@ -31,8 +31,7 @@ void main() {
     const ivec2 step = ivec2(i & 1, i >> 1);
     const ivec2 tile = clamp(low + step, ivec2(0), tiles - 1);
     const RayEnds ray = ends[tile.x + tiles.x * tile.y];
-    const Estimate e = at_distance(ray, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.media,
-                                   frame.volume.voxel_size);
+    const Estimate e = at_distance(ray, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.media);
     const vec2 side = mix(1.0 - f, f, vec2(step));
     const float off = e.doubt / kDoubt;
     const float weight = side.x * side.y / (1.0 + off * off);

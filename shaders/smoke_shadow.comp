@@ -105,7 +105,7 @@ void find_block_holes(RayCone cone) {
 
 /// The steps of a ray segment inside the caster bounds.
 RaySteps steps_of(RaySegment segment, uint part) {
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   const float distance = length(segment.to - segment.from);
   RaySteps ray;
   ray.origin_world = segment.from;
@@ -146,8 +146,8 @@ float part_depth(RaySteps ray) {
     cut_holes(ray);
   }
   const float per_sample = ray.ds * frame.look.extinction;
-  const vec3 origin = (ray.origin_world - frame.volume.origin_world) / frame.volume.voxel_size;
-  const vec3 per_metre = ray.direction / frame.volume.voxel_size;
+  const vec3 origin = (ray.origin_world - frame.smoke.origin_world) / frame.smoke.voxel_size;
+  const vec3 per_metre = ray.direction / frame.smoke.voxel_size;
   float depth = 0.0;
   for (uint i = 0u; kRayParts * i + ray.part < ray.count && depth < 10.0; ++i) {
     const vec3 p_voxel = origin + per_metre * (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds);

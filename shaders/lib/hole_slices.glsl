@@ -11,7 +11,7 @@ struct HoleSlices {
 
 /// Distances from the eye to the nearest and the farthest point of the smoke's bounds.
 vec2 smoke_reach() {
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - frame.camera.eye_world;
   const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - frame.camera.eye_world;
   return vec2(length(max(max(low, -high), vec3(0.0))), length(max(abs(low), abs(high))));

@@ -16,8 +16,8 @@
 //   x_extinction                     at a point                      a line in lib/media_extinction.glsl
 //   x_in_cell                        mean of a cell                  a line in lib/media_cells.glsl
 //
-// and a constant in lib/media_set.glsl. No other shader asks which media there are. See CONTRIBUTING.md, "Add a
-// medium".
+// and a constant in lib/media_set.glsl. Rays and boxes are in the world; a medium transforms them to its own voxels. No
+// other shader asks which media there are. See CONTRIBUTING.md, "Add a medium".
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
 #include "lib/media_block.glsl"
@@ -26,13 +26,14 @@
 #include "lib/medium_volumes.glsl"
 
 const bool kSmokeAlone = (kMedia & ~kMediaOfSmoke) == kMediumSmoke;
+const bool kVolumesAlone = (kMedia & kMediaPresent) == kMediumVolumes;
 
 /// They neither scatter nor glow.
-const bool kMediaAbsorb = !kHasSmoke && !kIsLit && !kHasGlow;
+const bool kMediaAbsorb = kVolumesAlone && !kIsLit && !kHasGlow;
 /// One may glow without an extinction.
 const bool kMediaGlow = kHasGlow;
 /// Holes may be in one.
-const bool kMayHaveHoles = kHasSmoke;
+const bool kMayHaveHoles = (kMedia & kMediaWithHoles) != 0u;
 /// Steps may be longer behind what lets little light through.
 const bool kLengthensSteps = kSmokeAlone;
 
@@ -80,7 +81,7 @@ MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
 }
 
 /// Whether all samples of a span are alike.
-bool is_constant(MediaSpan span) { return !kHasSmoke && kHasVolumes && is_constant(span.volumes); }
+bool is_constant(MediaSpan span) { return kVolumesAlone && is_constant(span.volumes); }
 
 struct MediaSample {
   SmokeSample smoke;
@@ -98,7 +99,7 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, fl
   }
   if (kHasVolumes) {
     here.volumes = VolumesSample(0.0, vec3(0.0), vec3(0.0));
-    if (!kHasSmoke || span.volumes.present)
+    if (kVolumesAlone || span.volumes.present)
       here.volumes = sample_volumes(span.volumes, ray.volumes, p_world, t, texture_samples);
   }
   return here;

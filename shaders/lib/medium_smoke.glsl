@@ -36,7 +36,7 @@ struct SmokeSpan {
 };
 
 SmokeSpan smoke_span(WorldRay world, float t, float ds) {
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   const VoxelRay ray = VoxelRay((world.origin - volume.origin_world) * volume.voxels_per_metre,
                                 world.direction * volume.voxels_per_metre);
   const ivec3 brick = ivec3(floor((ray.origin + ray.per_metre * t) / float(kBrickVoxels)));
@@ -110,7 +110,7 @@ float relief_at(SmokeRay ray, Erosion here, vec4 side, inout uint texture_sample
 SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, float transmittance,
                          inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   const vec3 uvw = p_world * volume.texels_per_metre + span.uvw_offset;
   const vec4 texel = textureLod(density_displacement_atlas, uvw, 0.0);
   BrickSample smoke = BrickSample(texel.r, vec3(0.0));
@@ -159,7 +159,7 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, fl
 }
 
 vec3 smoke_inscatter(SmokeSpan span, SmokeSample here, inout uint texture_samples) {
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   ++texture_samples;
   if (!kFineShadows || span.fine_corner.x < 0.0)
     return here.relief *

@@ -20,10 +20,10 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
   MeanSmoke smoke;
   smoke.density = 0.0;
   smoke.local_voxel = p_voxel - brick * float(kBrickVoxels);
-  smoke.slot = slot_at(frame.volume.bricks, ivec3(brick), smoke.empty_edge);
+  smoke.slot = slot_at(frame.smoke.bricks, ivec3(brick), smoke.empty_edge);
   if (smoke.slot != kNoSlot) {
-    const vec3 corner = atlas_corner(frame.volume.bricks, smoke.slot);
-    const vec3 uvw = (corner + smoke.local_voxel) * frame.volume.bricks.atlas_texel;
+    const vec3 corner = atlas_corner(frame.smoke.bricks, smoke.slot);
+    const vec3 uvw = (corner + smoke.local_voxel) * frame.smoke.bricks.atlas_texel;
     const vec2 filtered = textureLod(filtered_density_atlas, uvw, 0.0).rg;
     smoke.density = filtered.r;
     // On the face of a cell: nothing, which only one sample in thousands of a ray for light meets.
@@ -40,7 +40,7 @@ MeanSmoke cut_smoke_at(vec3 p_voxel) {
   return smoke;
 }
 
-vec3 smoke_from_world(vec3 p_world) { return (p_world - frame.volume.origin_world) / frame.volume.voxel_size; }
+vec3 smoke_from_world(vec3 p_world) { return (p_world - frame.smoke.origin_world) / frame.smoke.voxel_size; }
 
 /// Extinction at a point of the caster bounds [1/m]; 0 outside of them.
 float smoke_extinction(vec3 p_voxel) {
@@ -60,7 +60,7 @@ float distance_out_of_cube(vec3 p_voxel, vec3 inverse, float edge) {
 /// near smoke matters most, and end at the distance or at the caster bounds: one voxel each on average up to
 /// 24 / coarse voxels, longer beyond.
 float smoke_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
-  const VolumeLayout volume = frame.volume;
+  const VolumeLayout volume = frame.smoke;
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
   const vec3 t0 = (frame.caster_bounds_min - p_voxel) * inverse, t1 = (frame.caster_bounds_max - p_voxel) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);

@@ -14,7 +14,10 @@ layout(scalar, binding = kBindMarchCounters) readonly buffer Counters {
 };
 
 vec3 holes_view(ViewPixel pixel) {
-  const vec2 inside = clip_to_smoke(frame.camera.eye_world, pixel.direction, pixel.surface_m);
+  const VolumeLayout smoke = frame.smoke;
+  const MediaBox box = MediaBox(smoke.origin_world + smoke.bounds_min * smoke.voxel_size,
+                                smoke.origin_world + smoke.bounds_max * smoke.voxel_size);
+  const vec2 inside = clip_to_box(box, frame.camera.eye_world, pixel.direction, pixel.surface_m);
   const RayHoles holes = holes_of_ray(vec2(pixel.px) + 0.5);
   // Fine enough for the narrowest shots: a quarter of the march's step.
   const float fine = clamp(ceil(4.0 * (inside.y - inside.x) / frame.look.step_length), 0.0, 4096.0);
@@ -80,7 +83,7 @@ vec3 bricks_view(ViewPixel pixel) {
   float through = 1.0;
   const vec3 origin = eye_voxel();
   const float t_end = pixel.surface_m / params.voxel_size;
-  const BrickLayout bricks = frame.volume.bricks;
+  const BrickLayout bricks = frame.smoke.bricks;
   const ivec3 first = bricks.window_origin * kNodeBricks, last = first + bricks.window_size * kNodeBricks;
   Dda d = dda_begin(origin, pixel.direction, first, last, kBrickVoxels, 0.0, t_end);
   while (d.t < d.t_end && through > 0.02) {

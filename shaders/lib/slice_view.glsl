@@ -10,8 +10,8 @@ layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
 
 /// Smoke of a slot's brick at a point of the slice, over the colour of the slice.
 vec3 smoke_on_slice(uint slot, vec3 local_voxel, vec3 colour) {
-  const vec3 texel = frame.volume.bricks.atlas_texel;
-  const vec3 uvw = (atlas_corner(frame.volume.bricks, slot) + local_voxel) * texel;
+  const vec3 texel = frame.smoke.bricks.atlas_texel;
+  const vec3 uvw = (atlas_corner(frame.smoke.bricks, slot) + local_voxel) * texel;
   const BrickSample here = sample_brick(slot, local_voxel, uvw);
   if (kView == kViewDensity) return density_colour(here.density, colour);
   const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb * frame.look.albedo;

@@ -37,17 +37,17 @@ float remaining_in_voxel(uint slot, ivec3 local) {
 float density_at(ivec3 voxel) {
   const ivec3 brick = voxel >> 3;
   int empty_edge;
-  const uint slot = slot_at(frame.volume.bricks, brick, empty_edge);
+  const uint slot = slot_at(frame.smoke.bricks, brick, empty_edge);
   if (slot == kNoSlot) return 0.0;
   const ivec3 local = voxel - brick * kBrickVoxels;
-  const vec3 at = atlas_corner(frame.volume.bricks, slot) + vec3(local) + 0.5;
-  const float density = textureLod(density_atlas, at * frame.volume.bricks.atlas_texel, 0.0).r;
+  const vec3 at = atlas_corner(frame.smoke.bricks, slot) + vec3(local) + 0.5;
+  const float density = textureLod(density_atlas, at * frame.smoke.bricks.atlas_texel, 0.0).r;
   return eroded(density) * remaining_in_voxel(slot, local);
 }
 
 /// As media_in_cell.
 vec4 smoke_in_cell(ivec3 cell) {
-  const int edge = int(frame.indirect.cell_size / frame.volume.voxel_size + 0.5);
+  const int edge = int(frame.indirect.cell_size / frame.smoke.voxel_size + 0.5);
   float sum = 0.0;
   for (int i = 0; i < edge * edge * edge; ++i)
     sum += density_at(cell * edge + ivec3(i % edge, i / edge % edge, i / (edge * edge)));

@@ -9,12 +9,12 @@ ivec3 local_texel(uint local) { return ivec3(local % 10u, local / 10u % 10u, loc
 
 /// Position of a texel of a brick in the atlas.
 ivec3 texel_in_atlas(uint slot, uint local) {
-  return ivec3(atlas_first_texel(frame.volume.bricks, slot)) + local_texel(local);
+  return ivec3(atlas_first_texel(frame.smoke.bricks, slot)) + local_texel(local);
 }
 
 /// Its centre in voxel space.
 vec3 texel_position(uint slot, uint local) { return vec3(slot_bricks[slot] * kBrickVoxels + local_texel(local)) - 0.5; }
 
-vec3 world_from_voxel(vec3 p_voxel) { return frame.volume.origin_world + p_voxel * frame.volume.voxel_size; }
+vec3 world_from_voxel(vec3 p_voxel) { return frame.smoke.origin_world + p_voxel * frame.smoke.voxel_size; }
 
 #endif

@@ -10,9 +10,9 @@
 /// bounds.
 float distance_in_smoke(FrameConstants frame, float depth) {
   const FrameMedia media = frame.media;
-  const vec3 middle = 0.5 * (media.bounds_min + media.bounds_max) * frame.volume.voxel_size;
-  const vec3 half_size = 0.5 * (media.bounds_max - media.bounds_min) * frame.volume.voxel_size;
-  const float along = dot(frame.volume.origin_world + middle - frame.camera.eye_world, frame.camera.forward);
+  const vec3 middle = 0.5 * (media.bounds_min + media.bounds_max);
+  const vec3 half_size = 0.5 * (media.bounds_max - media.bounds_min);
+  const float along = dot(middle - frame.camera.eye_world, frame.camera.forward);
   const float reach = dot(abs(frame.camera.forward), half_size);
   return clamp(view_distance(frame.camera, depth), max(along - reach, 0.0), max(along + reach, 0.0));
 }
@@ -30,7 +30,7 @@ float usually_cut(FrameMedia media, float transmittance) {
 
 /// The smoke between the eye and a surface at distance z, from the results of a ray up to e.near and up to e.far.
 /// Assumes constant density between them. The uncertainty follows from the upper limit 1 of the density.
-Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media, float voxel_size) {
+Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media) {
   Estimate result;
   const float sigma = media.extinction;
   if (z <= e.near) {
@@ -53,7 +53,7 @@ Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media, 
   const float cut = media.opaque_transmittance > 0.0 ? kUsualOpaque : 0.0;
   const float least = max(far_a, near_a * exp(-sigma * (z - e.near)));
   const float most = min(near_a, max(far_a, cut) * exp(min(sigma * (e.far - z), 20.0)));
-  result.doubt = max(most - least, 0.0) * min(span / voxel_size, 1.0);
+  result.doubt = max(most - least, 0.0) * min(span / media.smooth_length, 1.0);
   return result;
 }
 

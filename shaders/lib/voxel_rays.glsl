@@ -24,7 +24,7 @@ uint level_brick(ivec3 brick) {
 
 uint smoke_brick(ivec3 brick) {
   int empty_edge;
-  return slot_at(frame.volume.bricks, brick, empty_edge);
+  return slot_at(frame.smoke.bricks, brick, empty_edge);
 }
 
 /// A brick of the voxels that the view shows, or kNoBrick.

@@ -55,16 +55,17 @@ SHARED_SIZE(SmokeLook, 72);
 /// The most boxes around the media of a frame.
 SHARED_CONST uint kMaxMediaBoxes = 4u;
 struct MediaBox {
-  vec3 low, high;  // [voxel space of the smoke]
+  vec3 low, high;  // in the world [m]
 };
 SHARED_SIZE(MediaBox, 24);
 
-/// All media of a frame together: smoke and volumes.
+/// All media of a frame together.
 struct FrameMedia {
-  vec3 bounds_min;             // where any medium can be [voxel space of the smoke]
+  vec3 bounds_min;             // where any medium can be, in the world [m]
   vec3 bounds_max;
   float extinction;            // upper limit [1/m]
   float step_length;           // of the march, at most [m]
+  float smooth_length;         // over less, densities change little [m]
   float opaque_transmittance;  // below it a ray is opaque
   float coarse_transmittance;  // below it, and again below a quarter of it, steps through smoke alone are twice as long
   uint volume_count;           // besides the smoke, in view
@@ -74,7 +75,7 @@ struct FrameMedia {
   uint box_count;              // at least one, whose
   MediaBox box_0, box_1, box_2, box_3;  // union holds all that the bounds hold: smaller where media are far apart
 };
-SHARED_SIZE(FrameMedia, 172);
+SHARED_SIZE(FrameMedia, 176);
 
 /// Placement of the cells of indirect light (indirect_light.h).
 struct IndirectLayout {
@@ -89,7 +90,7 @@ struct FrameConstants {
   Camera camera;
   Sky sky;
   SmokeLook look;
-  VolumeLayout volume;  // of the smoke
+  VolumeLayout smoke;
   FrameMedia media;
   vec3 caster_bounds_min;  // bounds of the smoke that may dim light on its path to visible smoke [voxel space]
   vec3 caster_bounds_max;
@@ -107,7 +108,7 @@ struct FrameConstants {
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
   IndirectLayout indirect;
 };
-SHARED_SIZE(FrameConstants, 676);
+SHARED_SIZE(FrameConstants, 680);
 
 SHARED_END
 #endif

@@ -27,6 +27,10 @@ SHARED_CONST uint kMediaPresent = 3u;
 SHARED_CONST uint kMediaOfDepths = 67u;
 /// How the smoke is drawn, whatever else there is.
 SHARED_CONST uint kMediaOfSmoke = 6144u;
+/// Those that holes may be in.
+SHARED_CONST uint kMediaWithHoles = 1u;
+/// Those that are drawn with tiles of noise, whatever their look.
+SHARED_CONST uint kMediaWithNoise = 8704u;
 /// Those with which the albedo differs from point to point.
 SHARED_CONST uint kMediaOfAlbedos = 192u;
 

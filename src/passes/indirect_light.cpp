@@ -142,7 +142,7 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
 template <typename... Own>
 void IndirectLightPass::dispatch_lit(gpu::Recorder& recorder, const Inputs& in,
                                      const gpu::ComputePipeline& pipeline, glm::uvec3 threads, Own... own) {
-  recorder.bind(pipeline, {in.volumes.bindings()},
+  recorder.bind(pipeline, {in.media.bindings()},
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindLights, gpu::read(lights_)},
                  {shared::kBindSun, gpu::uniform(in.shadows.sun)},
@@ -156,10 +156,9 @@ void IndirectLightPass::dispatch_lit(gpu::Recorder& recorder, const Inputs& in,
 
 void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) {
   const glm::uvec3 cells(params_.media_high - params_.media_low);
-  const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.casters & kCellMedia);
-  recorder.bind(medium_pass, {in.smoke.bindings(), in.volumes.bindings()},
+  const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.media.set & kCellMedia);
+  recorder.bind(medium_pass, {in.media.bindings()},
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
-                 {shared::kBindHoleCells, gpu::read(in.hole_cells)},
                  {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
                  {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
                 params_);

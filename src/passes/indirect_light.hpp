@@ -6,11 +6,10 @@
 #include <span>
 
 #include "gpu/recorder.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/scene_upload.hpp"
 #include "passes/shadow.hpp"
-#include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/indirect_light_plan.hpp"
 #include "shared/indirect_light.h"
 #include "surfaces/light_cells.hpp"
@@ -29,12 +28,9 @@ class IndirectLightPass {
     const gpu::Buffer& frame;
     const ShadowMaps& shadows;
     const SolidVolume& solid;
-    const SmokeResources& smoke;
-    const gpu::Buffer& hole_cells;  ///< HoleResources::cells
+    MediaResources media;  ///< As light meets them; `reserve` has seen their set.
     const gpu::Image& noise;
-    VolumeResources volumes;
-    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
-    float g = 0;                ///< Mean cosine of the phase function of the smoke, or of the first volume.
+    float g = 0;                   ///< MediaPlan::mean_cosine.
     const gpu::Image& glow_field;  ///< GlowFieldPass::field.
   };
   /// Uploads the level of the last `reserve`.

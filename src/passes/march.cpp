@@ -1,11 +1,9 @@
 #include "passes/march.hpp"
 
 #include "brume_shaders.hpp"
-#include "shared/fine_light.h"
 #include "shared/gbuffer.h"
 #include "shared/light_side.h"
 #include "shared/noise.h"
-#include "shared/volume_light.h"
 
 namespace brume::passes {
 
@@ -47,14 +45,14 @@ MarchPass::MarchPass(gpu::Context& context, const Options& options)
   if (options.media != 0) reserve(options.media);
 }
 
-/// The variant for frames with holes, which are in smoke only.
+/// The variant for frames with holes.
 std::uint32_t MarchPass::with_holes(std::uint32_t media) const {
-  if ((media & shared::kMediumSmoke) == 0) return shared::kHolesNone;
+  if ((media & shared::kMediaWithHoles) == 0) return shared::kHolesNone;
   return options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
 }
 
 std::uint32_t MarchPass::holes_of(const Inputs& in) const {
-  return in.holes.any ? with_holes(in.media) : shared::kHolesNone;
+  return in.media.holes.any ? with_holes(in.media.set) : shared::kHolesNone;
 }
 
 void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
@@ -75,7 +73,7 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
 void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& in, const Rays& rays,
                          const gpu::Buffer& counters) const {
   const auto dispatch_one = [&](std::uint32_t holes) {
-    const gpu::ComputePipeline& pipeline = pipelines_.at({kind, holes, in.media});
+    const gpu::ComputePipeline& pipeline = pipelines_.at({kind, holes, in.media.set});
     bind(recorder, pipeline, in, rays, counters);
     recorder.dispatch_threads(pipeline, rays.smoke.info().size.x, rays.smoke.info().size.y);
   };
@@ -99,18 +97,16 @@ void MarchPass::record_tiles(gpu::Recorder& recorder, const Inputs& in, const Ma
 
 void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                             const gpu::Image& smoke, const gpu::Buffer& counters) const {
-  const gpu::ComputePipeline& pipeline = pipelines_.at({shared::kRaysOfList, holes_of(in), in.media});
+  const gpu::ComputePipeline& pipeline = pipelines_.at({shared::kRaysOfList, holes_of(in), in.media.set});
   bind(recorder, pipeline, in, {in.frame, tiles.list, smoke, smoke}, counters);
   recorder.dispatch_indirect(tiles.list);
 }
 
 void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& in,
                      const Rays& rays, const gpu::Buffer& counters) const {
-  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
+  recorder.bind(pipeline, {in.media.bindings(), in.light.bindings(linear_)},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
-                    {shared::kBindFineLight, gpu::sampled(in.fine_light, linear_)},
-                    {shared::kBindFinePages, gpu::read(in.fine_pages)},
                     {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
                     {shared::kBindDetailTile, gpu::sampled(in.detail, repeat_mips_)},
                     {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
@@ -120,8 +116,6 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindRayEnds, gpu::read(rays.ends)},
                     {shared::kBindSmokeNear, gpu::stored(rays.near)},
                     {shared::kBindMarchList, gpu::read(rays.list)},
-                    {shared::kBindVolumeLight, gpu::sampled(in.volume_light, linear_)},
-                    {shared::kBindSunDepths, gpu::sampled(in.sun_depths, linear_)},
                 });
 }
 

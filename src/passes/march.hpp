@@ -3,10 +3,7 @@
 
 #include <map>
 
-#include "passes/hole_clusters.hpp"
-#include "passes/smoke_upload.hpp"
-#include "passes/volume_upload.hpp"
-#include "shared/media.h"
+#include "passes/media_resources.hpp"
 #include "shared/resolve.h"
 
 namespace brume::passes {
@@ -47,18 +44,12 @@ class MarchPass {
 
   struct Inputs {
     const gpu::Buffer& frame;
-    std::uint32_t media;  ///< Those that are marched through; reserved, with the kind of rays.
-    const SmokeResources& smoke;
-    const gpu::Image& fine_light;   ///< FineLightPass::light.
-    const gpu::Buffer& fine_pages;  ///< FineLightPass::pages.
-    VolumeResources volumes;
-    const gpu::Image& volume_light;  ///< VolumeLightPass::light.
-    const gpu::Image& sun_depths;    ///< VolumeLightPass::sun_depths.
+    MediaResources media;  ///< Their set is reserved, with the kind of rays.
+    MediaLight light;
     const gpu::Image& noise;
     const gpu::Image& detail;  ///< Of the noise.
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
-    const HoleResources& holes;
   };
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,

@@ -57,14 +57,13 @@ void PanePass::reserve(const Needs& needs) {
 
 void PanePass::prepare(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine, const Inputs& in,
                        const SceneResources& scene) const {
-  recorder.prepare_for_draws({gpu::uniform(in.frame), gpu::read(scene.vertices), gpu::read(scene.lights),
-                              gpu::uniform(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
-                              gpu::sampled(in.smoke_shadows.atlas, linear_),
-                              gpu::read(in.smoke_shadows.faces), gpu::sampled(in.smoke, nearest_),
-                              gpu::sampled(in.level.sky.light(), linear_),
-                              gpu::sampled(in.level.indirect_cube, linear_),
-                              gpu::sampled(in.level.solid.texels(), linear_), gpu::read(in.hole_cells)});
-  recorder.prepare_for_draws(shine, {in.bricks.bindings(), in.volumes.bindings()}, {});
+  recorder.prepare_for_draws(
+      {gpu::uniform(in.frame), gpu::read(scene.vertices), gpu::read(scene.lights),
+       gpu::uniform(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
+       gpu::sampled(in.smoke_shadows.atlas, linear_), gpu::read(in.smoke_shadows.faces),
+       gpu::sampled(in.smoke, nearest_), gpu::sampled(in.level.sky.light(), linear_),
+       gpu::sampled(in.level.indirect_cube, linear_), gpu::sampled(in.level.solid.texels(), linear_)});
+  recorder.prepare_for_draws(shine, {in.media.bindings()}, {});
   maps_.prepare_for_draws(recorder, scene);
   recorder.prepare_indices(scene.indices);
 }
@@ -103,7 +102,7 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
                                        {shared::kBindNormalMap, normal},
                                    });
   draw_with(filter_);
-  recorder.bind_for_draws(shine, {in.bricks.bindings(), in.volumes.bindings()},
+  recorder.bind_for_draws(shine, {in.media.bindings()},
                           {
                               {shared::kBindFrame, gpu::uniform(in.frame)},
                               {shared::kBindVertices, gpu::read(scene.vertices)},
@@ -119,7 +118,6 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
                               {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                               {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                               {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
-                              {shared::kBindHoleCells, gpu::read(in.hole_cells)},
                           });
   draw_with(shine);
 }

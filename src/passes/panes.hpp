@@ -4,11 +4,9 @@
 #include <compare>
 #include <map>
 
-#include "passes/hole_clusters.hpp"
 #include "passes/map_samplers.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/shade.hpp"
-#include "passes/smoke_upload.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/view_frustum.hpp"
 
 namespace brume::passes {
@@ -27,7 +25,7 @@ class PanePass {
   /// What a frame needs; each thing that it does not is faster.
   struct Needs {
     bool voxel_shadows = true;  ///< A light may be shadowed by voxels (kShadowByVoxels).
-    std::uint32_t media = ~0u;  ///< Media that light meets: FramePlan::media.casters.
+    std::uint32_t media = ~0u;  ///< Media that light meets: MediaPlan::casters.
     auto operator<=>(const Needs&) const = default;
   };
   struct Inputs {
@@ -37,9 +35,7 @@ class PanePass {
     LevelLight level;
     const gpu::Image& depth;  ///< Reverse depth of the other surfaces: GBuffer::depth.
     const gpu::Image& smoke;  ///< Premultiplied radiance and transmittance of the media up to these.
-    const SmokeResources& bricks;
-    const gpu::Buffer& hole_cells;
-    VolumeResources volumes;  ///< As light meets them.
+    MediaResources media;     ///< As light meets them.
   };
 
   explicit PanePass(gpu::Context& context);

@@ -110,13 +110,13 @@ void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in, c
 void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
   const volume::IndexRange& range = part.texel_lists;
   if (range.count == 0) return;
-  recorder.bind(texels_pass_, {in.smoke.bindings()},
+  recorder.bind(texels_pass_, {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindTexelLists, gpu::read(listed_bricks_)},
                     {shared::kBindLightRows, gpu::read_write(texel_lists_)},
-                    {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
-                    {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
+                    {shared::kBindInscatter, gpu::stored(in.media.smoke.inscatter)},
+                    {shared::kBindLightSide, gpu::stored(in.media.smoke.light_side)},
                     {shared::kBindLightChanges, gpu::read(changes_)},
                 },
                 params_of(range, texels_pass_.group()[0]));
@@ -125,12 +125,12 @@ void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& i
 }
 
 const gpu::ComputePipeline& SmokeLightPass::rays_pass(const Inputs& in) const {
-  return rays_passes_.at(in.casters & kRayMedia);
+  return rays_passes_.at(in.media.set & kRayMedia);
 }
 
 void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                                    std::uint32_t threads) const {
-  recorder.bind(rays_pass(in), {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
+  recorder.bind(rays_pass(in), {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
@@ -148,15 +148,15 @@ void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, co
 
 void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,
                                       const volume::IndexRange& range, std::uint32_t threads) const {
-  recorder.bind(inscatter_pass_, {in.smoke.bindings(), in.holes.bindings()},
+  recorder.bind(inscatter_pass_, {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindLightRows, gpu::read(texel_lists_)},
                     {shared::kBindLightBlocks, gpu::read(ray_pages_)},
                     {shared::kBindLightGathers, gpu::read(gathers_)},
-                    {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
-                    {shared::kBindLightSide, gpu::stored(in.smoke.light_side)},
+                    {shared::kBindInscatter, gpu::stored(in.media.smoke.inscatter)},
+                    {shared::kBindLightSide, gpu::stored(in.media.smoke.light_side)},
                     {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},

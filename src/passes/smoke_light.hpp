@@ -4,11 +4,9 @@
 
 #include <map>
 
-#include "passes/hole_clusters.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/shade.hpp"
 #include "passes/shadow.hpp"
-#include "passes/smoke_upload.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/smoke_light_cache.hpp"
 
 namespace brume::passes {
@@ -21,11 +19,8 @@ class SmokeLightPass {
     const gpu::Buffer& frame;
     const SceneResources& scene;
     const ShadowMaps& shadows;
-    const SmokeResources& smoke;
-    const HoleResources& holes;
     LevelLight level;
-    VolumeResources volumes;
-    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
+    MediaResources media;  ///< As light meets them; `reserve` has seen their set.
   };
   /// What is cached, which a plan with this room may rely on.
   planning::SmokeLightRoom room() const;

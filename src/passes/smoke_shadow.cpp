@@ -55,8 +55,8 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
   params.step_length = kStepMetres;
   params.spread = update.spread;
   params.first = update.first;
-  const gpu::ComputePipeline& pipeline = pipelines_.at(in.casters & kShadowMedia);
-  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
+  const gpu::ComputePipeline& pipeline = pipelines_.at(in.media.set & kShadowMedia);
+  recorder.bind(pipeline, {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},

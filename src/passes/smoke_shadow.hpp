@@ -3,11 +3,9 @@
 
 #include <map>
 
-#include "passes/hole_clusters.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/shadow.hpp"
-#include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/smoke_shadow_cache.hpp"
 
 namespace brume::passes {
@@ -30,10 +28,7 @@ class SmokeShadowPass {
     const SceneResources& scene;
     const ShadowMaps& shadows;
     const SolidVolume& solid;
-    const SmokeResources& smoke;
-    const HoleResources& holes;
-    const VolumeResources& volumes;
-    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
+    MediaResources media;  ///< As light meets them; `reserve` has seen their set.
   };
   /// Makes room for a set of media. Outside of a recording.
   void reserve(std::uint32_t casters);

@@ -71,8 +71,8 @@ void VolumeLightPass::record_light(gpu::Recorder& recorder, const Inputs& in,
   if (!plan.update || plan.sweeps.empty()) return;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, plan.is_alone ? 1u : 0u};
-  const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.casters & kLightMedia);
-  recorder.bind(light_pipeline, {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
+  const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.media.set & kLightMedia);
+  recorder.bind(light_pipeline, {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
@@ -94,8 +94,8 @@ void VolumeLightPass::record_light(gpu::Recorder& recorder, const Inputs& in,
 void VolumeLightPass::record_sweep(gpu::Recorder& recorder, const Inputs& in,
                                    const shared::VolumeLightParams& params, const gpu::Image& depths,
                                    std::uint32_t sweeps) {
-  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.casters & kSweepMedia);
-  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings(), in.volumes.bindings()},
+  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media.set & kSweepMedia);
+  recorder.bind(pipeline, {in.media.bindings()},
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindSweeps, gpu::read(sweeps_)},

@@ -4,10 +4,8 @@
 
 #include <map>
 
-#include "passes/hole_clusters.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/shade.hpp"
-#include "passes/smoke_upload.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/volume_light_plan.hpp"
 
 namespace brume::passes {
@@ -15,14 +13,11 @@ namespace brume::passes {
 class VolumeLightPass {
  public:
   struct Inputs {
-    const gpu::Buffer& frame;   ///< FrameConstants.
-    std::uint32_t casters = 0;  ///< MediaPlan::casters.
+    const gpu::Buffer& frame;  ///< FrameConstants.
     const SceneResources& scene;
     const ShadowMaps& shadows;
     const LevelLight& level;
-    const SmokeResources& smoke;
-    const HoleResources& holes;
-    const VolumeResources& volumes;
+    MediaResources media;          ///< As light meets them; `reserve` has seen their set.
     const gpu::Image& glow_field;  ///< GlowFieldPass::field, of the same volumes.
   };
 

@@ -27,7 +27,7 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.sky = input.environment.sky;
   frame.look = input.smoke.look;
   frame.look.step_length *= input.quality.step_scale;
-  frame.volume = plan.media.smoke;
+  frame.smoke = plan.media.smoke;
   frame.media = plan.media.frame;
   frame.caster_bounds_min = plan.visibility.caster_bounds.low;
   frame.caster_bounds_max = plan.visibility.caster_bounds.high;

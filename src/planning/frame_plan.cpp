@@ -107,16 +107,14 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const SmokeInput& smoke = plan.input.smoke;
   const Quality& quality = plan.input.quality;
   const Allocator memory = history.memory.get();
-  FrameVector<Box<float>> boxes(memory);
-  if (plan.smoke) boxes = smoke_boxes(*plan.smoke, plan.visibility, memory);
-  for (const PlacedVolume& volume : plan.media.volumes)
-    if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
+  const FrameVector<Box<float>> boxes = caster_boxes(plan.media, plan.visibility, plan.smoke, memory);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows(
           {plan.lights, target.sun_clip_from_world, device_camera(plan.input.view.camera, plan.size_px)},
           boxes, target.smoke_shadow_atlas, memory),
       {plan.smoke, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
-       plan.level_changed || plan.volume_light.update || quality.rebuild_light,
+       plan.level_changed || plan.volume_light.update || plan.volume_light.casters_changed ||
+           quality.rebuild_light,
        quality.light_update_fraction},
       memory);
 }
@@ -126,7 +124,7 @@ void plan_smoke_light(FramePlan& plan, const PlanTarget& target, PlanHistory& hi
   plan.smoke_light = &history.smoke_light.plan(
       {plan.smoke, input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
-       plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light ||
+       plan.level_changed || plan.volume_light.casters_changed || input.quality.rebuild_light ||
            (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
        input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version,
        target.room.smoke_light},

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "planning/volume_light_plan.hpp"
-
 namespace brume::planning {
 namespace {
 
@@ -27,7 +25,7 @@ InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan&
     for (const shared::Hole& hole : holes.holes) key.add(hole);
     if (!holes.holes.empty()) key.add(holes.time);  // they open and close
   }
-  add_volumes(key, media, input.volumes);
+  add_casters(key, media, input.volumes);
   return key;
 }
 
@@ -41,12 +39,7 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
   if (!input.level.voxels.grid || bounces == 0) return plan;
   plan.bounces = bounces;
   plan.lights.assign(lights.begin(), lights.end());
-  if (const smoke::SmokeVolume* smoke = input.smoke.volume; smoke && smoke->slot_count() > 0) {
-    const shared::VolumeLayout& layout = smoke->layout();
-    plan.media = {layout.origin_world + layout.bounds_min * layout.voxel_size,
-                  layout.origin_world + layout.bounds_max * layout.voxel_size};
-  }
-  for (const PlacedVolume& volume : media.volumes) plan.media = united(plan.media, volume.bounds_world);
+  plan.media = media.caster_bounds;
   State& next = state_.propose();
   plan.level_changed = !next.has_level || !(input.level.voxels == next.level) ||
                        input.level.hidden_objects != next.hidden_objects;

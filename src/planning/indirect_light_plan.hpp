@@ -17,7 +17,7 @@ namespace brume::planning {
 struct IndirectLightPlan {
   std::uint32_t bounces = 0;          ///< 0: there is none.
   FrameVector<shared::Light> lights;  ///< All of the scene and of the frame, in view or not.
-  Box<float> media = kEmptyBox;       ///< All smoke and the volumes of the frame [world space]; empty: none.
+  Box<float> media = kEmptyBox;       ///< MediaPlan::caster_bounds.
   bool level_changed = false;         ///< Walls or hidden objects, since the last plan with bounces.
   /// What is done in this frame, of bounces * kSlicesPerBounce slices; empty: the light of the frame before
   /// holds. The first slice finds the light of the lights; after the last one all light shows.

@@ -50,17 +50,29 @@ glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {
   return glm::mat4x3(glm::mat4(inverse));
 }
 
-/// Adds a medium inside a box to what the march goes through. `step` is the longest that suits it [m].
-void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, float extinction, float step) {
+/// Around a volume whose axes are those of the world.
+Box<float> world_box(const shared::VolumeLayout& layout) {
+  return {layout.origin_world + layout.bounds_min * layout.voxel_size,
+          layout.origin_world + layout.bounds_max * layout.voxel_size};
+}
+
+/// Adds a medium inside a box in the world to what the march goes through. `step` is the longest that suits
+/// it [m].
+void add_medium(MediaPlan& plan, std::uint32_t bits, const Box<float>& box, float extinction, float step) {
   shared::FrameMedia& frame = plan.frame;
-  const glm::vec3 low = (world.low - plan.smoke.origin_world) / plan.smoke.voxel_size;
-  const glm::vec3 high = (world.high - plan.smoke.origin_world) / plan.smoke.voxel_size;
   const bool first = plan.media == 0;
-  plan.media |= bit;
-  frame.bounds_min = first ? low : glm::min(frame.bounds_min, low);
-  frame.bounds_max = first ? high : glm::max(frame.bounds_max, high);
+  plan.media |= bits;
+  frame.bounds_min = first ? box.low : glm::min(frame.bounds_min, box.low);
+  frame.bounds_max = first ? box.high : glm::max(frame.bounds_max, box.high);
   frame.step_length = first ? step : std::min(frame.step_length, step);
   frame.extinction = (first ? 0 : frame.extinction) + extinction;
+}
+
+/// Adds a medium inside a box in the world to what light meets. `mean_cosine`: of its phase function.
+void add_caster(MediaPlan& plan, std::uint32_t bits, const Box<float>& box, float mean_cosine) {
+  plan.casters |= bits;
+  plan.caster_bounds = united(plan.caster_bounds, box);
+  if (++plan.caster_count == 1) plan.mean_cosine = mean_cosine;
 }
 
 bool has_heat(const VolumeInput& volume) {
@@ -187,12 +199,8 @@ void add_boxes(const VolumeInput& volume, FrameVector<Box<float>>& boxes) {
     boxes.push_back(world_box(volume.world_from_preview, box));
 }
 
-/// Bounds the media by boxes in the world; those of the smoke are in the plan.
+/// Bounds the media by these boxes in the world, joined to as many as a frame has.
 void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
-  const auto to_world = [&](glm::vec3 p) { return plan.smoke.origin_world + p * plan.smoke.voxel_size; };
-  const auto from_world = [&](glm::vec3 p) { return (p - plan.smoke.origin_world) / plan.smoke.voxel_size; };
-  if ((plan.media & shared::kMediumSmoke) != 0)
-    boxes.push_back({to_world(plan.smoke.bounds_min), to_world(plan.smoke.bounds_max)});
   constexpr std::size_t kMostBoxes = 16;  // beyond, to join them takes too long
   if (boxes.size() < 2 || boxes.size() > kMostBoxes) {
     plan.frame.box_0 = {plan.frame.bounds_min, plan.frame.bounds_max};
@@ -203,13 +211,20 @@ void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
   shared::MediaBox* const out[] = {&frame.box_0, &frame.box_1, &frame.box_2, &frame.box_3};
   static_assert(std::size(out) == shared::kMaxMediaBoxes);
   frame.box_count = 0;
-  for (const Box<float>& box : boxes) *out[frame.box_count++] = {from_world(box.low), from_world(box.high)};
+  for (const Box<float>& box : boxes) *out[frame.box_count++] = {box.low, box.high};
 }
 
-/// Adds volumes that may be in view, or all others.
+void add_transfer(InputKey& key, const TransferInput& transfer) {
+  for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
+  for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
+  for (const char letter : transfer.color_map.name) key.add(letter);
+  key.add(transfer.opacity.size());
+  key.add(transfer.color_map.points.size());
+}
+
+/// Adds volumes that may be in view and their boxes, or all others.
 void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const ViewFrustum& frustum,
-                 std::span<const bool> previews, bool in_view) {
-  FrameVector<Box<float>> boxes(plan.volumes.get_allocator());
+                 std::span<const bool> previews, bool in_view, FrameVector<Box<float>>& boxes) {
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const VolumeInput& volume = volumes[i];
     const shared::VolumeLayout& layout = volume.volume->layout();
@@ -223,13 +238,22 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
     const VolumeInput shown = shown_volume(volume, preview);
     plan.volumes.push_back(
         {i, world, instance_of(shown, i), volume_effect(shown), preview, grids_of(shown), {}});
-    plan.casters |= media_of(shown);
+    add_caster(plan, media_of(shown), world, shown.look.anisotropy);
     if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
     if (!in_view) continue;
     add_visible(plan, shown, world);
     add_boxes(volume, boxes);
   }
-  if (in_view) set_boxes(plan, boxes);
+}
+
+/// Adds the smoke that may be in view, and its box.
+void add_smoke(MediaPlan& plan, const FrameInput& input, FrameVector<Box<float>>& boxes) {
+  const shared::SmokeLook& look = input.smoke.look;
+  std::uint32_t bits = shared::kMediumSmoke;
+  if (input.quality.fine_shadows && look.erosion > 0) bits |= shared::kMediumFineShadows;
+  if (input.quality.detail && look.erosion > 0 && look.detail > 0) bits |= shared::kMediumDetail;
+  boxes.push_back(world_box(plan.smoke));
+  add_medium(plan, bits, boxes.back(), look.extinction, look.step_length);
 }
 
 /// The sun of the volumes: the first directional light.
@@ -266,16 +290,18 @@ shared::VolumeDetail volume_detail(const VolumeInput& volume) {
 }
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
+  const Box<float> box = world_box(smoke);
   shared::FrameMedia media{};
-  media.bounds_min = smoke.bounds_min;
-  media.bounds_max = smoke.bounds_max;
+  media.bounds_min = box.low;
+  media.bounds_max = box.high;
   media.extinction = look.extinction;
   media.step_length = look.step_length;
+  media.smooth_length = smoke.voxel_size;
   media.opaque_transmittance = look.opaque_transmittance;
   media.coarse_transmittance = shared::coarse_below(look.opaque_transmittance);
   media.to_sun = glm::vec3(0, 1, 0);
   media.box_count = 1;
-  media.box_0 = {smoke.bounds_min, smoke.bounds_max};
+  media.box_0 = {box.low, box.high};
   return media;
 }
 
@@ -300,6 +326,38 @@ void set_tables(MediaPlan& plan, std::span<const VolumeTables> tables) {
   for (PlacedVolume& placed : plan.volumes) placed.tables = tables[placed.index];
 }
 
+FrameVector<Box<float>> caster_boxes(const MediaPlan& plan, const SmokeVisibility& visibility,
+                                     const smoke::SmokeBricks* smoke, Allocator memory) {
+  FrameVector<Box<float>> boxes(memory);
+  if (smoke) boxes = smoke_boxes(*smoke, visibility, memory);
+  for (const PlacedVolume& volume : plan.volumes)
+    if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
+  return boxes;
+}
+
+void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes) {
+  for (const PlacedVolume& visible : media.volumes) {
+    const VolumeInput& input = volumes[visible.index];
+    const volume::SparseVolume& volume = *shown_volume(input, visible.is_preview).volume;
+    key.add(volume.id());
+    key.add(volume.revision());
+    key.add(visible.instance.voxel_from_world);
+    key.add(visible.instance.bounds_min);
+    key.add(visible.instance.bounds_max);
+    key.add(visible.instance.look);
+    key.add(visible.instance.transfer);
+    key.add(visible.instance.is_dense);
+    add_transfer(key, input.transfer);
+    key.add(input.colors ? input.colors->id() : 0);
+    key.add(input.colors ? input.colors->revision() : 0);
+  }
+}
+
+std::array<std::uint32_t, 2> media_of_other_quality(std::uint32_t media) {
+  if ((media & shared::kMediumSmoke) == 0) return {media, media};
+  return {media ^ shared::kMediumFineShadows, media & ~shared::kMediaOfSmoke};
+}
+
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan) {
   return std::span(plan.volumes).first(plan.frame.volume_count);
 }
@@ -322,23 +380,29 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
                                           " volumes; at most " + std::to_string(shared::kMaxVolumes));
   MediaPlan plan{.volumes = FrameVector<PlacedVolume>(memory)};
   const bool has_smoke = smoke && input.smoke.volume && input.smoke.volume->slot_count() > 0;
-  plan.smoke.voxel_size = 1;
+  plan.smoke.voxel_size = 1;  // by which shaders divide
   if (has_smoke) plan.smoke = smoke->layout();
   plan.smoke.bounds_min = visibility.visible_bounds.low;
   plan.smoke.bounds_max = visibility.visible_bounds.high;
-  if (visibility.visible_count > 0) {
-    plan.media = shared::kMediumSmoke;
-    const shared::SmokeLook& look = input.smoke.look;
-    if (input.quality.fine_shadows && look.erosion > 0) plan.media |= shared::kMediumFineShadows;
-    if (input.quality.detail && look.erosion > 0 && look.detail > 0) plan.media |= shared::kMediumDetail;
-  }
   plan.frame = smoke_media(plan.smoke, input.smoke.look);
-  for (const bool in_view : {true, false}) add_volumes(plan, input.volumes, frustum, previews, in_view);
-  if (has_smoke || plan.casters == 0) plan.casters |= shared::kMediumSmoke;
+
+  // Each medium: where it is in view, and where light meets it.
+  FrameVector<Box<float>> boxes(memory);
+  if (visibility.visible_count > 0) add_smoke(plan, input, boxes);
+  if (has_smoke)
+    add_caster(plan, shared::kMediumSmoke, world_box(input.smoke.volume->layout()),
+               shared::mean_cosine(input.smoke.look.phase));
+  for (const bool in_view : {true, false})
+    add_volumes(plan, input.volumes, frustum, previews, in_view, boxes);
+
+  // All of them.
+  set_boxes(plan, boxes);
   add_sun(plan, lights);
-  // A frame of nothing is one of smoke that is nowhere.
-  if (plan.media == 0) plan.media = shared::kMediumSmoke;
+  plan.needs_noise = (has_smoke && smoke->slot_count() > 0) || (plan.media & shared::kMediaWithNoise) != 0;
   plan.frame.step_length *= input.quality.step_scale;
+  // Without any, the pipelines are those of smoke, which later frames probably need.
+  if (plan.media == 0) plan.media = shared::kMediumSmoke;
+  if (plan.casters == 0) plan.casters = shared::kMediumSmoke;
   return plan;
 }
 

@@ -1,10 +1,12 @@
-// The media of a frame: which volumes are visible, which cast shadows into view, and what the march needs to
-// know of volumes and smoke together.
+// The media of a frame: which are visible, which cast shadows into view, and what rays need to know of all of
+// them together.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "planning/frame_input.hpp"
+#include "planning/input_key.hpp"
 #include "planning/smoke_visibility.hpp"
 #include "planning/view_frustum.hpp"
 #include "planning/volume_tables.hpp"
@@ -25,7 +27,7 @@ struct PlacedVolume {
   Box<float> bounds_world;
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
   shared::VolumeEffect effect{};      ///< Tints and disturbance.
-  bool is_preview = false;            ///< Of the previews of density and heat, where they have one.
+  bool is_preview = false;            ///< Density and heat are previews, where they have one.
   ShownGrids grids{};
   VolumeTables tables{};
 };
@@ -35,12 +37,16 @@ struct MediaPlan {
   std::uint32_t casters = 0;  ///< The same of all that may cast shadows, in view or not.
   /// Those that may be in view, FrameMedia::volume_count, before those that only cast shadows.
   FrameVector<PlacedVolume> volumes;
-  shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
+  shared::VolumeLayout smoke{};  ///< The smoke in view; without smoke empty, with voxels of 1 m.
   shared::FrameMedia frame{};
-  std::uint32_t sun = shared::kNoSun;  ///< In the frame's lights: that of FrameMedia::to_sun.
+  Box<float> caster_bounds = kEmptyBox;  ///< Around all that light may meet, in the world; empty: nothing.
+  std::uint32_t caster_count = 0;        ///< Media that light may meet: the smoke, and each volume.
+  float mean_cosine = 0;                 ///< Mean cosine of scattering in the first of them.
+  bool needs_noise = false;              ///< A medium is drawn with tiles of noise.
+  std::uint32_t sun = shared::kNoSun;    ///< In the frame's lights: that of FrameMedia::to_sun.
 };
 
-/// Of the smoke alone.
+/// The media of a frame of smoke alone.
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
 
 /// The tints, the disturbance and the place of the detail of a volume.
@@ -55,6 +61,16 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview);
 /// Gives the volumes of a plan their tables; `tables`: of each volume of the input.
 void set_tables(MediaPlan& plan, std::span<const VolumeTables> tables);
 
+/// Boxes in the world around all that may cast shadows. `visibility` and `smoke`: as for plan_media.
+FrameVector<Box<float>> caster_boxes(const MediaPlan& plan, const SmokeVisibility& visibility,
+                                     const smoke::SmokeBricks* smoke, Allocator memory = {});
+
+/// Adds what light follows from of all that it may meet but the smoke, whose caches have keys of their own.
+void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
+
+/// The sets of media that frames of other qualities march through instead of this one.
+std::array<std::uint32_t, 2> media_of_other_quality(std::uint32_t media);
+
 /// The volumes of a plan that may be in view.
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);
 
@@ -62,7 +78,7 @@ std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);
 void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes, std::span<const bool> previews);
 
 /// `previews`: of each volume of the input, whether its preview is shown; empty: none. `smoke`: that of the
-/// visibility; null: none.
+/// visibility; null: none. All boxes of the media, those of the frame included, are in the world [m].
 /// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
                      std::span<const shared::Light> lights, std::span<const bool> previews = {},

@@ -27,14 +27,6 @@ constexpr std::array<glm::vec3, shared::kSkySweeps> kSkyDirections{glm::vec3(1, 
                                                                    glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
                                                                    glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)};
 
-void add_transfer(InputKey& key, const TransferInput& transfer) {
-  for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
-  for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
-  for (const char letter : transfer.color_map.name) key.add(letter);
-  key.add(transfer.opacity.size());
-  key.add(transfer.color_map.points.size());
-}
-
 InputKey key_of_others(const VolumeLightInputs& in, Allocator memory) {
   InputKey key(memory);
   key.add(in.media->frame.volume_count);
@@ -42,7 +34,7 @@ InputKey key_of_others(const VolumeLightInputs& in, Allocator memory) {
   key.add(in.sky.ambient);
   key.add(in.sky.bounce);
   key.add(in.indirect_version);
-  if ((in.media->casters & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
+  if (in.smoke && in.smoke->slot_count() > 0) {
     key.add(in.smoke->revision());
     key.add(in.smoke_look);
     key.add(in.time);
@@ -78,24 +70,6 @@ std::uint32_t edge_of(const MediaPlan& media, Resolution resolution, Resolution 
 
 }  // namespace
 
-void add_volumes(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes) {
-  for (const PlacedVolume& visible : media.volumes) {
-    const VolumeInput& input = volumes[visible.index];
-    const volume::SparseVolume& volume = *shown_volume(input, visible.is_preview).volume;
-    key.add(volume.id());
-    key.add(volume.revision());
-    key.add(visible.instance.voxel_from_world);
-    key.add(visible.instance.bounds_min);
-    key.add(visible.instance.bounds_max);
-    key.add(visible.instance.look);
-    key.add(visible.instance.transfer);
-    key.add(visible.instance.is_dense);
-    add_transfer(key, input.transfer);
-    key.add(input.colors ? input.colors->id() : 0);
-    key.add(input.colors ? input.colors->revision() : 0);
-  }
-}
-
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction) {
   // Axes across the direction, and the extent of the bounds along all three.
   const glm::vec3 side = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
@@ -122,12 +96,12 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
 
 VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in, Allocator memory) {
   VolumeLightPlan plan{.sweeps = FrameVector<shared::VolumeSweep>(memory)};
-  InputKey volumes_key(memory);
-  add_volumes(volumes_key, *in.media, in.volumes);
+  InputKey casters(memory);
+  add_casters(casters, *in.media, in.volumes);
   const State& before = state_.now();
   State& next = state_.propose();
-  plan.volumes_changed = volumes_key != before.volumes;
-  next.volumes = volumes_key;
+  plan.casters_changed = casters != before.casters;
+  next.casters = casters;
   next.others.clear();
   if (in.media->frame.volume_count == 0) return plan;
 
@@ -145,9 +119,9 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in, Allocator me
   if (!plan.is_lit) return plan;
 
   // Whether the light of the frame before holds.
-  plan.is_alone = in.media->volumes.size() == 1 && (in.media->casters & shared::kMediumSmoke) == 0;
+  plan.is_alone = in.media->caster_count == 1;
   const InputKey key = key_of_others(in, memory);
-  plan.update = in.rebuild || plan.volumes_changed || key != before.others || !fits(plan, *in.media, in.room);
+  plan.update = in.rebuild || plan.casters_changed || key != before.others || !fits(plan, *in.media, in.room);
   next.others = key;
   return plan;
 }

@@ -22,7 +22,7 @@ struct VolumeLightPlan {
   bool is_lit = true;                       ///< A volume in view scatters or emits by its extinction.
   bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
-  bool volumes_changed = false;             ///< Other volumes cast shadows than in the frame before.
+  bool casters_changed = false;             ///< Other media cast shadows than in the frame before (add_casters).
 };
 
 /// The cubes of light that the device holds: where a plan needs others, their light is lost.
@@ -58,14 +58,11 @@ class VolumeLightCache {
 
  private:
   struct State {
-    InputKey volumes;  ///< The volumes of the last plan.
+    InputKey casters;  ///< add_casters of the last plan.
     InputKey others;   ///< All other inputs of the last update; empty: there was none.
   };
   Proposed<State> state_;
 };
-
-/// Adds what the light in the volumes of a frame follows from, of the volumes themselves.
-void add_volumes(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
 
 /// The rays along `direction` (unit) through a volume's bounds.
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction);

@@ -155,19 +155,22 @@ void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recor
 
 FrameResources Renderer::resources(const FramePlan& plan) const {
   BRUME_ASSERT(plan.number == history_.plans, "a plan that another one or invalidate() has replaced");
+  const auto media = [&](std::uint32_t set, const passes::VolumeResources& volumes) {
+    return passes::MediaResources{set, smoke_.resources(), smoke_.holes(), volumes};
+  };
   return {.frame = frame_,
           .targets = targets_,
           .blue_noise = blue_noise_,
           .scene = level_.resources(),
           .shadows = level_.shadows(),
           .level = level_.light(),
-          .smoke = smoke_.resources(),
-          .holes = smoke_.holes(),
+          .media = media(plan.media.media, volumes_.resources()),
+          .lit_media = media(plan.media.casters, volumes_.lit_resources()),
+          .media_light = {smoke_.fine_light().light(), smoke_.fine_light().pages(), volumes_.light().light(),
+                          volumes_.light().sun_depths()},
           .noise = march_.noise(),
           .detail = march_.detail(),
           .smoke_shadows = smoke_.shadows(),
-          .volumes = volumes_.resources(),
-          .lit_volumes = volumes_.lit_resources(),
           .glow_field = volumes_.glow_field(),
           .step_counters = picture_ ? picture_->step_counters(plan) : nullptr};
 }
@@ -276,7 +279,7 @@ void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, cons
 }
 
 void Renderer::record_march(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
-  march_.record(recorder, plan, in, {smoke_.fine_light(), volumes_.light()});
+  march_.record(recorder, plan, in);
 }
 
 void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

@@ -27,7 +27,7 @@ class AccumulateTest : public gpu::GpuTest {
     for (const float d : distances) reverse.push_back(0.05f / d);
     const auto image = upload_image(context(), runner(), kFrameSize, VK_FORMAT_R16G16B16A16_SFLOAT, halves);
     const auto depth = upload_image(context(), runner(), kFrameSize, VK_FORMAT_R32_SFLOAT, reverse);
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& r) { pass_.record(r, buffer, frame.camera, depth, image, continues); });
     Texels shown;

@@ -32,7 +32,7 @@ class AntialiasTest : public gpu::GpuTest {
     const glm::mat4 middle = frame.camera.clip_from_world;
     frame.camera.shift = 2.0f * glm::vec2(jitter.x, -jitter.y) / glm::vec2(kFrameSize);
     frame.exposure = 1;
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     std::vector<Half4> radiance, media;
     for (std::uint32_t y = 0; y < kFrameSize.y; ++y)
       for (std::uint32_t i = 0; i < kFrameSize.x; ++i)

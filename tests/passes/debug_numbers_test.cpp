@@ -151,8 +151,8 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
   expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
     const Ray ray = ray_of(frame, surfaces, position_px);
     // Within the smoke's bounds and before the surface.
-    const glm::vec3 a = (frame.volume.bounds_min - ray.eye_voxel) / ray.direction,
-                    b = (frame.volume.bounds_max - ray.eye_voxel) / ray.direction;
+    const glm::vec3 a = (frame.smoke.bounds_min - ray.eye_voxel) / ray.direction,
+                    b = (frame.smoke.bounds_max - ray.eye_voxel) / ray.direction;
     const glm::vec3 enter = glm::min(a, b), leave = glm::max(a, b);
     const float begin = std::max({enter.x, enter.y, enter.z, 0.0f}) * grid.voxel_size;
     const float end = std::min({std::min({leave.x, leave.y, leave.z}) * grid.voxel_size, ray.surface_m});

@@ -40,7 +40,7 @@ class DebugViewTest : public gpu::GpuTest {
     const glm::vec3 right = glm::normalize(glm::cross(frame.camera.forward, glm::vec3(0, 1, 0)));
     frame.camera.right = 0.8f * right;
     frame.camera.up = 0.45f * glm::cross(right, frame.camera.forward);
-    frame.volume = room_.volume.layout();
+    frame.smoke = room_.volume.layout();
     frame.look.albedo = glm::vec3(0.9f);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
@@ -153,7 +153,7 @@ class DebugViewTest : public gpu::GpuTest {
         sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(surfaces.normal)));
     gbuffer.depth = sampled_image(size, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(surfaces.depth)));
     const auto holes =
-        planning::plan_holes(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
+        planning::plan_holes(open_, frame.time, 0, frame.smoke, room_.volume.slot_count(), size);
     holes_.reserve(holes);
     frame.holes = holes.layout();
     const auto frame_buffer = upload(std::vector{frame});

@@ -21,9 +21,9 @@ inline shared::FrameConstants frame_at(float x) {
   frame.camera.clip_from_world[1] = {0, -1 / 0.4f, 0, 0};
   frame.camera.clip_from_world[2] = {0, 0, 0, -1};
   frame.camera.clip_from_world[3] = {-x / 0.8f, 0, 0.05f, 8};
-  frame.volume.voxel_size = 0.5f;
-  frame.volume.origin_world = glm::vec3(-10);
-  frame.volume.bounds_max = {400, 40, 40};
+  frame.smoke.voxel_size = 0.5f;
+  frame.smoke.origin_world = glm::vec3(-10);
+  frame.smoke.bounds_max = {400, 40, 40};
   frame.size_px = kFrameSize;
   frame.look.extinction = 1;
   return frame;

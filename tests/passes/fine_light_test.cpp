@@ -17,7 +17,7 @@ class FineLightTest : public gpu::GpuTest {
     const NoisePass noise(context());
     noise_tile_ = make_noise_tile(context(), 8);
     runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_tile_, {8, 2, 1}); });
-    frame_.volume = room_.volume.layout();
+    frame_.smoke = room_.volume.layout();
     frame_.look.extinction = 0.7f;
     frame_.look.noise_frequency = 1;
   }
@@ -76,7 +76,7 @@ TEST_F(FineLightTest, IsUnknownWhereThatOfTheTexelsIs) {
 // The depth that texels know of the path is replaced by its real one: density is 1.
 TEST_F(FineLightTest, ReplacesTheDepthOfThePathTowardsTheLight) {
   const float depth =
-      float{shared::kSideSamples} * shared::side_depth(frame_.look.extinction, frame_.volume.voxel_size);
+      float{shared::kSideSamples} * shared::side_depth(frame_.look.extinction, frame_.smoke.voxel_size);
   planning::FineLightPlan inside;
   inside.slots = {room_.volume.slot_at({1, 0, 1})};
   inside.pages.assign(room_.volume.slot_count(), 0);

@@ -9,6 +9,7 @@
 #include "passes/march.hpp"
 #include "passes/noise.hpp"
 #include "tests/passes/half.hpp"
+#include "tests/passes/smoke_alone.hpp"
 #include "tests/passes/smoke_room.hpp"
 #include "tests/planning/random_holes.hpp"
 
@@ -44,7 +45,7 @@ class HoleClustersTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {0.9f, 0, 0};
     frame.camera.up = {0, 0.55f, 0};
-    frame.volume = room_.volume.layout();
+    frame.smoke = room_.volume.layout();
     frame.size_px = kSize;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.3f;
@@ -53,11 +54,11 @@ class HoleClustersTest : public gpu::GpuTest {
     frame.look.hole_rim = 0.06f;
     frame.time = 1;
     HoleClusters hole_clusters(context(), runner(), {});
-    const auto plan = planning::plan_holes(holes, frame.time, frame.look.hole_rim, frame.volume,
+    const auto plan = planning::plan_holes(holes, frame.time, frame.look.hole_rim, frame.smoke,
                                            room_.volume.slot_count(), kSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
@@ -69,9 +70,8 @@ class HoleClustersTest : public gpu::GpuTest {
       hole_clusters.record(recorder, plan, frame_buffer, smoke);
       (plain ? plain_ : march_)
           .record(recorder,
-                  {frame_buffer, shared::kMediumSmoke, smoke, volumes_.resources().values, smoke.filled,
-                   volumes_.resources(), volumes_.resources().values, volumes_.resources().values,
-                   noise_tile_, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+                  {frame_buffer, smoke_alone(smoke, hole_clusters, volumes_), no_light(smoke, volumes_),
+                   noise_tile_, noise_tile_, depth_image, blue_noise_},
                   target, counters);
     });
     return read_back<Half4>(target);

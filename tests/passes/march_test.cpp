@@ -8,6 +8,7 @@
 #include "passes/resolve.hpp"
 #include "shared/opaque.h"
 #include "tests/passes/half.hpp"
+#include "tests/passes/smoke_alone.hpp"
 #include "tests/passes/smoke_room.hpp"
 
 namespace brume::passes {
@@ -34,7 +35,7 @@ class MarchTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {0.8f, 0, 0};
     frame.camera.up = {0, 0.4f, 0};
-    frame.volume = room.volume.layout();
+    frame.smoke = room.volume.layout();
     frame.size_px = kImageSize;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
@@ -55,22 +56,21 @@ class MarchTest : public gpu::GpuTest {
     const auto depth_image = upload_image(context(), runner(), kImageSize, VK_FORMAT_R32_SFLOAT, depth);
     HoleClusters hole_clusters(context(), runner(), {});
     const auto plan =
-        planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kImageSize);
+        planning::plan_holes(holes, frame.time, 0, frame.smoke, room.volume.slot_count(), kImageSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kImageSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
-      march_.record(recorder,
-                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources().values,
-                     room.upload.resources().filled, volumes_.resources(), volumes_.resources().values,
-                     volumes_.resources().values, noise_tile_, noise_tile_, depth_image, blue_noise_,
-                     hole_clusters.resources()},
-                    target, counters);
+      march_.record(
+          recorder,
+          {frame_buffer, smoke_alone(room.upload.resources(), hole_clusters, volumes_),
+           no_light(room.upload.resources(), volumes_), noise_tile_, noise_tile_, depth_image, blue_noise_},
+          target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;
@@ -152,7 +152,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
   const HoleClusters no_holes(context(), runner(), {});
   for (const std::uint32_t scale : {1u, 2u, 4u}) {
     frame.march_scale = scale;
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     std::optional<MarchTiles> blocks;
     if (scale > 1) blocks.emplace(context(), kImageSize, scale);
@@ -160,18 +160,12 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
       recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       recorder.fill(counters, 0);
       const MarchPass::Inputs in{frame_buffer,
-                                 shared::kMediumSmoke,
-                                 room_.upload.resources(),
-                                 volumes_.resources().values,
-                                 room_.upload.resources().filled,
-                                 volumes_.resources(),
-                                 volumes_.resources().values,
-                                 volumes_.resources().values,
+                                 smoke_alone(room_.upload.resources(), no_holes, volumes_),
+                                 no_light(room_.upload.resources(), volumes_),
                                  noise_tile_,
                                  noise_tile_,
                                  depth,
-                                 blue_noise_,
-                                 no_holes.resources()};
+                                 blue_noise_};
       if (scale == 1) return counting.record(recorder, in, target, counters);
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);

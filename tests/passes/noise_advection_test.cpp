@@ -134,7 +134,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     noise_ = make_noise_tile(context(), smoke::kSmokeNoise.size);
     const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
-    frame_.volume = room_.volume.layout();
+    frame_.smoke = room_.volume.layout();
     frame_.look.noise_frequency = 1.0f / 6;
     frame_.look.swirl = 0.2f;
     frame_.look.swirl_width = 3;
@@ -191,7 +191,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
       room_.upload.record(recorder, room_.volume);
       room_.upload.record_visibility(recorder, planning::all_smoke_visible(room_.volume));
     });
-    frame_.volume = room_.volume.layout();
+    frame_.smoke = room_.volume.layout();
   }
   std::size_t compare_with_processor(double seconds, auto compared);
 

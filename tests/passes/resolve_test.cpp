@@ -9,6 +9,7 @@
 #include "passes/blue_noise.hpp"
 #include "passes/noise.hpp"
 #include "tests/passes/half.hpp"
+#include "tests/passes/smoke_alone.hpp"
 #include "tests/passes/smoke_room.hpp"
 
 namespace brume::passes {
@@ -36,7 +37,7 @@ class ResolveTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {0.1f, 0, 0};
     frame.camera.up = {0, 0.05f, 0};
-    frame.volume = room.volume.layout();
+    frame.smoke = room.volume.layout();
     frame.size_px = size;
     frame.march_scale = scale;
     frame.resolve_error = shared::kResolveError;
@@ -45,7 +46,7 @@ class ResolveTest : public gpu::GpuTest {
     frame.look.step_length = 0.1f;
     frame.look.noise_frequency = 1;
     frame.exposure = 1;
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     return frame;
   }
 
@@ -59,27 +60,21 @@ class ResolveTest : public gpu::GpuTest {
     const auto depth = upload_image(context(), runner(), size, VK_FORMAT_R32_SFLOAT, reverse);
     const auto emission = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT,
                                        std::vector<Half4>(size.x * size.y, to_half(glm::vec4(0))));
-    frame.media = planning::smoke_media(frame.volume, frame.look);
+    frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
     HoleClusters holes(context(), runner(), {});
-    const auto no_holes = planning::plan_holes({}, 0, 0, frame.volume, room.volume.slot_count(), size);
+    const auto no_holes = planning::plan_holes({}, 0, 0, frame.smoke, room.volume.slot_count(), size);
     holes.reserve(no_holes);
     const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
     const MarchPass::Inputs in{frame_buffer,
-                               shared::kMediumSmoke,
-                               room.upload.resources(),
-                               volumes_.resources().values,
-                               room.upload.resources().filled,
-                               volumes_.resources(),
-                               volumes_.resources().values,
-                               volumes_.resources().values,
+                               smoke_alone(room.upload.resources(), holes, volumes_),
+                               no_light(room.upload.resources(), volumes_),
                                noise_tile_,
                                noise_tile_,
                                depth,
-                               blue_noise_,
-                               holes.resources()};
+                               blue_noise_};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       holes.record(recorder, no_holes, frame_buffer, room.upload.resources());

@@ -49,7 +49,7 @@ struct SmokeRoom {
   /// The medium of smoke that no noise eats from.
   void make_still_medium(gpu::Context& context, gpu::CommandRunner& runner) {
     shared::FrameConstants constants{};
-    constants.volume = volume.layout();
+    constants.smoke = volume.layout();
     constants.look.swirl_width = 1;
     const gpu::Buffer layout(context, sizeof constants,
                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);

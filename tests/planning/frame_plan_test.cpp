@@ -131,6 +131,23 @@ TEST_F(FramePlanTest, EditsAndHiddenObjectsOfTheLevelReachWhatTheyMayChange) {
   EXPECT_FALSE(plan().smoke_shadows);
 }
 
+// Light in such a volume is never found, but its shadow is marched.
+TEST_F(FramePlanTest, ShadowsFollowAVolumeThatScattersNothing) {
+  volume::SparseVolume volume({{}, 1, {{2}}});
+  volume.begin_update();
+  volume.acquire({0, 0, 0});
+  volume.set_bounds(glm::vec3(0), glm::vec3(8));
+  volume.end_update();
+  input_.volumes = {{&volume, glm::mat4(1), {glm::vec3(0), 1, glm::vec3(0), 0, 0}, {}}};
+  EXPECT_TRUE(plan().smoke_shadows);
+  EXPECT_FALSE(plan().smoke_shadows);
+  input_.volumes[0].look.extinction = 2;
+  const FramePlan changed = plan();
+  EXPECT_FALSE(changed.volume_light.update);
+  EXPECT_TRUE(changed.smoke_shadows);
+  EXPECT_FALSE(plan().smoke_shadows);
+}
+
 TEST_F(FramePlanTest, OnlyAQuarterOfTheLightOrLessSlicesNoise) {
   input_.smoke.look.erosion = 0.5f;
   EXPECT_FALSE(plan().noise.slots_due);

@@ -66,7 +66,7 @@ class VolumeLightCacheTest : public testing::Test {
   VolumeLightPlan plan() {
     MediaPlan media;
     media.media = media.casters = shared::kMediumVolumes | (is_lit_ ? shared::kMediumLit : 0);
-    media.frame.volume_count = media.frame.caster_count = 1;
+    media.frame.volume_count = media.frame.caster_count = media.caster_count = 1;
     PlacedVolume visible;
     visible.instance.voxel_from_world = visible.instance.world_from_voxel =
         glm::mat4x3(inputs_[0].world_from_voxel);
@@ -174,27 +174,6 @@ TEST_F(VolumeLightCacheTest, ADenseVolumeHasACellPerVoxel) {
   EXPECT_EQ(dense.edge, 128u);
   size_ = glm::vec3(1000);
   EXPECT_EQ(plan().edge, 128u) << "at most";
-}
-
-TEST(MediaPlan, MarchesAVolumeThatIsOpaqueWithinAVoxelByHalfAVoxel) {
-  volume::SparseVolume volume({{}, 1, {{2}}});
-  volume.begin_update();
-  volume.acquire({0, 0, 0});
-  volume.set_bounds(glm::vec3(0), glm::vec3(8));
-  volume.end_update();
-  FrameInput input;
-  input.view.camera = {{4, 4, 30}, {4, 4, 4}, 0.9f};
-  input.volumes = {{&volume, glm::mat4(1), {glm::vec3(1), 1, glm::vec3(0), 0, 1}, {}}};
-  const ViewFrustum frustum(device_camera(input.view.camera, {16, 16}));
-  for (const bool dense : {false, true}) {
-    // Just below and just above.
-    input.volumes[0].voxel_depth = shared::kDenseVoxelDepth * (dense ? 1.001f : 0.999f);
-    const MediaPlan plan = plan_media(input, {}, frustum, {});
-    EXPECT_EQ((plan.media & shared::kMediumDense) != 0, dense);
-    EXPECT_EQ((plan.casters & shared::kMediumDense) != 0, dense);
-    EXPECT_EQ(plan.volumes[0].instance.is_dense, dense ? 1u : 0u);
-    EXPECT_EQ(plan.frame.step_length, input.quality.step_scale * (dense ? 0.5f : 1.0f));
-  }
 }
 
 TEST(Blackbody, HasTheColoursOfTheLocus) {

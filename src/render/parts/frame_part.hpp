@@ -1,11 +1,11 @@
 // What a frame gives to each of its parts.
 //
-// A part is one thing that a frame shows: the level, the smoke, the volumes, the rays through both, decals,
-// particles, the picture, tanks, the surfaces of a host. Each has the same verbs, in this order:
+// A part is one thing that a frame shows: the level, the smoke, the volumes, the rays through all media,
+// decals, particles, the picture, tanks, the surfaces of a host. Each has the same verbs, in this order:
 //
-//   reserve(plan)           makes room outside of a recording; throws resource_limit, and nothing was
-//   promised upload(recorder, plan)  copies what the plan has for the device record...               its
-//   commands
+// - reserve(plan) makes room outside of a recording. Where it throws resource_limit, nothing was recorded.
+// - upload(recorder, plan) copies what the plan has for the device.
+// - record...(recorder, plan, resources) records its commands.
 //
 // What a part remembers of the device it holds as gpu::Recorded, so that a recording that is dropped never
 // was; what a plan decided counts when the renderer commits it (planning::PlanHistory).
@@ -13,12 +13,10 @@
 
 #include <optional>
 
-#include "passes/hole_clusters.hpp"
+#include "passes/media_resources.hpp"
 #include "passes/raycast.hpp"
 #include "passes/shade.hpp"
 #include "passes/smoke_shadow.hpp"
-#include "passes/smoke_upload.hpp"
-#include "passes/volume_upload.hpp"
 #include "planning/frame_plan.hpp"
 #include "render/targets.hpp"
 
@@ -57,14 +55,12 @@ struct FrameResources {
   const passes::ShadowMaps& shadows;
   passes::LevelLight level;
 
-  const passes::SmokeResources& smoke;
-  const passes::HoleResources& holes;
+  passes::MediaResources media;      ///< As rays of the eye meet them.
+  passes::MediaResources lit_media;  ///< As light does.
+  passes::MediaLight media_light;    ///< In the media of the eye.
   const gpu::Image &noise, &detail;  ///< Tiles of noise.
   const passes::SmokeShadows& smoke_shadows;
-
-  passes::VolumeResources volumes;      ///< As rays of the eye meet them.
-  passes::VolumeResources lit_volumes;  ///< As light does.
-  const gpu::Image& glow_field;         ///< GlowFieldPass::field.
+  const gpu::Image& glow_field;  ///< GlowFieldPass::field.
 
   /// Where the march counts the steps of each pixel (MarchPass::Options::count_steps); null: nowhere.
   const gpu::Buffer* step_counters = nullptr;

@@ -93,18 +93,10 @@ void LevelPart::record_indirect_light(gpu::Recorder& recorder, const FramePlan& 
   passes::IndirectLightPass::Inputs in{.frame = resources.frame,
                                        .shadows = shadows_,
                                        .solid = solid_,
-                                       .smoke = resources.smoke,
-                                       .hole_cells = resources.holes.cells,
+                                       .media = resources.lit_media,
                                        .noise = resources.noise,
-                                       .volumes = resources.lit_volumes,
-                                       .casters = plan.media.casters,
+                                       .g = plan.media.mean_cosine,
                                        .glow_field = resources.glow_field};
-  if (plan.input.smoke.volume && plan.input.smoke.volume->slot_count() > 0)
-    in.g = shared::mean_cosine(plan.input.smoke.look.phase);
-  else if (!plan.media.volumes.empty())
-    in.g = plan.media.volumes.front().instance.look.anisotropy;
-
-  // Cells of the level as it is now.
   if (indirect.level_changed) {
     indirect_light_.upload(recorder, light_cells_);
     recorder.change(uploaded_levels_) = levels_;
@@ -144,8 +136,7 @@ void LevelPart::record_panes(gpu::Recorder& recorder, const FramePlan& plan, con
   const std::vector<passes::Draw> moving = moving_draws(scene_, level);
   pane_pass_->record(
       recorder, pane_needs(plan),
-      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.smoke,
-       in.holes.cells, in.lit_volumes},
+      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.lit_media},
       {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)},
       in.targets.radiance);
 }

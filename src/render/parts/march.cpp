@@ -15,21 +15,14 @@ gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
 }
 
-passes::MarchPass::Inputs march_inputs(const FramePlan& plan, const FrameResources& in,
-                                       const MarchPart::Light& light) {
+passes::MarchPass::Inputs march_inputs(const FrameResources& in) {
   return {.frame = in.frame,
-          .media = plan.media.media,
-          .smoke = in.smoke,
-          .fine_light = light.smoke.light(),
-          .fine_pages = light.smoke.pages(),
-          .volumes = in.volumes,
-          .volume_light = light.volumes.light(),
-          .sun_depths = light.volumes.sun_depths(),
+          .media = in.media,
+          .light = in.media_light,
           .noise = in.noise,
           .detail = in.detail,
           .depth = in.targets.gbuffer.depth,
-          .blue_noise = in.blue_noise,
-          .holes = in.holes};
+          .blue_noise = in.blue_noise};
 }
 
 }  // namespace
@@ -76,9 +69,8 @@ void MarchPart::set_march_scale(std::uint32_t scale) {
 }
 
 void MarchPart::reserve(const FramePlan& plan) {
-  constexpr std::uint32_t kWithNoise = shared::kMediumDisturbed | shared::kMediumVolumeDetail;
   const std::uint32_t media = plan.media.media;
-  if ((plan.smoke && plan.smoke->slot_count() > 0) || (media & kWithNoise) != 0) make_noise();
+  if (plan.media.needs_noise) make_noise();
 
   // The rays of the frame.
   const auto rays = options_.prepare_all ? passes::MarchRays::all
@@ -93,9 +85,8 @@ void MarchPart::reserve(const FramePlan& plan) {
   }
 
   // With or without, whatever later frames choose.
-  if (!options_.prepare_all || (media & shared::kMediumSmoke) == 0) return;
-  march_pass_.reserve(media ^ shared::kMediumFineShadows, rays);
-  march_pass_.reserve(media & ~(shared::kMediumFineShadows | shared::kMediumDetail), rays);
+  if (!options_.prepare_all) return;
+  for (const std::uint32_t other : planning::media_of_other_quality(media)) march_pass_.reserve(other, rays);
 }
 
 void MarchPart::upload(gpu::Recorder& recorder, const FrameResources& in) {
@@ -118,16 +109,15 @@ void MarchPart::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
                                      shared::phase_of_hg(anisotropy)};
   planning::RaycastSteps steps;
   steps.opaque_transmittance = std::min(steps.opaque_transmittance, media.opaque_transmittance);
-  raycast_pass_->record(recorder, {in.volumes, in.targets.gbuffer.depth},
+  raycast_pass_->record(recorder, {in.media.volumes, in.targets.gbuffer.depth},
                         planning::plan_raycast(plan.camera, size_px_, volumes, light, steps),
                         in.targets.media);
 }
 
-void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                       const Light& light) {
+void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const March march = march_of(in);
   const Targets& targets = in.targets;
-  const passes::MarchPass::Inputs inputs = march_inputs(plan, in, light);
+  const passes::MarchPass::Inputs inputs = march_inputs(in);
 
   // One ray a pixel, or one a tile.
   scope(recorder, "march", [&] {

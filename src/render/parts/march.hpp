@@ -4,11 +4,9 @@
 #include <optional>
 
 #include "passes/accumulate.hpp"
-#include "passes/fine_light.hpp"
 #include "passes/march.hpp"
 #include "passes/raycast.hpp"
 #include "passes/resolve.hpp"
-#include "passes/volume_light.hpp"
 #include "render/parts/frame_part.hpp"
 
 namespace brume::render {
@@ -27,12 +25,8 @@ class MarchPart {
   void reserve(const FramePlan& plan);
 
   void upload(gpu::Recorder& recorder, const FrameResources& in);
-  struct Light {
-    const passes::FineLightPass& smoke;
-    const passes::VolumeLightPass& volumes;
-  };
   /// The rays of pixels or of tiles, then from those to every pixel.
-  void record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in, const Light& light);
+  void record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   /// The mean over frames. Where is_accumulated().
   void record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
 

@@ -56,9 +56,8 @@ void SmokePart::upload(gpu::Recorder& recorder, const FramePlan& plan) {
   fine_light_pass_.upload(recorder, plan.fine_light);
 }
 
-passes::SmokeLightPass::Inputs SmokePart::light_inputs(const FramePlan& plan,
-                                                       const FrameResources& in) const {
-  return {in.frame, in.scene, in.shadows, resources(), holes(), in.level, in.lit_volumes, plan.media.casters};
+passes::SmokeLightPass::Inputs SmokePart::light_inputs(const FrameResources& in) {
+  return {in.frame, in.scene, in.shadows, in.level, in.lit_media};
 }
 
 void SmokePart::record_density(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -66,22 +65,20 @@ void SmokePart::record_density(gpu::Recorder& recorder, const FramePlan& plan, c
     hole_clusters_.record_first(recorder, plan.holes, in.frame, resources());
     if (plan.smoke) noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), in.noise});
     const auto& parts = plan.smoke_light->parts;
-    if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(plan, in), parts.front());
+    if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(in), parts.front());
   });
   recorder.concurrently([&] { hole_clusters_.record_second(recorder, plan.holes, in.frame, resources()); });
 }
 
 void SmokePart::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!plan.smoke_shadows) return;
-  shadow_pass_.record(recorder,
-                      {in.frame, in.scene, in.shadows, in.level.solid, resources(), holes(), in.lit_volumes,
-                       plan.media.casters},
+  shadow_pass_.record(recorder, {in.frame, in.scene, in.shadows, in.level.solid, in.lit_media},
                       *plan.smoke_shadows, shadows_);
 }
 
 void SmokePart::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const auto& parts = plan.smoke_light->parts;
-  const passes::SmokeLightPass::Inputs inputs = light_inputs(plan, in);
+  const passes::SmokeLightPass::Inputs inputs = light_inputs(in);
   for (std::size_t i = 0; i < std::max<std::size_t>(parts.size(), 1); ++i) {
     if (i > 0) light_pass_.record_texel_lists(recorder, inputs, parts[i]);
     // Neither fills the device, and neither reads what the other writes.

@@ -39,7 +39,7 @@ class SmokePart {
   const passes::FineLightPass& fine_light() const { return fine_light_pass_; }
 
  private:
-  passes::SmokeLightPass::Inputs light_inputs(const FramePlan& plan, const FrameResources& in) const;
+  static passes::SmokeLightPass::Inputs light_inputs(const FrameResources& in);
   void record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
 
   gpu::Context& context_;

@@ -33,10 +33,8 @@ planning::VolumeLightRoom VolumesPart::light_room() const {
   return room;
 }
 
-passes::VolumeLightPass::Inputs VolumesPart::light_inputs(const FramePlan& plan,
-                                                          const FrameResources& in) const {
-  return {in.frame, plan.media.casters, in.scene,       in.shadows,   in.level,
-          in.smoke, in.holes,           in.lit_volumes, in.glow_field};
+passes::VolumeLightPass::Inputs VolumesPart::light_inputs(const FrameResources& in) {
+  return {in.frame, in.scene, in.shadows, in.level, in.lit_media, in.glow_field};
 }
 
 void VolumesPart::record_glow(gpu::Recorder& recorder, const FramePlan& plan) const {
@@ -46,11 +44,11 @@ void VolumesPart::record_glow(gpu::Recorder& recorder, const FramePlan& plan) co
 }
 
 void VolumesPart::record_sweeps(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
-  light_pass_.record_sweeps(recorder, light_inputs(plan, in), plan.volume_light);
+  light_pass_.record_sweeps(recorder, light_inputs(in), plan.volume_light);
 }
 
 void VolumesPart::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
-  light_pass_.record_light(recorder, light_inputs(plan, in), plan.volume_light);
+  light_pass_.record_light(recorder, light_inputs(in), plan.volume_light);
 }
 
 }  // namespace brume::render

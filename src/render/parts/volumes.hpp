@@ -34,7 +34,7 @@ class VolumesPart {
   const passes::VolumeLightPass& light() const { return light_pass_; }
 
  private:
-  passes::VolumeLightPass::Inputs light_inputs(const FramePlan& plan, const FrameResources& in) const;
+  static passes::VolumeLightPass::Inputs light_inputs(const FrameResources& in);
 
   gpu::CommandStream& stream_;
   passes::VolumeUpload upload_;
