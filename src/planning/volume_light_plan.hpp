@@ -22,7 +22,7 @@ struct VolumeLightPlan {
   bool is_lit = true;                       ///< A volume in view scatters or emits by its extinction.
   bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
-  bool casters_changed = false;             ///< Other media cast shadows than in the frame before (add_casters).
+  bool casters_changed = false;             ///< Other media cast shadows than before (add_casters).
 };
 
 /// The cubes of light that the device holds: where a plan needs others, their light is lost.
