@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/world.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
@@ -15,16 +14,12 @@ constexpr float kVoxelSize = 0.5f;
 /// A row of smokes along x, in a world without walls.
 class FineLightPlanTest : public ::testing::Test {
  protected:
-  FineLightPlanTest() {
-    for (int i = 0; i < 40; ++i) {
-      sim::ThrowSmoke event;
-      event.from = event.at = sim::position_from_metres(glm::dvec3(5 + 10 * i, 8, 10));
-      event.smoke.voxels = 1500;
-      world_.append(event).value_or_throw();
-    }
-    world_.advance_to(90);
-    volume_.update(world_);
-    visibility_ = all_smoke_visible(volume_);
+  static const smoke::SmokeVolume& row() {
+    static SmokeWorld made(voxel::BitGrid({{820, 40, 40}, kVoxelSize, glm::vec3(0)}));
+    if (made.world.tick() > 0) return made.volume;
+    for (int i = 0; i < 40; ++i) made.append(smoke_at({5 + 10 * i, 8, 10}, 1500));
+    made.advance_to(90);
+    return made.volume;
   }
   /// From a point to the nearest of a slot's brick [m].
   float distance(std::uint32_t slot, const glm::vec3& eye) const {
@@ -32,11 +27,8 @@ class FineLightPlanTest : public ::testing::Test {
     return glm::distance(eye, glm::clamp(eye, low, low + 8 * kVoxelSize));
   }
 
-  voxel::BitGrid grid_{{{820, 40, 40}, kVoxelSize, glm::vec3(0)}};
-  voxel::SurfacePlanes planes_;
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
-  SmokeVisibility visibility_;
+  const smoke::SmokeVolume& volume_ = row();
+  const SmokeVisibility visibility_ = all_smoke_visible(volume_);
 };
 
 TEST_F(FineLightPlanTest, TakesTheNearestBricksFirst) {

@@ -2,41 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/world.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/frame_builder.hpp"
 
 namespace brume::planning {
 namespace {
 
-/// A smoke in an open world that has stopped growing, a light above it.
+/// A smoke that has stopped growing, a light above it.
 class FramePlanTest : public ::testing::Test {
  protected:
-  static constexpr float kVoxel = 0.5f;
-
   FramePlanTest() {
-    sim::ThrowSmoke event;
-    event.from = event.at = sim::position_from_metres(glm::dvec3(8, 1, 8));
-    event.smoke.voxels = 400;
-    event.smoke.hold_ticks = 10000;
-    world_.append(event).value_or_throw();
-    world_.advance_to(300);
-    volume_.update(world_);
-    shared::Light light{};
-    light.position_world = {8, 6, 8};
-    light.intensity = glm::vec3(2);
-    light.range = shared::light_range(2);
-    light.kind = shared::kLightPoint;
-    lights_ = {light};
     target_.lights = lights_;
     target_.scene_bounds = {glm::vec3(0), {40, 8, 16}};
     target_.size_px = {64, 36};
     target_.smoke_shadow_atlas = {1024, 64};
-    input_.view.camera = {{8, 2, 30}, {8, 2, 8}, 1.2f};
-    input_.smoke.volume = &volume_;
-    input_.smoke.state = &world_.state();
-    input_.smoke.look.extinction = 3;
-    input_.smoke.time = 4.6f;
-    input_.level.voxels.grid = &grid_;
   }
   /// A copy, which is valid beside later plans.
   FramePlan plan() {
@@ -45,13 +23,13 @@ class FramePlanTest : public ::testing::Test {
     return FramePlan(made);
   }
 
-  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
-  std::vector<shared::Light> lights_;
+  static const Yard& yard() {
+    static const Yard kYard({8});
+    return kYard;
+  }
+  const std::vector<shared::Light> lights_{point_light({8, 6, 8}, glm::vec3(2), 0)};
   PlanTarget target_;
-  FrameInput input_;
+  FrameInput input_ = FrameBuilder().eye({8, 2, 30}, {8, 2, 8}, 1.2f).smoke(yard(), 3).time(4.6f).input();
   PlanHistory history_;
 };
 
@@ -75,7 +53,7 @@ TEST_F(FramePlanTest, RaysEndLaterWhereASurfaceInViewIsBright) {
 TEST_F(FramePlanTest, APausedCameraThatFliesOnlyGathersLight) {
   const FramePlan first = plan();
   EXPECT_EQ(first.lights.size(), 1u);
-  EXPECT_EQ(first.visibility.visible_count, volume_.slot_count());
+  EXPECT_EQ(first.visibility.visible_count, yard().volume.slot_count());
   EXPECT_TRUE(first.smoke_shadows);
   EXPECT_FALSE(first.smoke_light->shadow_rays.empty());
   for (int i = 0; i < 10; ++i) {
@@ -94,16 +72,8 @@ TEST_F(FramePlanTest, IndirectLightFollowsHoles) {
   EXPECT_GT(plan().indirect_light.slices.count, 0u);
   input_.smoke.time += 0.1f;
   EXPECT_EQ(plan().indirect_light.slices.count, 0u);
-  shared::Hole hole{};
-  hole.origin_world = {8, 1, 20};
-  hole.forward = {0, 0, -1};
-  hole.right = {1, 0, 0};
-  hole.up = {0, 1, 0};
-  hole.radius = 0.5f;
-  hole.distance_to_far = 20;
-  hole.time_start = 4;
+  shared::Hole hole = open_hole({8, 1, 20}, {0, 0, -1}, 0.5f, 20, 4);
   hole.time_to_reach_far = hole.time_to_expand = 0.1f;
-  hole.time_to_stay_open = 10;
   input_.smoke.holes = {&hole, 1};
   EXPECT_GT(plan().indirect_light.slices.count, 0u);
   EXPECT_EQ(plan().indirect_light.slices.count, 0u);

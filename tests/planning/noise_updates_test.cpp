@@ -7,28 +7,17 @@
 #include <set>
 
 #include "planning/smoke_visibility.hpp"
-#include "sim/world.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
 
-/// Two smokes in an open world that have stopped growing.
+/// Two smokes that have stopped growing.
 class NoiseUpdatesTest : public ::testing::Test {
  protected:
-  static constexpr float kVoxel = 0.5f;
+  static constexpr float kVoxel = Yard::kVoxel;
 
   NoiseUpdatesTest() {
-    for (const double x : {8.0, 30.0}) {
-      sim::ThrowSmoke event;
-      event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
-      event.smoke.voxels = 3000;
-      event.smoke.hold_ticks = 10000;
-      world_.append(event).value_or_throw();
-    }
-    world_.advance_to(700);
-    volume_.update(world_);
-    visibility_ = all_smoke_visible(volume_);
     inputs_.volume = &volume_;
     inputs_.slots = visibility_.slots;
     inputs_.motions = motions_;
@@ -46,11 +35,12 @@ class NoiseUpdatesTest : public ::testing::Test {
   }
   std::set<std::uint32_t> all() const { return {visibility_.slots.begin(), visibility_.slots.end()}; }
 
-  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
-  SmokeVisibility visibility_;
+  static const smoke::SmokeVolume& volume() {
+    static const Yard kYard({8, 30}, 3000, 700);
+    return kYard.volume;
+  }
+  const smoke::SmokeVolume& volume_ = volume();
+  SmokeVisibility visibility_ = all_smoke_visible(volume_);
   std::vector<shared::CloudMotion> motions_ = std::vector<shared::CloudMotion>(2, shared::CloudMotion{});
   NoiseInputs inputs_;
   NoiseUpdates updates_;

@@ -7,6 +7,7 @@
 #include "planning/blackbody.hpp"
 #include "planning/device_camera.hpp"
 #include "shared/opaque.h"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
@@ -40,12 +41,9 @@ TEST(OpaqueLimitTest, TheBrightestCounts) {
   input.environment.sky.zenith = {0, 0, 0.25f};
   EXPECT_EQ(brightest_behind(input, frustum, {}, media, {}), 0.3f);
 
-  shared::Light sun{};
-  sun.kind = shared::kLightDirectional;
+  shared::Light sun = sun_light({0, -1, 0}, 1);
   sun.intensity = glm::vec3(1, 10, 2);
-  shared::Light point{};
-  point.kind = shared::kLightPoint;
-  point.intensity = glm::vec3(1e6f);
+  const shared::Light point = point_light({}, glm::vec3(1e6f));
   EXPECT_NEAR(brightest_behind(input, frustum, {}, media, std::vector{point, sun}), 5 / std::numbers::pi,
               1e-5);
 

@@ -6,9 +6,8 @@
 #include <random>
 #include <set>
 
-#include "sim/world.hpp"
 #include "tests/sanitized.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
@@ -21,26 +20,21 @@ class ResidentSmokeTest : public ::testing::Test {
   static constexpr int kAcross = 160, kHigh = 40;
 
   ResidentSmokeTest() {
-    for (int y = 0; y < 24; ++y)
-      for (int z = 20; z < 140; ++z) grid_.set({80, y, z}, true);
-    world_.emplace(grid_);
-    volume_.emplace(grid_, planes_);
-    for (int i = 0; i < 12; ++i) {
-      sim::ThrowSmoke event;
-      event.tick = static_cast<std::uint32_t>(i) * 12;
-      event.from = event.at = sim::position_from_metres(glm::dvec3(inside(4)));
-      event.smoke.voxels = 400 + static_cast<std::uint32_t>(random_() % 2500);
-      world_->append(event).value_or_throw();
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const glm::vec3 at = inside(4);
+      world_.append(smoke_at(glm::dvec3(at), 400 + static_cast<std::uint32_t>(random_() % 2500), 12 * i));
     }
+  }
+  static voxel::BitGrid walled() {
+    voxel::BitGrid grid({{kAcross, kHigh, kAcross}, kVoxel, glm::vec3(0)});
+    for (int y = 0; y < 24; ++y)
+      for (int z = 20; z < 140; ++z) grid.set({80, y, z}, true);
+    return grid;
   }
   float unit() { return std::uniform_real_distribution<float>(0, 1)(random_); }
   glm::vec3 inside(float margin) {
     const glm::vec3 size = glm::vec3(kAcross, kHigh, kAcross) * kVoxel - 2 * margin;
     return glm::vec3(margin) + size * glm::vec3(unit(), unit(), unit());
-  }
-  void advance(std::uint32_t tick) {
-    world_->advance_to(tick);
-    volume_->update(*world_);
   }
   SmokeVisibility visible(float wide = 0.5f) {
     shared::Camera camera{};
@@ -49,11 +43,9 @@ class ResidentSmokeTest : public ::testing::Test {
     camera.forward = {std::cos(yaw), 0, std::sin(yaw)};
     camera.right = wide * glm::normalize(glm::cross(camera.forward, glm::vec3(0, 1, 0)));
     camera.up = 0.6f * wide * glm::normalize(glm::cross(camera.right, camera.forward));
-    shared::Light light{};
-    light.position_world = inside(1);
-    light.range = 8;
+    const shared::Light light = point_light(inside(1), glm::vec3(0.64f), 0);  // up to 8 m
     const Box<float> scene{glm::vec3(0), glm::vec3(kAcross, kHigh, kAcross) * kVoxel};
-    return cull_smoke(*volume_, ViewFrustum(camera), {&light, 1}, scene);
+    return cull_smoke(volume_, ViewFrustum(camera), {&light, 1}, scene);
   }
   std::set<std::uint64_t> bricks(const smoke::SmokeBricks& of, std::span<const std::uint32_t> slots) const {
     std::set<std::uint64_t> keys;
@@ -85,12 +77,12 @@ class ResidentSmokeTest : public ::testing::Test {
   void expect_same(const SmokeVisibility& own, const SmokeVisibility& seen) {
     follow();
     EXPECT_EQ(seen.visible_count, own.visible_count);
-    EXPECT_EQ(bricks(held_, seen.slots), bricks(*volume_, own.slots));
+    EXPECT_EQ(bricks(held_, seen.slots), bricks(volume_, own.slots));
     for (const std::uint32_t slot : seen.slots) {
-      const std::uint32_t from = volume_->slot_at(held_.brick_of(slot));
+      const std::uint32_t from = volume_.slot_at(held_.brick_of(slot));
       ASSERT_NE(from, smoke::SmokeBricks::kNoSlot);
-      EXPECT_TRUE(std::ranges::equal(copies_[slot].texels, volume_->texels(from))) << slot;
-      EXPECT_TRUE(std::ranges::equal(copies_[slot].cells, volume_->cells(from))) << slot;
+      EXPECT_TRUE(std::ranges::equal(copies_[slot].texels, volume_.texels(from))) << slot;
+      EXPECT_TRUE(std::ranges::equal(copies_[slot].cells, volume_.cells(from))) << slot;
     }
   }
 
@@ -99,10 +91,8 @@ class ResidentSmokeTest : public ::testing::Test {
     std::vector<std::uint32_t> cells;
   };
   std::mt19937 random_{5};
-  voxel::BitGrid grid_{{{kAcross, kHigh, kAcross}, kVoxel, glm::vec3(0)}};
-  voxel::SurfacePlanes planes_;
-  std::optional<sim::World> world_;
-  std::optional<smoke::SmokeVolume> volume_;
+  SmokeWorld world_{walled()};
+  const smoke::SmokeVolume& volume_ = world_.volume;
   glm::vec3 eye_{0};
   ResidentSmoke held_;
   std::vector<Copy> copies_;
@@ -114,34 +104,34 @@ TEST_F(ResidentSmokeTest, HoldsWhatIsRequiredAsItIs) {
   for (int i = 0; i < (kSanitized ? 40 : 200); ++i) {
     // Time stands still, goes on, or jumps.
     tick += std::array{0u, 1u, 1u, 7u}[random_() % 4];
-    if (random_() % 4 != 0) advance(tick);
-    if (volume_->slot_count() == 0) advance(tick);
+    if (random_() % 4 != 0) world_.advance_to(tick);
+    if (volume_.slot_count() == 0) world_.advance_to(tick);
     const SmokeVisibility own = visible();
-    expect_same(own, held_.update({.volume = *volume_, .eye_world = eye_}, own));
+    expect_same(own, held_.update({.volume = volume_, .eye_world = eye_}, own));
     EXPECT_FALSE(held_.is_limited());
     EXPECT_EQ(held_.level(), 0);
   }
 }
 
 TEST_F(ResidentSmokeTest, HoldsNothingOfWhatIsOutOfView) {
-  advance(200);
-  ASSERT_GT(volume_->slot_count(), 200u);
-  held_.update({.volume = *volume_}, {});
+  world_.advance_to(200);
+  ASSERT_GT(volume_.slot_count(), 200u);
+  held_.update({.volume = volume_}, {});
   EXPECT_EQ(held_.slot_count(), 0u);
-  const SmokeVisibility all = all_smoke_visible(*volume_);
-  expect_same(all, held_.update({.volume = *volume_}, all));
+  const SmokeVisibility all = all_smoke_visible(volume_);
+  expect_same(all, held_.update({.volume = volume_}, all));
 }
 
 TEST_F(ResidentSmokeTest, KeepsWhatItHeldWhereThereIsRoom) {
-  advance(200);
-  const SmokeVisibility all = all_smoke_visible(*volume_);
-  held_.update({.volume = *volume_}, all);
+  world_.advance_to(200);
+  const SmokeVisibility all = all_smoke_visible(volume_);
+  held_.update({.volume = volume_}, all);
   const std::uint64_t revision = held_.revision();
   SmokeVisibility few = all;
   few.slots.resize(10);
   few.visible_count = 10;
-  held_.update({.volume = *volume_}, few);
-  held_.update({.volume = *volume_}, all);
+  held_.update({.volume = volume_}, few);
+  held_.update({.volume = volume_}, all);
   EXPECT_EQ(held_.revision(), revision) << "nothing was to be uploaded";
 }
 
@@ -150,11 +140,11 @@ TEST_F(ResidentSmokeTest, NeverHoldsMoreThanThereIsRoomFor) {
   constexpr int kFrames = kSanitized ? 30 : 150;
   int limited = 0;
   for (int i = 0; i < kFrames; ++i) {
-    advance(tick += static_cast<std::uint32_t>(random_() % 3));
+    world_.advance_to(tick += static_cast<std::uint32_t>(random_() % 3));
     const std::uint32_t most = 8u << random_() % 6;
     const SmokeVisibility own = visible(1.5f);
     const SmokeVisibility seen =
-        held_.update({.volume = *volume_, .eye_world = eye_, .most_bricks = most}, own);
+        held_.update({.volume = volume_, .eye_world = eye_, .most_bricks = most}, own);
     EXPECT_LE(held_.slot_count(), most);
     EXPECT_LE(seen.slots.size(), most);
     limited += held_.is_limited();
@@ -162,7 +152,7 @@ TEST_F(ResidentSmokeTest, NeverHoldsMoreThanThereIsRoomFor) {
     // All that is in view is there, at some level.
     std::set<std::uint64_t> there = bricks(held_, std::span(seen.slots).first(seen.visible_count));
     for (std::uint32_t k = 0; k < own.visible_count && held_.level() < ResidentSmoke::kMostLevel; ++k) {
-      const std::uint32_t slot = held_.slot_at(volume_->brick_of(own.slots[k]) >> held_.level());
+      const std::uint32_t slot = held_.slot_at(volume_.brick_of(own.slots[k]) >> held_.level());
       EXPECT_TRUE(std::ranges::binary_search(std::span(seen.slots).first(seen.visible_count), slot));
     }
   }
@@ -189,18 +179,18 @@ float density_at(const smoke::SmokeBricks& of, glm::vec3 p) {
 
 // Line of sight goes by the fine volume: what it hides, the picture must hide.
 TEST_F(ResidentSmokeTest, CoarseSmokeIsNowhereThinner) {
-  advance(200);
-  const SmokeVisibility all = all_smoke_visible(*volume_);
+  world_.advance_to(200);
+  const SmokeVisibility all = all_smoke_visible(volume_);
   for (const std::uint32_t most : {128u, 32u, 8u}) {
-    held_.update({.volume = *volume_, .most_bricks = most}, all);
+    held_.update({.volume = volume_, .most_bricks = most}, all);
     ASSERT_GT(held_.level(), 0);
     const float scale = static_cast<float>(1 << held_.level());
     int dense = 0;
     for (int i = 0; i < 20000; ++i) {
       const std::uint32_t slot = all.slots[random_() % all.slots.size()];
-      const glm::vec3 p = glm::vec3(8 * volume_->brick_of(slot)) + 8.0f * glm::vec3(unit(), unit(), unit());
+      const glm::vec3 p = glm::vec3(8 * volume_.brick_of(slot)) + 8.0f * glm::vec3(unit(), unit(), unit());
       // Also beside walls, where smoke::sample_density takes from the near side.
-      const float fine = 255 * smoke::sample_density(*volume_, p);
+      const float fine = 255 * smoke::sample_density(volume_, p);
       dense += fine > 0;
       ASSERT_GE(density_at(held_, p / scale) + 0.01f, fine) << held_.level() << " at " << p.x << " " << p.y;
     }

@@ -10,13 +10,11 @@
 #include <utility>
 
 #include "planning/view_frustum.hpp"
-#include "sim/world.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
 
-/// Three smokes in an open world, lights between.
 /// The plan of a frame that is drawn.
 SmokeLightPlan planned(SmokeLightCache&& cache, const SmokeLightInputs& inputs) {
   return cache.plan(inputs);
@@ -27,27 +25,14 @@ const SmokeLightPlan& planned(SmokeLightCache& cache, const SmokeLightInputs& in
   return plan;
 }
 
+/// Three smokes, lights between.
 class SmokeLightCacheTest : public ::testing::Test {
  protected:
-  static constexpr float kVoxel = 0.5f;
+  static constexpr float kVoxel = Yard::kVoxel;
 
   SmokeLightCacheTest() {
-    for (const double x : {6.0, 20.0, 34.0}) {
-      sim::ThrowSmoke event;
-      event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
-      event.smoke.voxels = 400;
-      world_.append(event).value_or_throw();
-    }
-    world_.advance_to(90);
-    volume_.update(world_);
-    visibility_ = all_smoke_visible(volume_);
-    for (int i = 0; i < 9; ++i) {
-      shared::Light light{};
-      light.position_world = {4.5f * static_cast<float>(i), 2, 4};
-      light.intensity = glm::vec3(1);
-      light.range = 10;
-      lights_.push_back(light);
-    }
+    for (int i = 0; i < 9; ++i)
+      lights_.push_back(point_light({4.5f * static_cast<float>(i), 2, 4}, glm::vec3(1), 0));
   }
   SmokeLightInputs inputs() const {
     SmokeLightInputs inputs;
@@ -59,11 +44,9 @@ class SmokeLightCacheTest : public ::testing::Test {
     return inputs;
   }
 
-  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
-  SmokeVisibility visibility_;
+  Yard yard_{{6, 20, 34}, 400, 90};
+  const smoke::SmokeVolume& volume_ = yard_.volume;
+  const SmokeVisibility visibility_ = all_smoke_visible(volume_);
   std::vector<shared::Light> lights_;
   std::vector<shared::Hole> holes_;
 };
@@ -160,14 +143,7 @@ TEST_F(SmokeLightCacheTest, AHoleInvalidatesOnlyTheRaysThatMayCrossIt) {
   SmokeLightCache cache;
   const std::size_t all = planned(cache, inputs()).shadow_rays.size();
   // Along z through the first smoke; the last is 28 m away, and no light reaches from there to here.
-  shared::Hole hole{};
-  hole.origin_world = {6, 1, 4};
-  hole.forward = {0, 0, 1};
-  hole.distance_to_far = 8;
-  hole.radius = 0.2f;
-  hole.time_start = 1;
-  hole.time_to_stay_open = 10;
-  holes_ = {hole};
+  holes_ = {open_hole({6, 1, 4}, {0, 0, 1}, 0.2f, 8, 1)};
   const SmokeLightPlan plan = planned(cache, inputs());
   EXPECT_GT(plan.shadow_rays.size(), 0u);
   EXPECT_LT(plan.shadow_rays.size(), all);
@@ -274,16 +250,11 @@ TEST_F(SmokeLightCacheTest, BricksWhoseSmokeChangesAreUpdatedTwiceAsFast) {
   for (int i = 0; i < 40; ++i) draw();
 
   // An explosion in the first smoke, which refills for seconds.
-  sim::Blast blast;
-  blast.tick = 91;
-  blast.at = sim::position_from_metres(glm::dvec3(6, 1, 8));
-  blast.radius = 2 * 1024;
-  world_.append(blast).value_or_throw();
+  yard_.append(sim::Blast{.tick = 91, .at = sim::position_from_metres({6, 1, 8}), .radius = 2 * 1024});
   std::map<std::uint32_t, std::uint32_t> changing;  // slot: frames in a row
   std::uint32_t of_changing = 0, of_others = 0;
   for (std::uint32_t tick = 91; tick < 160; ++tick) {
-    world_.advance_to(tick);
-    volume_.update(world_);
+    yard_.advance_to(tick);
     std::map<std::uint32_t, std::uint32_t> changed;
     for (const shared::TexelList& list : draw()) changed[list.slot] = changing[list.slot] + 1;
     changing = std::move(changed);
@@ -359,13 +330,7 @@ TEST_F(SmokeLightCacheTest, TexelsInAHoleThatChangesAreNeverLate) {
   now.look.erosion = 0.5f;
   now.update_fraction = 0.125f;
   for (int i = 0; i < 12; ++i, now.time += 0.1f) planned(cache, now);
-  shared::Hole hole{};
-  hole.origin_world = {6, 1, 4};
-  hole.forward = {0, 0, 1};
-  hole.distance_to_far = 8;
-  hole.radius = 0.2f;
-  hole.time_start = now.time - 0.01f;
-  hole.time_to_stay_open = 10;
+  const shared::Hole hole = open_hole({6, 1, 4}, {0, 0, 1}, 0.2f, 8, now.time - 0.01f);
   holes_ = {hole};
   now.holes = holes_;
   const SmokeLightPlan plan = planned(cache, now);

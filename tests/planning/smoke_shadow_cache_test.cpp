@@ -2,27 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
+#include <span>
 
-#include "sim/world.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
 
-/// A smoke in an open world, a light beside it and a camera before it.
+/// A smoke, a light above it and a camera before it.
 class SmokeShadowCacheTest : public ::testing::Test {
  protected:
-  static constexpr float kVoxel = 0.5f;
-
   SmokeShadowCacheTest() {
-    throw_smoke(8);
-    shared::Light light{};
-    light.position_world = {8, 6, 8};
-    light.intensity = glm::vec3(2);
-    light.range = shared::light_range(2);
-    light.kind = shared::kLightPoint;
-    lights_ = {light};
     camera_.eye_world = {8, 1, 40};
     camera_.forward = {0, 0, -1};
     camera_.right = {1, 0, 0};
@@ -31,27 +23,18 @@ class SmokeShadowCacheTest : public ::testing::Test {
     inputs_.time = 10;
     inputs_.update_fraction = 1;
   }
-  void throw_smoke(double x) {
-    sim::ThrowSmoke event;
-    event.tick = tick_;
-    event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
-    event.smoke.voxels = 400;
-    event.smoke.hold_ticks = 10000;
-    world_.append(event).value_or_throw();
-    world_.advance_to(tick_ += 300);
-    volume_.update(world_);
-    visibility_ = all_smoke_visible(volume_);
-  }
   /// The update of a frame with what is set below.
   std::optional<SmokeShadowUpdate> update() {
     inputs_.volume = &volume_;
+    return update(smoke_boxes(volume_, visibility_));
+  }
+  std::optional<SmokeShadowUpdate> update(std::span<const Box<float>> casters) {
     inputs_.visibility = &visibility_;
     inputs_.lights = lights_;
     inputs_.holes = &holes_;
     inputs_.noise = &noise_;
-    auto update = cache_.update(
-        plan_smoke_shadows({lights_, glm::mat4(1), camera_}, smoke_boxes(volume_, visibility_), {1024, 256}),
-        inputs_);
+    auto update =
+        cache_.update(plan_smoke_shadows({lights_, glm::mat4(1), camera_}, casters, {1024, 256}), inputs_);
     if (commits_) cache_.commit();
     return update;
   }
@@ -60,25 +43,16 @@ class SmokeShadowCacheTest : public ::testing::Test {
     EXPECT_TRUE(update()) << what;
     EXPECT_FALSE(update()) << what << ", again";
   }
-  void open_hole() {
-    shared::Hole hole{};
-    hole.origin_world = {8, 1, 4};
-    hole.forward = {0, 0, 1};
-    hole.distance_to_far = 8;
-    hole.radius = 0.2f;
-    hole.time_start = 1;
-    hole.time_to_stay_open = 100;
+  void place_hole() {
+    const shared::Hole hole = open_hole({8, 1, 4}, {0, 0, 1}, 0.2f, 8, 1);
     holes_ = plan_holes({&hole, 1}, inputs_.time, 0, volume_.layout(), volume_.slot_count(), {16, 16});
     ASSERT_EQ(holes_.holes.size(), 1u);
   }
 
-  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
-  std::uint32_t tick_ = 0;
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
-  SmokeVisibility visibility_;
-  std::vector<shared::Light> lights_;
+  Yard yard_{{8}};
+  const smoke::SmokeVolume& volume_ = yard_.volume;
+  SmokeVisibility visibility_ = all_smoke_visible(volume_);
+  std::vector<shared::Light> lights_{point_light({8, 6, 8}, glm::vec3(2), 0)};
   shared::Camera camera_{};
   HolePlan holes_;
   NoisePlan noise_;
@@ -136,23 +110,16 @@ TEST_F(SmokeShadowCacheTest, WhatIsReadIsMarchedAgain) {
   visibility_.slots.pop_back();
   --visibility_.visible_count;
   expect_one_update("the smoke that casts shadows");
-  throw_smoke(20);
+  yard_.append(lasting_smoke_at({20, 1, 8}, 400, 300));
+  yard_.advance_to(600);
+  visibility_ = all_smoke_visible(volume_);
   expect_one_update("smoke");
 }
 
 // The shadows of volumes in a frame without smoke.
 TEST_F(SmokeShadowCacheTest, VolumesAloneAreMarchedAgainWhenTheyChange) {
   const auto update_alone = [&] {
-    inputs_.volume = nullptr;
-    inputs_.visibility = &visibility_;
-    inputs_.lights = lights_;
-    inputs_.holes = &holes_;
-    inputs_.noise = &noise_;
-    const Box<float> volume{glm::vec3(6, 0, 6), glm::vec3(10, 4, 10)};
-    auto update = cache_.update(
-        plan_smoke_shadows({lights_, glm::mat4(1), camera_}, std::vector{volume}, {1024, 256}), inputs_);
-    cache_.commit();
-    return update;
+    return update(std::array{Box<float>{glm::vec3(6, 0, 6), glm::vec3(10, 4, 10)}});
   };
   EXPECT_TRUE(update_alone());
   EXPECT_FALSE(update_alone());
@@ -174,10 +141,10 @@ TEST_F(SmokeShadowCacheTest, SlotsThatCastShadowsInViewOrOutOfItAreTheSame) {
 
 TEST_F(SmokeShadowCacheTest, HolesMoveWithTheClock) {
   update();
-  open_hole();
+  place_hole();
   expect_one_update("a hole");
   inputs_.time += 0.1f;
-  open_hole();
+  place_hole();
   expect_one_update("its later shape");
   holes_ = {};
   expect_one_update("none");

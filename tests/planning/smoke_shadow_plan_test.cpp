@@ -4,20 +4,15 @@
 
 #include <random>
 
+#include "tests/worlds.hpp"
+
 namespace brume::planning {
 namespace {
 
 constexpr glm::uvec2 kAtlas{1024, 256};
 
 shared::Light light(glm::vec3 position_world, float intensity) {
-  shared::Light light{};
-  light.position_world = position_world;
-  light.intensity = glm::vec3(intensity);
-  light.range = shared::light_range(intensity);
-  light.kind = shared::kLightPoint;
-  light.direction = {0, 0, -1};
-  light.shadow_layer = 0;
-  return light;
+  return point_light(position_world, glm::vec3(intensity), 0);
 }
 
 /// An eye at z = 20 that looks along -z, 90 degrees wide.
@@ -57,9 +52,7 @@ std::pair<std::uint32_t, glm::vec2> texel_of(const SmokeShadowPlan& plan, const 
 
 // Media that are hundreds of metres apart have coarse shadows of the sun, not none.
 TEST(SmokeShadowPlan, TheSunHasAShadowHoweverFarApartMediaAre) {
-  shared::Light sun = light({}, 5);
-  sun.kind = shared::kLightDirectional;
-  sun.direction = {0, -1, 0};
+  const shared::Light sun = sun_light({0, -1, 0}, 5, 0);
   const std::vector<shared::Light> lights{light({0, 1, 4}, 10), sun, light({3, 1, 0}, 10)};
   for (const float far : {10.0f, 220.0f, 5000.0f, 1e6f}) {
     const std::vector<Box<float>> media{{{-1, 0, -1}, {1, 2, 1}}, {{far, 0, far}, {far + 2, 2, far + 2}}};

@@ -6,9 +6,8 @@
 #include <random>
 
 #include "shared/smoke_light.h"
-#include "sim/world.hpp"
 #include "tests/sanitized.hpp"
-#include "voxel/surface_planes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
@@ -19,24 +18,16 @@ class SmokeVisibilityTest : public ::testing::Test {
 
   SmokeVisibilityTest() {
     for (int i = 0; i < 30; ++i) {
-      sim::ThrowSmoke event;
-      event.from = event.at = sim::position_from_metres(glm::dvec3(inside(2)));
-      event.smoke.voxels = 300 + static_cast<std::uint32_t>(random_() % 1500);
-      world_.append(event).value_or_throw();
+      const glm::vec3 at = inside(2);
+      world_.append(smoke_at(glm::dvec3(at), 300 + static_cast<std::uint32_t>(random_() % 1500)));
     }
     world_.advance_to(90);
-    volume_.update(world_);
     for (int i = 0; i < 25; ++i) {
-      shared::Light light{};
-      light.position_world = inside(0);
+      shared::Light& light = lights_.emplace_back(point_light(inside(0), glm::vec3(0), 0));
       light.range = 3 + 22 * unit(random_);
-      light.kind = i % 3 == 0 ? shared::kLightSpot : shared::kLightPoint;
-      lights_.push_back(light);
+      if (i % 3 == 0) light.kind = shared::kLightSpot;
     }
-    shared::Light sun{};
-    sun.kind = shared::kLightDirectional;
-    sun.direction = glm::normalize(glm::vec3(0.5f, -0.6f, 0.3f));
-    lights_.push_back(sun);
+    lights_.push_back(sun_light({0.5f, -0.6f, 0.3f}, 0, 0));
   }
 
   float unit(std::mt19937& random) { return std::uniform_real_distribution<float>(0, 1)(random); }
@@ -79,10 +70,8 @@ class SmokeVisibilityTest : public ::testing::Test {
 
   static constexpr float kVoxel = 0.5f;
   std::mt19937 random_{8};
-  voxel::BitGrid grid_{{{kAcross, kHigh, kAcross}, kVoxel, glm::vec3(0)}};
-  voxel::SurfacePlanes planes_;
-  sim::World world_{grid_};
-  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeWorld world_{voxel::BitGrid({{kAcross, kHigh, kAcross}, kVoxel, glm::vec3(0)})};
+  const smoke::SmokeVolume& volume_ = world_.volume;
   Box<float> scene_{glm::vec3(0), glm::vec3(kAcross, kHigh, kAcross) * kVoxel};
   std::vector<shared::Light> lights_;
 };

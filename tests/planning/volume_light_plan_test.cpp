@@ -9,6 +9,7 @@
 
 #include "planning/blackbody.hpp"
 #include "planning/device_camera.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::planning {
 namespace {
@@ -58,10 +59,6 @@ class VolumeLightCacheTest : public testing::Test {
     volume_->set_bounds(glm::vec3(0), glm::vec3(8));
     volume_->end_update();
     inputs_ = {{volume_.get(), glm::mat4(1), {glm::vec3(1), 1, glm::vec3(0), 0, 1}, {}}};
-    shared::Light sun{};
-    sun.kind = shared::kLightDirectional;
-    sun.direction = {0, -1, 0};
-    lights_ = {sun};
   }
   VolumeLightPlan plan() {
     MediaPlan media;
@@ -89,7 +86,7 @@ class VolumeLightCacheTest : public testing::Test {
 
   std::unique_ptr<volume::SparseVolume> volume_;
   std::vector<VolumeInput> inputs_;
-  std::vector<shared::Light> lights_;
+  std::vector<shared::Light> lights_{sun_light({0, -1, 0}, 1, 0)};
   float time_ = 0;
   glm::vec3 size_{8};
   bool rebuild_ = false, is_lit_ = true, is_dense_ = false;
