@@ -68,6 +68,13 @@ function(brume_add_test name target)
   set_property(GLOBAL APPEND PROPERTY brume_tests "${name} ${target} ${brume_room} ${labels} ${cost}")
 endfunction()
 
+# The file of a program under the name of an entry of CTest, by which reports are named.
+function(brume_link_test name program result)
+  set(link $<TARGET_FILE_DIR:${program}>/${name})
+  add_custom_command(TARGET ${program} POST_BUILD COMMAND ${CMAKE_COMMAND} -E create_symlink $<TARGET_FILE_NAME:${program}> ${link})
+  set(${result} ${link} PARENT_SCOPE)
+endfunction()
+
 # brume_test(NAME sources... LINKS libraries... LABELS labels... [TIMEOUT seconds] [CI_CASES filters...]
 # [SLOW_CASES filters...]): a GoogleTest program. A program is one entry of CTest: starting a Vulkan device for each case
 # would cost more than the cases. CI_CASES and SLOW_CASES, filters of GoogleTest, are entries of their own, NAME_ci and
@@ -85,8 +92,7 @@ function(brume_test name)
     if(arg_${key}_CASES)
       list(JOIN arg_${key}_CASES ":" cases)
       list(APPEND later ${cases})
-      set(link $<TARGET_FILE_DIR:${name}>/${name}_${tier})
-      add_custom_command(TARGET ${name} POST_BUILD COMMAND ${CMAKE_COMMAND} -E create_symlink ${name} ${link})
+      brume_link_test(${name}_${tier} ${name} link)
       brume_add_test(${name}_${tier} ${name} LABELS ${arg_LABELS} ${tier} COMMAND ${link} --gtest_filter=${cases}
                      ${timeout})
     endif()
@@ -96,6 +102,18 @@ function(brume_test name)
     set(filter --gtest_filter=-${later})
   endif()
   brume_add_test(${name} ${name} LABELS ${arg_LABELS} COMMAND $<TARGET_FILE:${name}> ${filter} ${timeout})
+endfunction()
+
+# brume_thorough_test(NAME PROGRAM WHAT LABELS labels... [FILTER cases] [TIMEOUT seconds]): a program of brume_test once
+# more, which repeats WHAT as often as it can (tests/thorough.hpp).
+function(brume_thorough_test name program what)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "FILTER;TIMEOUT" "LABELS")
+  if(NOT arg_FILTER)
+    set(arg_FILTER *)
+  endif()
+  brume_link_test(${name} ${program} link)
+  brume_add_test(${name} ${program} LABELS ${arg_LABELS} TIMEOUT ${arg_TIMEOUT}
+                 COMMAND ${CMAKE_COMMAND} -E env BRUME_THOROUGH=${what} ${link} --gtest_filter=${arg_FILTER})
 endfunction()
 
 # The rooms of a target: its own folder below src or apps, and the folders of everything that it links or runs.

@@ -7,15 +7,12 @@
 #include "core/file.hpp"
 #include "tests/api/hostile.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/thorough.hpp"
 
 namespace brume::api {
 namespace {
 
-#ifdef BRUME_MANY_CALLS
-constexpr std::uint64_t kCalls = 1'000'000;
-#else
-constexpr std::uint64_t kCalls = kSanitized ? 8'000 : 60'000;
-#endif
+const std::uint64_t kCalls = is_thorough("calls") ? 1'000'000 : kSanitized ? 8'000 : 60'000;
 
 TEST(Hostile, ArgumentsGiveResultsInEveryFunction) {
   Hostile hostile(1);

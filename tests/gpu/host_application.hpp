@@ -11,15 +11,12 @@
 #include "gpu/device_features.hpp"
 #include "gpu/host_recording.hpp"
 #include "tests/gpu/shared_pipelines.hpp"
+#include "tests/thorough.hpp"
 
 namespace brume::gpu {
 
 // What runs long makes and destroys every pipeline of its renderers, under the layers.
-#ifdef BRUME_EVERY_FRAME
-constexpr bool kSharesPipelines = false;
-#else
-constexpr bool kSharesPipelines = true;
-#endif
+inline const bool kSharesPipelines = !is_thorough("frames");
 
 /// The instance and the device of all host applications of a program, with or without the validation layers.
 template <bool kValidates>

@@ -1,26 +1,20 @@
 // Every call that may fail for want of memory fails once: an error with a sentence, no command at all, and a
 // next frame that is right.
 #include <array>
-#include <cstring>
-#include <deque>
-#include <string_view>
 
-#include "gpu/device_list.hpp"
 #include "gpu/read_back.hpp"
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
 #include "scenario/scenario.hpp"
+#include "tests/gpu/interposer.hpp"
 #include "tests/host/hosted_smoke.hpp"
+#include "tests/thorough.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
 namespace {
 
-#ifdef BRUME_EVERY_FAULT
-constexpr bool kEvery = true;
-#else
-constexpr bool kEvery = false;
-#endif
+const bool kEvery = is_thorough("faults");
 constexpr std::uint32_t kParts = 3;
 
 /// Which calls there are does not depend on the number of pixels.
@@ -29,67 +23,34 @@ constexpr glm::uvec2 kFaultSize{16, 9};
 /// Calls of a device until one fails.
 struct Faults {
   static inline std::uint32_t calls = 0, fails_at = 0;  // 0: none
-  static bool fails() { return ++calls == fails_at; }
-  static inline int commands = 0;  // that were recorded
-};
-
-/// A function of Vulkan that counts its calls, one of which fails. No two of those below have one type.
-template <typename Function>
-struct Faulty;
-template <typename... Arguments>
-struct Faulty<VkResult(VKAPI_PTR*)(Arguments...)> {
-  static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
-  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
-    return Faults::fails() ? VK_ERROR_OUT_OF_DEVICE_MEMORY : real(arguments...);
+  template <typename Function, typename... Arguments>
+  static VkResult call(Function real, Arguments... arguments) {
+    return ++calls == fails_at ? VK_ERROR_OUT_OF_DEVICE_MEMORY : real(arguments...);
   }
 };
-
-template <typename... Arguments>
-struct Faulty<void(VKAPI_PTR*)(Arguments...)> {
-  static inline void(VKAPI_PTR* real)(Arguments...) = nullptr;
-  static VKAPI_ATTR void VKAPI_CALL call(Arguments... arguments) {
-    ++Faults::commands;
+/// Commands that were recorded.
+struct Commands {
+  static inline int count = 0;
+  template <typename Function, typename... Arguments>
+  static void call(Function real, Arguments... arguments) {
+    ++count;
     real(arguments...);
   }
 };
 
-#define BRUME_RECORDING_FUNCTIONS(X) \
-  X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
-#define BRUME_FAULTY_FUNCTIONS(X)                                                                         \
-  X(AllocateMemory)                                                                                       \
-  X(MapMemory)                                                                                            \
-  X(CreateBuffer)                                                                                         \
-  X(BindBufferMemory)                                                                                     \
-  X(CreateImage)                                                                                          \
-  X(BindImageMemory)                                                                                      \
-  X(CreateImageView)                                                                                      \
-  X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)             \
-      X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool) \
-          X(AllocateDescriptorSets) X(CreateQueryPool)
-
-PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
-PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr;
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_proc_addr(VkDevice device, const char* name) {
-  const PFN_vkVoidFunction real = g_device_proc_addr(device, name);
-#define X(function)                                              \
-  if (std::string_view(name) == "vk" #function) {                \
-    using Wrapper = Faulty<PFN_vk##function>;                    \
-    Wrapper::real = reinterpret_cast<PFN_vk##function>(real);    \
-    return reinterpret_cast<PFN_vkVoidFunction>(&Wrapper::call); \
-  }
-  BRUME_FAULTY_FUNCTIONS(X)
-  BRUME_RECORDING_FUNCTIONS(X)
+// clang-format off
+const std::vector<gpu::Replacement> kFaulty{
+#define X(function) BRUME_INTERPOSED(Faults, function),
+    X(AllocateMemory) X(MapMemory) X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory)
+    X(CreateImageView) X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)
+    X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)
+    X(AllocateDescriptorSets) X(CreateQueryPool)
 #undef X
-  return real;
-}
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_proc_addr(VkInstance instance, const char* name) {
-  const PFN_vkVoidFunction real = g_instance_proc_addr(instance, name);
-  if (std::string_view(name) != "vkGetDeviceProcAddr") return real;
-  g_device_proc_addr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
-  return reinterpret_cast<PFN_vkVoidFunction>(&device_proc_addr);
-}
+#define X(function) BRUME_INTERPOSED(Commands, function),
+    X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+#undef X
+};
+// clang-format on
 
 class FaultTest : public testing::Test {
  protected:
@@ -139,17 +100,15 @@ class FaultTest : public testing::Test {
   }
 
   static gpu::ImageInfo depth_info() {
-    gpu::ImageInfo info;
-    info.format = VK_FORMAT_R32_SFLOAT;
-    info.size = {kFaultSize, 1};
-    info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return info;
+    return {
+        .format = VK_FORMAT_R32_SFLOAT,
+        .size = {kFaultSize, 1},
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
   }
   /// The host's device, some of whose functions may fail for the interface.
   gpu::HostDevice faulty_device() const {
     gpu::HostDevice device = host_.device();
-    g_instance_proc_addr = device.get_instance_proc_addr;
-    device.get_instance_proc_addr = instance_proc_addr;
+    device.get_instance_proc_addr = gpu::Interposer::over(device.get_instance_proc_addr, kFaulty);
     return device;
   }
 
@@ -174,9 +133,9 @@ class FaultTest : public testing::Test {
       params.decal_count = 1;
       Media media;
       if (tank_) media.show(*this, params);
-      Faults::commands = 0;
+      Commands::count = 0;
       result = brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
-      EXPECT_EQ(Faults::commands > 0, result == BRUME_OK) << "a part of a frame was recorded";
+      EXPECT_EQ(Commands::count > 0, result == BRUME_OK) << "a part of a frame was recorded";
       if (result != BRUME_OK) return;
       VkImage image = VK_NULL_HANDLE;
       EXPECT_OK(brume_renderer_smoke(smoke.renderer, &image, nullptr));

@@ -7,17 +7,15 @@
 
 #include "tests/host/heap.hpp"
 #include "tests/host/yard.hpp"
+#include "tests/thorough.hpp"
 
 namespace brume::host {
 namespace {
 
 // How many allocations fail, spread over all of them, and in how many tests, which may be of several
 // processes (GTEST_TOTAL_SHARDS).
-#if defined(BRUME_FAULTS)
-constexpr int kFaults = BRUME_FAULTS, kParts = 16;
-#else
-constexpr int kFaults = 4, kParts = 1;
-#endif
+const bool kEvery = is_thorough("faults");
+const int kFaults = kEvery ? 320 : 4, kParts = kEvery ? 16 : 1;
 
 /// Without the validation layers, which allocate with every command.
 class HeapTest : public YardTest {
@@ -128,12 +126,9 @@ TEST_F(HeapTest, SteadyFramesOfDecals) {
 
 /// A function of the driver, or of tests/gpu/shared_pipelines.hpp, whose own allocations are not counted: it
 /// does not expect that they fail.
-template <typename Function>
-struct Uncounted;
-template <typename... Arguments>
-struct Uncounted<VkResult(VKAPI_PTR*)(Arguments...)> {
-  static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
-  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+struct Uncounted {
+  template <typename Function, typename... Arguments>
+  static VkResult call(Function real, Arguments... arguments) {
     const bool counts = std::exchange(Heap::counts, false);
     const VkResult result = real(arguments...);
     Heap::counts = counts;
@@ -141,26 +136,16 @@ struct Uncounted<VkResult(VKAPI_PTR*)(Arguments...)> {
   }
 };
 
-PFN_vkVoidFunction uncounted(const char* name, PFN_vkVoidFunction real) {
-#define X(function)                                                                  \
-  if (std::string_view(name) == "vk" #function) {                                    \
-    Uncounted<PFN_vk##function>::real = reinterpret_cast<PFN_vk##function>(real);    \
-    return reinterpret_cast<PFN_vkVoidFunction>(&Uncounted<PFN_vk##function>::call); \
-  }
-  X(CreateShaderModule)
-  X(CreateDescriptorSetLayout)
-  X(CreatePipelineLayout)
-  X(CreateComputePipelines)
-  X(CreateGraphicsPipelines)
-#undef X
-  return real;
-}
-
 class HeapFaultTest : public HeapTest, public testing::WithParamInterface<int> {
  protected:
-  HeapFaultTest() { g_replace = uncounted; }
-  ~HeapFaultTest() override { g_replace = nullptr; }
-
+  HeapFaultTest() {
+    for (const gpu::Replacement& replacement : {BRUME_INTERPOSED(Uncounted, CreateShaderModule),
+                                                BRUME_INTERPOSED(Uncounted, CreateDescriptorSetLayout),
+                                                BRUME_INTERPOSED(Uncounted, CreatePipelineLayout),
+                                                BRUME_INTERPOSED(Uncounted, CreateComputePipelines),
+                                                BRUME_INTERPOSED(Uncounted, CreateGraphicsPipelines)})
+      replacements_.push_back(replacement);
+  }
   /// Calls `call` while allocations are counted.
   template <typename Call>
   static brume_result counted_call(Call call) {
@@ -211,10 +196,10 @@ TEST_P(HeapFaultTest, EveryAllocationMayFail) {
     // Spread over all of them, the first among them.
     const int fails_at = 1 + static_cast<int>(std::int64_t{i} * (allocations - 1) / kFaults);
     SCOPED_TRACE("allocation " + std::to_string(fails_at) + " of " + std::to_string(allocations));
-#if defined(BRUME_FAULTS)
-    std::printf("allocation %d of %d\n", fails_at, allocations);
-    std::fflush(stdout);
-#endif
+    if (kEvery) {
+      std::printf("allocation %d of %d\n", fails_at, allocations);
+      std::fflush(stdout);
+    }
     Heap::allocations = 0;
     Heap::fails_at = fails_at;
     const int failures = draw_all();

@@ -7,18 +7,15 @@
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
 #include "tests/host/hostile_frames.hpp"
+#include "tests/thorough.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
 namespace {
 
-#ifdef BRUME_MANY_CALLS
-constexpr int kFrames = 300;
-constexpr HostileFrames::Scales kScales = HostileFrames::Scales::all;
-#else
-constexpr int kFrames = 6;
-constexpr HostileFrames::Scales kScales = HostileFrames::Scales::full;
-#endif
+const bool kMany = is_thorough("calls");
+const int kFrames = kMany ? 300 : 6;
+const HostileFrames::Scales kScales = kMany ? HostileFrames::Scales::all : HostileFrames::Scales::full;
 constexpr int kMostMore = 60;
 
 std::set<std::string> declared_functions() {

@@ -4,15 +4,12 @@
 #include <random>
 
 #include "tests/host/yard.hpp"
+#include "tests/thorough.hpp"
 
 namespace brume::host {
 namespace {
 
-#ifdef BRUME_EVERY_FRAME
-constexpr int kFrames = 10'000;
-#else
-constexpr int kFrames = 40;
-#endif
+const int kFrames = is_thorough("frames") ? 10'000 : 40;
 
 class SoakTest : public YardTest {
  protected:

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <map>
-#include <string_view>
 
+#include "tests/gpu/interposer.hpp"
 #include "tests/host/hosted_smoke.hpp"
 
 namespace brume::host {
@@ -12,49 +12,20 @@ namespace brume::host {
 /// Functions that a library in a host must not call, counted.
 struct Waits {
   static inline int calls = 0;
-};
-template <typename Function>
-struct Counted;
-template <typename... Arguments>
-struct Counted<VkResult(VKAPI_PTR*)(Arguments...)> {
-  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments...) {
-    ++Waits::calls;
+  template <typename... Arguments>
+  static VkResult call(Arguments...) {
+    ++calls;
     return VK_ERROR_UNKNOWN;
   }
 };
-
-#define BRUME_WAITING_FUNCTIONS(X)                                                                        \
-  X(QueueSubmit)                                                                                          \
-  X(QueueSubmit2)                                                                                         \
-  X(QueueWaitIdle)                                                                                        \
-  X(DeviceWaitIdle)                                                                                       \
-  X(WaitForFences) X(WaitSemaphores) X(QueueBindSparse) X(CreateDevice) X(CreateSemaphore) X(CreateFence) \
-      X(CreateCommandPool)
-
-inline PFN_vkGetInstanceProcAddr g_real_instance_proc_addr = nullptr;
-inline PFN_vkGetDeviceProcAddr g_real_device_proc_addr = nullptr;
-
-/// Takes the place of more functions of the device; null: of none.
-inline PFN_vkVoidFunction (*g_replace)(const char* name, PFN_vkVoidFunction real) = nullptr;
-
-inline PFN_vkVoidFunction counted(const char* name, PFN_vkVoidFunction real) {
-#define X(function)                             \
-  if (std::string_view(name) == "vk" #function) \
-    return reinterpret_cast<PFN_vkVoidFunction>(&Counted<PFN_vk##function>::call);
-  BRUME_WAITING_FUNCTIONS(X)
+// clang-format off
+inline const std::vector<gpu::Replacement> kWaiting{
+#define X(function) BRUME_INTERPOSED(Waits, function),
+    X(QueueSubmit) X(QueueSubmit2) X(QueueWaitIdle) X(DeviceWaitIdle) X(WaitForFences) X(WaitSemaphores)
+    X(QueueBindSparse) X(CreateDevice) X(CreateSemaphore) X(CreateFence) X(CreateCommandPool)
 #undef X
-  return g_replace ? g_replace(name, real) : real;
-}
-inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_device_proc_addr(VkDevice device, const char* name) {
-  return counted(name, g_real_device_proc_addr(device, name));
-}
-inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_instance_proc_addr(VkInstance instance,
-                                                                            const char* name) {
-  const PFN_vkVoidFunction real = g_real_instance_proc_addr(instance, name);
-  if (std::string_view(name) != "vkGetDeviceProcAddr") return counted(name, real);
-  g_real_device_proc_addr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
-  return reinterpret_cast<PFN_vkVoidFunction>(&counting_device_proc_addr);
-}
+};
+// clang-format on
 
 /// Memory of the device by the host's own functions.
 struct HostMemory {
@@ -129,8 +100,7 @@ class YardTest : public testing::Test {
     ASSERT_OK(brume_field_create(level_, &field, &field_));
 
     brume_device_params on = brume_device_defaults();
-    g_real_instance_proc_addr = host_.device().get_instance_proc_addr;
-    on.get_instance_proc_addr = counting_instance_proc_addr;
+    on.get_instance_proc_addr = gpu::Interposer::over(host_.device().get_instance_proc_addr, replacements_);
     on.instance = host_.device().instance;
     on.physical_device = host_.device().physical_device;
     on.device = host_.device().device;
@@ -211,6 +181,7 @@ class YardTest : public testing::Test {
   }
 
   glm::uvec2 first_;
+  std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;
   gpu::Context gpu_;
   gpu::HostRecording recording_;
