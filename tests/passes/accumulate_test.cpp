@@ -31,7 +31,7 @@ class AccumulateTest : public gpu::GpuTest {
     const auto buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& r) { pass_.record(r, buffer, frame.camera, depth, image, continues); });
     Texels shown;
-    for (const Half4& texel : read_back<Half4>(pass_.gathered())) shown.push_back(from_half(texel));
+    shown = from_half(read_back<Half4>(pass_.gathered()));
     return shown;
   }
   static std::vector<float> wall(float distance) {

@@ -48,7 +48,7 @@ class AntialiasTest : public gpu::GpuTest {
       pass_.record(r, {buffer, depth, media_image, radiance_image}, middle, jitter, index > 0);
     });
     Texels shown;
-    for (const Half4& texel : read_back<Half4>(pass_.result())) shown.push_back(from_half(texel));
+    shown = from_half(read_back<Half4>(pass_.result()));
     return shown;
   }
 

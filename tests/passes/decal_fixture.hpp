@@ -143,9 +143,7 @@ class DecalFixture : public gpu::GpuTest {
       pass_->upload(recorder, decals);
       pass_->record(recorder, frame_buffer, camera_, gbuffer_, noise_, slices_->image(), continues);
     });
-    std::vector<glm::vec4> result;
-    for (const Half4& texel : read_back<Half4>(pass_->occlusion())) result.push_back(from_half(texel));
-    return result;
+    return from_half(read_back<Half4>(pass_->occlusion()));
   }
 
   /// The same in double precision: where it is follows from the input alone.

@@ -66,19 +66,15 @@ TEST_F(DensityTest, WhatWasUploadedInPartsReadsAsTheProcessorReads) {
   SmokeRoom room(context(), runner(), walls, {size, 0.3f, {-0.3f, -0.2f, -0.4f}}, {1, 1, 1}, 600, 20);
   // Another far off, so that the page table grows; one between them; a blast; and all of it back and forth.
   for (const auto& [tick, x] : {std::pair{30u, 36.0}, {40u, 18.0}}) {
-    sim::ThrowSmoke event;
-    event.tick = tick;
-    event.from = event.at = sim::position_from_metres({x, 1, 3});
-    event.smoke = {900, 20, 25, 20};
-    room.world.append(event).value_or_throw();
+    sim::ThrowSmoke thrown = smoke_at({x, 1, 3}, 900, tick);
+    thrown.smoke = {900, 20, 25, 20};
+    room.append(thrown);
   }
-  room.world.append(sim::Blast{.tick = 50, .at = sim::position_from_metres({2, 1, 2}), .radius = 2048})
-      .value_or_throw();
+  room.append(sim::Blast{.tick = 50, .at = sim::position_from_metres({2, 1, 2}), .radius = 2048});
   std::mt19937 random(12);
   std::uniform_real_distribution<float> share(-0.02f, 1.02f);
   for (const std::uint32_t tick : {25u, 33u, 34u, 45u, 52u, 60u, 75u, 100u, 38u, 20u, 140u}) {
-    room.world.advance_to(tick);
-    room.volume.update(room.world);
+    room.advance_to(tick);
     room.upload.reserve(room.volume);
     runner().run([&](gpu::Recorder& recorder) { room.upload.record(recorder, room.volume); });
     std::vector<glm::vec3> points;

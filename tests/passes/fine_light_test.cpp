@@ -3,20 +3,15 @@
 #include <cmath>
 
 #include "shared/light_side.h"
-#include "tests/passes/half.hpp"
-#include "tests/passes/smoke_room.hpp"
+#include "tests/passes/march_fixture.hpp"
 
 namespace brume::passes {
 namespace {
 
-/// A grid without walls, full of smoke of density 1, which no noise erodes.
-class FineLightTest : public gpu::GpuTest {
+/// Smoke of density 1, which no noise erodes.
+class FineLightTest : public MarchFixture {
  protected:
-  FineLightTest()
-      : room_(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22, 4000) {
-    const NoisePass noise(context());
-    noise_tile_ = make_noise_tile(context(), 8);
-    runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_tile_, {8, 2, 1}); });
+  FineLightTest() {
     frame_.smoke = room_.volume.layout();
     frame_.look.extinction = 0.7f;
     frame_.look.noise_frequency = 1;
@@ -57,8 +52,7 @@ class FineLightTest : public gpu::GpuTest {
     return plan;
   }
 
-  SmokeRoom room_;
-  gpu::Image noise_tile_;
+  const SmokeRoom& room_ = full_room();
   shared::FrameConstants frame_{};
 };
 

@@ -18,6 +18,11 @@ inline glm::vec4 from_half(const Half4& h) {
   return {glm::unpackHalf1x16(h[0]), glm::unpackHalf1x16(h[1]), glm::unpackHalf1x16(h[2]),
           glm::unpackHalf1x16(h[3])};
 }
+inline std::vector<glm::vec4> from_half(const std::vector<Half4>& texels) {
+  std::vector<glm::vec4> values;
+  for (const Half4& texel : texels) values.push_back(from_half(texel));
+  return values;
+}
 inline Half4 to_half(glm::vec4 v) {
   return {glm::packHalf1x16(v.x), glm::packHalf1x16(v.y), glm::packHalf1x16(v.z), glm::packHalf1x16(v.w)};
 }

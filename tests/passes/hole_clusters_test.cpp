@@ -5,32 +5,15 @@
 #include <cstring>
 #include <random>
 
-#include "passes/blue_noise.hpp"
-#include "passes/march.hpp"
-#include "passes/noise.hpp"
-#include "tests/passes/half.hpp"
-#include "tests/passes/smoke_alone.hpp"
-#include "tests/passes/smoke_room.hpp"
+#include "tests/passes/march_fixture.hpp"
 #include "tests/planning/random_holes.hpp"
 
 namespace brume::passes {
 namespace {
 
-class HoleClustersTest : public gpu::GpuTest {
+class HoleClustersTest : public MarchFixture {
  protected:
   static constexpr glm::uvec2 kSize{70, 41};
-  HoleClustersTest()
-      : room_(context(), runner(), walls(), {{26, 17, 33}, 0.5f, {-6.5f, -4, -8}}, {0, 0, -1}, 1u << 22,
-              4000),
-        march_(context(), {}),
-        plain_(context(), {false, true}) {
-    noise_tile_ = make_noise_tile(context(), 8);
-    const NoisePass noise(context());
-    runner().run([&](gpu::Recorder& recorder) {
-      noise.record(recorder, noise_tile_, {8, 2, 1});
-      blue_noise_ = make_blue_noise(context(), recorder);
-    });
-  }
   static std::vector<voxel::Triangle> walls() {
     std::vector<voxel::Triangle> walls;
     add_quad(walls, {-3, -3, -2.05f}, {0, -3, -1.05f}, {0, 3, -1.05f}, {-3, 3, -2.05f});
@@ -39,18 +22,8 @@ class HoleClustersTest : public gpu::GpuTest {
 
   /// Radiance and transmittance as their bytes.
   std::vector<Half4> march(const std::vector<shared::Hole>& holes, bool plain) {
-    shared::FrameConstants frame{};
-    frame.camera.eye_world = {0.3f, 0.2f, 7};
-    frame.camera.near_z = 0.05f;
-    frame.camera.forward = {0, 0, -1};
-    frame.camera.right = {0.9f, 0, 0};
-    frame.camera.up = {0, 0.55f, 0};
-    frame.smoke = room_.volume.layout();
-    frame.size_px = kSize;
-    frame.look.albedo = glm::vec3(1);
+    shared::FrameConstants frame = frame_at(room_, {0.3f, 0.2f, 7}, {0.9f, 0.55f}, kSize);
     frame.look.extinction = 0.3f;
-    frame.look.step_length = 0.1f;
-    frame.look.noise_frequency = 1;
     frame.look.hole_rim = 0.06f;
     frame.time = 1;
     HoleClusters hole_clusters(context(), runner(), {});
@@ -64,15 +37,11 @@ class HoleClustersTest : public gpu::GpuTest {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
-    const SmokeResources& smoke = room_.upload.resources();
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.clear(smoke.inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      hole_clusters.record(recorder, plan, frame_buffer, smoke);
+      light_evenly(recorder, room_);
+      hole_clusters.record(recorder, plan, frame_buffer, room_.upload.resources());
       (plain ? plain_ : march_)
-          .record(recorder,
-                  {frame_buffer, smoke_alone(smoke, hole_clusters, volumes_), no_light(smoke, volumes_),
-                   noise_tile_, noise_tile_, depth_image, blue_noise_},
-                  target, counters);
+          .record(recorder, inputs(frame_buffer, room_, depth_image, hole_clusters), target, counters);
     });
     return read_back<Half4>(target);
   }
@@ -85,10 +54,9 @@ class HoleClustersTest : public gpu::GpuTest {
     return static_cast<double>(largest);
   }
 
-  SmokeRoom room_;
-  MarchPass march_, plain_;
-  VolumeUpload volumes_{context()};
-  gpu::Image noise_tile_, blue_noise_;
+  const SmokeRoom room_{context(),  runner(), walls(), {{26, 17, 33}, 0.5f, {-6.5f, -4, -8}},
+                        {0, 0, -1}, 1u << 22, 4000};
+  const MarchPass march_{context(), {}}, plain_{context(), {false, true}};
 };
 
 TEST_F(HoleClustersTest, GivesTheImageOfTestingEveryHole) {

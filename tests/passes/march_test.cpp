@@ -3,45 +3,19 @@
 #include <cmath>
 #include <optional>
 
-#include "passes/blue_noise.hpp"
-#include "passes/noise.hpp"
 #include "passes/resolve.hpp"
 #include "shared/opaque.h"
-#include "tests/passes/half.hpp"
-#include "tests/passes/smoke_alone.hpp"
-#include "tests/passes/smoke_room.hpp"
+#include "tests/passes/march_fixture.hpp"
 
 namespace brume::passes {
 namespace {
 
 constexpr glm::uvec2 kImageSize{33, 17};
 
-class MarchTest : public gpu::GpuTest {
+class MarchTest : public MarchFixture {
  protected:
-  MarchTest() : march_(context(), {true, false}) {
-    noise_tile_ = make_noise_tile(context(), 8);
-    const NoisePass noise(context());
-    runner().run([&](gpu::Recorder& recorder) {
-      noise.record(recorder, noise_tile_, {8, 2, 1});
-      blue_noise_ = make_blue_noise(context(), recorder);
-    });
-  }
-
-  /// A camera at `eye` that looks along -z, a quarter turn wide.
   static shared::FrameConstants frame_at(const SmokeRoom& room, glm::vec3 eye) {
-    shared::FrameConstants frame{};
-    frame.camera.eye_world = eye;
-    frame.camera.near_z = 0.05f;
-    frame.camera.forward = {0, 0, -1};
-    frame.camera.right = {0.8f, 0, 0};
-    frame.camera.up = {0, 0.4f, 0};
-    frame.smoke = room.volume.layout();
-    frame.size_px = kImageSize;
-    frame.look.albedo = glm::vec3(1);
-    frame.look.extinction = 0.7f;
-    frame.look.step_length = 0.1f;
-    frame.look.noise_frequency = 1;
-    return frame;
+    return MarchFixture::frame_at(room, eye, {0.8f, 0.4f}, kImageSize);
   }
   static glm::vec3 ray(const shared::FrameConstants& frame, std::uint32_t pixel) {
     const glm::vec2 ndc =
@@ -64,23 +38,15 @@ class MarchTest : public gpu::GpuTest {
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kImageSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      light_evenly(recorder, room);
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
-      march_.record(
-          recorder,
-          {frame_buffer, smoke_alone(room.upload.resources(), hole_clusters, volumes_),
-           no_light(room.upload.resources(), volumes_), noise_tile_, noise_tile_, depth_image, blue_noise_},
-          target, counters);
+      march_.record(recorder, inputs(frame_buffer, room, depth_image, hole_clusters), target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
-    std::vector<glm::vec4> out;
-    for (const Half4& texel : read_back<Half4>(target)) out.push_back(from_half(texel));
-    return out;
+    return from_half(read_back<Half4>(target));
   }
 
-  MarchPass march_;
-  VolumeUpload volumes_{context()};
-  gpu::Image noise_tile_, blue_noise_;
+  const MarchPass march_{context(), {true, false}};
   std::uint32_t samples_ = 0;
 };
 
@@ -104,12 +70,9 @@ std::uint32_t steps_of(float path, const shared::SmokeLook& look) {
   return steps;
 }
 
-/// A grid without walls, full of smoke: a box of constant density.
 class MarchConstantTest : public MarchTest {
  protected:
-  MarchConstantTest()
-      : room_(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22, 4000) {}
-  SmokeRoom room_;
+  const SmokeRoom& room_ = full_room();
 };
 
 TEST_F(MarchConstantTest, DensityIsOneEverywhere) {
@@ -157,15 +120,9 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
     std::optional<MarchTiles> blocks;
     if (scale > 1) blocks.emplace(context(), kImageSize, scale);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      light_evenly(recorder, room_);
       recorder.fill(counters, 0);
-      const MarchPass::Inputs in{frame_buffer,
-                                 smoke_alone(room_.upload.resources(), no_holes, volumes_),
-                                 no_light(room_.upload.resources(), volumes_),
-                                 noise_tile_,
-                                 noise_tile_,
-                                 depth,
-                                 blue_noise_};
+      const MarchPass::Inputs in = inputs(frame_buffer, room_, depth, no_holes);
       if (scale == 1) return counting.record(recorder, in, target, counters);
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);
@@ -183,9 +140,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
     EXPECT_EQ(counted[0], 2 * steps) << "scale " << scale;
     if (scale == 1) {
       EXPECT_EQ(counted[0], all);
-      std::vector<glm::vec4> same;
-      for (const Half4& texel : read_back<Half4>(target)) same.push_back(from_half(texel));
-      EXPECT_EQ(same, plain);
+      EXPECT_EQ(from_half(read_back<Half4>(target)), plain);
     }
   }
 }
@@ -227,14 +182,7 @@ TEST_F(MarchConstantTest, NothingBehindTheSurface) {
 TEST_F(MarchConstantTest, AHoleLetsThroughWhatItRemoves) {
   auto frame = frame_at(room_, {0, 0, -0.5f});
   frame.look.extinction = 2;
-  shared::Hole hole{};
-  hole.origin_world = {0, 0, 0};
-  hole.forward = {0, 0, -1};
-  hole.right = {1, 0, 0};
-  hole.up = {0, 1, 0};
-  hole.radius = 1;
-  hole.distance_to_far = 20;
-  hole.time_to_stay_open = 10;
+  const shared::Hole hole = open_hole(glm::vec3(0), {0, 0, -1}, 1, 20);
   frame.time = 1;
   constexpr std::uint32_t kCentre = 16 + 8 * kImageSize.x;
   // Down the axis everything is removed; at the picture's corner the ray leaves the hole early.

@@ -160,7 +160,7 @@ class ParticlesFixture : public gpu::GpuTest {
 
   Drawn read(const Scene& scene, const gpu::Image& target) {
     Drawn drawn;
-    for (const Half4& texel : read_back<Half4>(target)) drawn.pixels.push_back(from_half(texel));
+    drawn.pixels = from_half(read_back<Half4>(target));
     std::size_t count = 0;
     for (const ParticleSystem& system : scene.systems) count += system.count;
     if (count == 0) return drawn;

@@ -89,9 +89,7 @@ class RaycastFixture : public gpu::GpuTest {
       pass(form).record(recorder, {upload_.resources(), depth_},
                         planning::plan_raycast(device_camera(), size_, in_view, light_, steps_), target);
     });
-    std::vector<glm::vec4> pixels;
-    for (const Half4& texel : read_back<Half4>(target)) pixels.push_back(from_half(texel));
-    return pixels;
+    return from_half(read_back<Half4>(target));
   }
 
   const glm::uvec2 size_;

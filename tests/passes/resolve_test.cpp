@@ -6,45 +6,21 @@
 #include <random>
 #include <set>
 
-#include "passes/blue_noise.hpp"
-#include "passes/noise.hpp"
-#include "tests/passes/half.hpp"
-#include "tests/passes/smoke_alone.hpp"
-#include "tests/passes/smoke_room.hpp"
+#include "tests/passes/march_fixture.hpp"
 
 namespace brume::passes {
 namespace {
 
 using shared::RayEnds;
 
-class ResolveTest : public gpu::GpuTest {
+class ResolveTest : public MarchFixture {
  protected:
-  ResolveTest() : march_(context(), {}), resolve_(context()) {
-    noise_tile_ = make_noise_tile(context(), 8);
-    const NoisePass noise(context());
-    runner().run([&](gpu::Recorder& recorder) {
-      noise.record(recorder, noise_tile_, {8, 2, 1});
-      blue_noise_ = make_blue_noise(context(), recorder);
-    });
-  }
-
   /// A camera at `eye` that looks along -z, narrow enough that the rays of a block are of one length.
   static shared::FrameConstants frame_at(const SmokeRoom& room, glm::vec3 eye, glm::uvec2 size,
                                          std::uint32_t scale) {
-    shared::FrameConstants frame{};
-    frame.camera.eye_world = eye;
-    frame.camera.near_z = 0.05f;
-    frame.camera.forward = {0, 0, -1};
-    frame.camera.right = {0.1f, 0, 0};
-    frame.camera.up = {0, 0.05f, 0};
-    frame.smoke = room.volume.layout();
-    frame.size_px = size;
+    shared::FrameConstants frame = MarchFixture::frame_at(room, eye, {0.1f, 0.05f}, size);
     frame.march_scale = scale;
     frame.resolve_error = shared::kResolveError;
-    frame.look.albedo = glm::vec3(1);
-    frame.look.extinction = 0.7f;
-    frame.look.step_length = 0.1f;
-    frame.look.noise_frequency = 1;
     frame.exposure = 1;
     frame.media = planning::smoke_media(frame.smoke, frame.look);
     return frame;
@@ -68,15 +44,9 @@ class ResolveTest : public gpu::GpuTest {
     const auto no_holes = planning::plan_holes({}, 0, 0, frame.smoke, room.volume.slot_count(), size);
     holes.reserve(no_holes);
     const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
-    const MarchPass::Inputs in{frame_buffer,
-                               smoke_alone(room.upload.resources(), holes, volumes_),
-                               no_light(room.upload.resources(), volumes_),
-                               noise_tile_,
-                               noise_tile_,
-                               depth,
-                               blue_noise_};
+    const MarchPass::Inputs in = inputs(frame_buffer, room, depth, holes);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      light_evenly(recorder, room);
       holes.record(recorder, no_holes, frame_buffer, room.upload.resources());
       if (way == Way::pixels) {
         march_.record(recorder, in, target, counters);
@@ -91,9 +61,7 @@ class ResolveTest : public gpu::GpuTest {
       if (way == Way::all_listed) list_all(recorder, blocks, frame);
       march_.record_list(recorder, in, blocks, target, counters);
     });
-    std::vector<glm::vec4> out;
-    for (const Half4& texel : read_back<Half4>(target)) out.push_back(from_half(texel));
-    return out;
+    return from_half(read_back<Half4>(target));
   }
   static void list_all(gpu::Recorder& recorder, const MarchTiles& blocks,
                        const shared::FrameConstants& frame) {
@@ -104,10 +72,8 @@ class ResolveTest : public gpu::GpuTest {
     recorder.upload(blocks.list, 0, std::as_bytes(std::span(words)));
   }
 
-  MarchPass march_;
-  VolumeUpload volumes_{context()};
-  ResolvePass resolve_;
-  gpu::Image noise_tile_, blue_noise_;
+  const MarchPass march_{context(), {}};
+  const ResolvePass resolve_{context()};
 };
 
 using Surface = std::function<float(std::uint32_t x, std::uint32_t y)>;
@@ -165,8 +131,7 @@ double most_off(double z, double expected, double extinction, std::uint32_t scal
 }
 
 TEST_F(ResolveTest, AConstantMediumIsBeerLambertInFrontOfAnySurface) {
-  const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22,
-                       4000);
+  const SmokeRoom& room = full_room();
   for (const std::uint32_t scale : {2u, 4u}) {
     for (const glm::uvec2 size : {glm::uvec2(33, 17), glm::uvec2(7, 5), glm::uvec2(1, 1)}) {
       const auto frame = frame_at(room, {0, 0, -0.5f}, size, scale);
@@ -221,8 +186,7 @@ void expect_ends_of(const RayEnds& ends, const std::vector<float>& distances) {
 }
 
 TEST_F(ResolveTest, RaysOfUnevenBlocksPassThroughAFarPixel) {
-  const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22,
-                       4000);
+  const SmokeRoom& room = full_room();
   constexpr glm::uvec2 kSize{33, 17};
   for (const std::uint32_t scale : {2u, 4u}) {
     const auto frame = frame_at(room, {0, 0, -0.5f}, kSize, scale);

@@ -112,9 +112,7 @@ class ShadeTest : public gpu::GpuTest {
       for (std::size_t i = 0; i < a.size(); ++i)
         for (int c = 0; c < 4; ++c) EXPECT_NEAR(a[i][c], b[i][c], 1) << i;
     }
-    std::vector<glm::vec4> out;
-    for (const Half4& texel : read_back<Half4>(radiance)) out.push_back(from_half(texel));
-    return out;
+    return from_half(read_back<Half4>(radiance));
   }
   std::vector<Half4> no_smoke() const { return {std::size_t{size_.x} * size_.y, to_half({0, 0, 0, 1})}; }
 

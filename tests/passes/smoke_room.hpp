@@ -1,42 +1,27 @@
 // A small world with smoke in it, on the CPU and on the device.
 #pragma once
 
-#include <memory>
-
 #include "passes/noise.hpp"
 #include "passes/noise_advection.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/frame.h"
-#include "sim/world.hpp"
-#include "smoke/smoke_volume.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "voxel/voxelize.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::passes {
 
-struct SmokeRoom {
-  voxel::BitGrid grid;
-  voxel::SurfacePlanes planes;
-  sim::World world;
-  smoke::SmokeVolume volume;
+struct SmokeRoom : SmokeWorld {
   SmokeUpload upload;
 
   /// Floods the grid with `voxels` of smoke from `source_world` and shows it `tick` ticks later.
   SmokeRoom(gpu::Context& context, gpu::CommandRunner& runner, const std::vector<voxel::Triangle>& walls,
             const voxel::GridLayout& layout, glm::dvec3 source_world, std::uint32_t voxels,
             std::uint32_t tick)
-      : grid(voxel::voxelize(walls, layout).value_or_throw()),
-        planes(voxel::SurfacePlanes::build(walls, grid)),
-        world(grid),
-        volume(grid, [this](glm::ivec3 cell) { return planes.at(cell); }),
-        upload(context) {
-    sim::ThrowSmoke event;
-    event.from = event.at = sim::position_from_metres(source_world);
-    event.smoke.voxels = voxels;
-    event.smoke.hold_ticks = tick;  // still there
-    world.append(event).value_or_throw();
-    world.advance_to(tick);
-    volume.update(world);
+      : SmokeWorld(walls, layout), upload(context) {
+    sim::ThrowSmoke thrown = smoke_at(source_world, voxels);
+    thrown.smoke.hold_ticks = tick;  // still there
+    append(thrown);
+    advance_to(tick);
     upload.reserve(volume);
     runner.run([&](gpu::Recorder& recorder) {
       upload.record(recorder, volume);

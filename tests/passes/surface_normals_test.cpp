@@ -66,9 +66,7 @@ class SurfaceNormalTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       pass_.record(recorder, buffer, {image, encoding, of_view, alpha_receives}, target);
     });
-    std::vector<glm::vec4> result;
-    for (const Half4& texel : read_back<Half4>(target.normal_metallic)) result.push_back(from_half(texel));
-    return result;
+    return from_half(read_back<Half4>(target.normal_metallic));
   }
   std::vector<glm::vec4> import(const std::vector<glm::vec4>& texels, std::uint32_t encoding,
                                 bool of_view = false, bool alpha_receives = false) {
