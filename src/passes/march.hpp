@@ -47,7 +47,7 @@ class MarchPass {
     MediaResources media;  ///< Their set is reserved, with the kind of rays.
     MediaLight light;
     const gpu::Image& noise;
-    const gpu::Image& detail;  ///< Of the noise.
+    const gpu::Image& detail;  ///< A tile of the noise's octaves below the coarse one.
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
   };

@@ -67,9 +67,9 @@ struct Environment {
 
 struct LevelState {
   LevelView voxels;                           ///< Where the level is solid; always of the same level.
-  std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
+  std::vector<std::uint32_t> hidden_objects;  ///< Objects of the scene, rising: not drawn, without a shadow.
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
-  /// Of the scene, rising; hidden objects, too, which are drawn here without a shadow.
+  /// Objects of the scene, rising; hidden ones, too, which are drawn here without a shadow.
   std::vector<scenario::MovedObject> moved;
   /// The level of later frames, for what takes long to compute from it; null: unknown. Never decides what is
   /// shown.
@@ -122,7 +122,7 @@ struct HeatInput {
 struct TransferInput {
   std::vector<scene::OpacityPoint> opacity;  ///< Empty: the value is the density.
   scene::ColorMap color_map;                 ///< Empty: VolumeLook::albedo.
-  glm::vec2 range{0, 1};                     ///< Of the values that both span; x < y.
+  glm::vec2 range{0, 1};                     ///< The values that both span; x < y.
   float glow = 0;      ///< Fraction of the colours that is emitted instead of scattered, [0, 1].
   float emission = 1;  ///< Radiance of an opaque part per colour that is emitted.
   bool empty() const { return opacity.empty() && color_map.empty() && glow <= 0; }
@@ -131,7 +131,7 @@ struct TransferInput {
 
 /// Noise that moves the places at which a volume is sampled, at a time.
 struct DisturbanceInput {
-  glm::mat4 voxel_from_file{1};  ///< Of the volume, in whose units the disturbance is.
+  glm::mat4 voxel_from_file{1};  ///< The file's units are those of the disturbance.
   scene::Disturbance noise = {};
   float time = 0;  ///< [s]
   bool empty() const { return noise.strength <= 0; }
@@ -139,7 +139,7 @@ struct DisturbanceInput {
 
 /// Noise below a volume's voxels, at a time.
 struct VolumeDetailInput {
-  glm::mat4 voxel_from_file{1};  ///< Of the volume, in whose units the detail is.
+  glm::mat4 voxel_from_file{1};  ///< The file's units are those of the detail.
   scene::VolumeDetail noise = {};
   float densest = 1;  ///< The largest density: value, or opacity by a transfer function.
   float time = 0;     ///< [s]
@@ -178,7 +178,7 @@ struct DecalInput {
   float gamma = 1, correction = 1, falloff = 1;  ///< As bake::OcclusionCurve.
   float fade = 0;                                ///< Part of the box, at each side, over which it fades out.
   float scatter = 0;                             ///< How far noise scatters the samples [voxels].
-  glm::vec3 middle{0};                           ///< Of what hides, in the box.
+  glm::vec3 middle{0};                           ///< The middle of what hides, in the box.
   float radius = 0;  ///< About how far that reaches; 0: unknown, walls have the mean of both channels.
 };
 

@@ -23,7 +23,7 @@ class KnownLights {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Known {
     shared::Light light{};
-    std::uint64_t version = 0;       ///< Of `light`, unique.
+    std::uint64_t version = 0;       ///< Unique: another one where `light` changed.
     std::uint64_t last_frame = 0;    ///< That had it.
     std::uint32_t in_frame = kNone;  ///< Its index among the lights of the frame; kNone: it is not lit.
   };

@@ -17,23 +17,23 @@ constexpr std::uint32_t kAllLightPhases = (1u << shared::kLightPhases) - 1;
 /// A brick's rays to one light, or to the sky.
 struct CachedRays {
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  std::uint32_t light = kNone;     ///< Its number in KnownLights; kNone: the sky.
-  std::uint32_t page = kNone;      ///< The first of its pages; kNone: it has none.
-  std::uint64_t list_version = 0;  ///< Of the texel list whose texels all have rays; 0: no ray was followed.
+  std::uint32_t light = kNone;                   ///< Its number in KnownLights; kNone: the sky.
+  std::uint32_t page = kNone;                    ///< The first of its pages; kNone: it has none.
+  std::uint64_t list_version = 0;                ///< The texel list whose texels all have rays; 0: none has.
   std::uint32_t dirty_phases = kAllLightPhases;  ///< Whose rays no longer hold.
   std::uint64_t last_frame = 0;                  ///< That scheduled them.
-  /// Of the light when the rays were followed: texels out of its reach have none.
+  /// The light's when the rays were followed: texels out of its reach have none.
   float range = 0, intensity = 0;
 };
 
 /// A brick of smoke whose light the device holds.
 struct LitBrick {
   std::uint32_t slot = 0;
-  std::uint32_t number = 0;  ///< Of its texel list on the device.
+  std::uint32_t number = 0;  ///< Its texel list on the device.
   glm::ivec3 brick{0};
-  bool is_listed = false;                        ///< Its texel list still holds.
-  bool by_phase = false;                         ///< The list is sorted by phases.
-  std::uint64_t list_version = 0;                ///< Of its texel list, unique; 0: none.
+  bool is_listed = false;          ///< Its texel list still holds.
+  bool by_phase = false;           ///< The list is sorted by phases.
+  std::uint64_t list_version = 0;  ///< Unique: another one where its texel list changed; 0: it has none.
   std::uint32_t dirty_phases = kAllLightPhases;  ///< Whose light must be gathered.
   std::uint64_t gathered_lights = 0;             ///< Hash of the lights that its light was gathered from.
   std::uint64_t surroundings = 0;                ///< Version of the eye and the sky then.

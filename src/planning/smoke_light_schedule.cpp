@@ -7,8 +7,8 @@
 namespace brume::planning {
 namespace {
 
-// Of bricks that come into view, and of those whose smoke changes: a growing cloud is several frames of light
-// ahead of its texels' phases, but each frame of it costs more.
+// Priorities of bricks that come into view, and whose smoke changes: a growing cloud is several frames of
+// light ahead of its texels' phases, but each frame of it costs more.
 constexpr std::uint32_t kNewPriority = 4, kChangedPriority = 2;
 
 std::uint32_t count_of(const auto& list) {

@@ -82,7 +82,7 @@ class SmokeLightSchedule {
 
   SmokeLightPlan plan_;
   UpdateScheduler phases_{shared::kLightPhases};
-  // Of the part: where its lists begin, and lists of what takes no more than most_phases_ phases.
+  // The part so far: where its lists begin, and lists of what takes no more than most_phases_ phases.
   std::uint32_t first_list_ = 0, first_ray_ = 0, first_gather_ = 0, most_phases_ = 0;
   std::vector<shared::ShadowRays> sliced_rays_;
   std::vector<shared::LightGather> sliced_gathers_;

@@ -49,6 +49,7 @@ bool StaleLight::mark_crossed(const SmokeLightInputs& inputs, const KnownLights&
   const float far = then.voxel_size * glm::length(glm::max(now.bounds_max, then.bounds_max) -
                                                   glm::min(now.bounds_min, then.bounds_min));
   const float radius = kBrickReach * then.voxel_size;
+  // Capsules around rays and changes that touch may cross.
   for (LitBrick& brick : pages.bricks()) {
     const glm::vec3 from = brick_middle(then, brick.brick);
     const auto mark = [&](CachedRays& rays, glm::vec3 to) {

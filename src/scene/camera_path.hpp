@@ -11,7 +11,7 @@ namespace brume::scene {
 struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
-  std::string place = {};  ///< Of the lens's opening in the file, for messages.
+  std::string place = {};  ///< Where the file names the lens's opening, for messages.
 };
 
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and

@@ -24,7 +24,7 @@ struct PointField {
 /// A text in UTF-8. Required.
 struct TextField {
   const char *key, *about;
-  bool names_object = false;  ///< Of the scene, which must have it.
+  bool names_object = false;  ///< An object, which the scene must have.
   std::size_t least_bytes = 0, most_bytes = SIZE_MAX;
 };
 /// True or false. Required.

@@ -13,7 +13,7 @@ constexpr double kFarthestEvent = 16384;
 
 /// A grenade is thrown: it flies in a straight line at 20 m/s and detonates at its target.
 struct SmokeEvent {
-  double time = 0;  ///< Of the throw [s], [0, 3600].
+  double time = 0;  ///< When it is thrown [s], [0, 3600].
   glm::vec3 from_world{0}, at_world{0};
   std::string place = {};  ///< "file:line:column" for error messages, as in all events.
 };
@@ -48,7 +48,7 @@ constexpr std::size_t kMaxTextBytes = 1024;
 /// Shoots a line of text through the smoke: one hole per letter, parallel and side by side, legible from the
 /// shooter's position.
 struct TextEvent {
-  double time = 0;   ///< Of the first letter [s], [0, 3600].
+  double time = 0;   ///< When the first letter is shot [s], [0, 3600].
   std::string text;  ///< One line, UTF-8, 1 to 1024 bytes.
   glm::vec3 from_world{0};
   glm::vec3 toward_world{0, 0, -1};  ///< A point on the path of the row's middle; not `from_world`.
@@ -94,7 +94,7 @@ struct DoorEvent {
   double time = 0;     ///< [s], [0, 3600].
   std::string object;  ///< Name of the scene objects that make up the door.
   bool open = true;
-  std::string place = {};  ///< Of the object's name.
+  std::string place = {};  ///< Where the file names the object, for messages.
 };
 
 }  // namespace brume::scene

@@ -36,7 +36,7 @@ glm::vec3 glow_at(const VolumeMask& mask, double time);
 /// Noise that moves the places at which a volume is sampled.
 struct Disturbance {
   float strength = 0;  ///< Largest displacement along each axis, in units of the file; 0: none.
-  float size = 0.1f;   ///< Of the noise's largest features, likewise.
+  float size = 0.1f;   ///< Size of the noise's largest features, likewise.
   glm::vec3 drift{0};  ///< How fast the noise moves, likewise [1/s].
   float grow = 0;      ///< Length along `drift` over which the strength grows from 0; 0: it is everywhere.
   bool operator==(const Disturbance&) const = default;
@@ -45,7 +45,7 @@ struct Disturbance {
 /// Noise below the voxels of a volume, which wears away its thin parts.
 struct VolumeDetail {
   float strength = 0;  ///< 0: none; 1: only what is as dense as the densest stays.
-  float size = 0;      ///< Of its largest billows, in units of the file; 0: four voxels.
+  float size = 0;      ///< Size of its largest billows, in units of the file; 0: four voxels.
   glm::vec3 drift{0};  ///< How fast it moves, likewise [1/s].
   bool operator==(const VolumeDetail&) const = default;
 };
@@ -65,8 +65,8 @@ struct VolumeOptions {
   bool clip = false, ping_pong = false;                ///< Not together, nor with `loop`.
   glm::vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
   std::string density = {};  ///< Name of the grid of densities; empty: the first of the usual names.
-  std::string heat = {};     ///< Of the grid that glows; empty: the first of the usual names, or none.
-  std::string color = {};    ///< Of the grid of colours that multiply the albedo; the same.
+  std::string heat = {};     ///< The grid that glows; empty: the first of the usual names, or none.
+  std::string color = {};    ///< The grid of colours that multiply the albedo; likewise.
   glm::vec3 position_world{0};
   glm::vec3 rotation{0};  ///< About x, y and z [degrees].
   float scale = 1;

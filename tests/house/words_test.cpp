@@ -2,12 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <filesystem>
-#include <map>
-#include <sstream>
 
-#include "core/file.hpp"
 #include "tests/house/sources.hpp"
 
 namespace brume::house {
@@ -43,52 +39,17 @@ TEST(Words, NothingIsNamedOf) {
   EXPECT_TRUE(lines_with_of("name_of(a);\n// of a\n\"of\";\nstd::of(a);\n").empty());
 }
 
-// What a folder still has of each; the numbers of words.txt.
-using Counts = std::array<std::size_t, 3>;
-constexpr std::array kNames{"long bodies without a comment", "comments without a noun",
-                            "lines with a name `of`"};
-
-std::map<std::string, Counts> read_limits() {
-  std::istringstream file(*read_text_file(kRoot / "tests/house/words.txt"));
-  std::map<std::string, Counts> limits;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line.starts_with('#')) continue;
-    std::istringstream words(line);
-    std::string folder;
-    words >> folder;
-    for (std::size_t& count : limits[folder]) words >> count;
-    EXPECT_FALSE(words.fail()) << line;
-  }
-  return limits;
-}
-
 TEST(House, WordsOfCommentsAndNames) {
-  std::map<std::string, Counts> found;
-  std::map<std::string, std::array<std::string, 3>> places;
   for (const char* root : {"src", "apps"})
     for_each_source(kRoot / root, [&](const std::filesystem::path& path, const std::string& text) {
-      const std::string file = std::filesystem::relative(path, kRoot).string();
-      const std::string folder = room_of(path);
-      const auto add = [&](std::size_t kind, std::size_t line) {
-        ++found[folder][kind];
-        places[folder][kind] += "\n  " + file + ":" + std::to_string(line);
-      };
-      for (const Length& function : uncommented_functions(text, kLongBody)) add(0, function.line);
-      for (const std::size_t line : nounless_comments(text)) add(1, line);
-      for (const std::size_t line : lines_with_of(text)) add(2, line);
+      const std::string file = std::filesystem::relative(path, kRoot).string() + ":";
+      for (const Length& function : uncommented_functions(text, kLongBody))
+        ADD_FAILURE() << file << function.line << ": a long body without a comment";
+      for (const std::size_t line : nounless_comments(text))
+        ADD_FAILURE() << file << line << ": a comment without a noun";
+      for (const std::size_t line : lines_with_of(text))
+        ADD_FAILURE() << file << line << ": something is named `of`";
     });
-
-  // Folders that words.txt does not name have none.
-  std::map<std::string, Counts> limits = read_limits();
-  for (const auto& [folder, counts] : found) limits.try_emplace(folder);
-  for (const auto& [folder, most] : limits) {
-    const Counts& counts = found[folder];
-    for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-      EXPECT_LE(counts[kind], most[kind]) << folder << ": " << kNames[kind] << places[folder][kind];
-      EXPECT_GE(counts[kind], most[kind])
-          << folder << ": " << kNames[kind] << ": fewer than words.txt allows, so lower it there";
-    }
-  }
 }
 
 }  // namespace
