@@ -22,17 +22,17 @@ SHARED_CONST uint kMediumFineShadows = 2048u;
 SHARED_CONST uint kMediumDetail = 4096u;  // its noise has detail (shared/erosion.h). Never without kMediumSmoke.
 SHARED_CONST uint kMediumVolumeDetail = 8192u;  // a volume has (shared/volume_detail.h)
 /// The media themselves.
-SHARED_CONST uint kMediaPresent = 3u;
-/// What optical depths depend on: these, and kMediumTransfer.
-SHARED_CONST uint kMediaOfDepths = 67u;
+SHARED_CONST uint kMediaPresent = kMediumSmoke | kMediumVolumes;
+/// What optical depths depend on.
+SHARED_CONST uint kMediaOfDepths = kMediaPresent | kMediumTransfer;
 /// How the smoke is drawn, whatever else there is.
-SHARED_CONST uint kMediaOfSmoke = 6144u;
+SHARED_CONST uint kMediaOfSmoke = kMediumFineShadows | kMediumDetail;
 /// Those that holes may be in.
-SHARED_CONST uint kMediaWithHoles = 1u;
+SHARED_CONST uint kMediaWithHoles = kMediumSmoke;
 /// Those that are drawn with tiles of noise, whatever their look.
-SHARED_CONST uint kMediaWithNoise = 8704u;
+SHARED_CONST uint kMediaWithNoise = kMediumDisturbed | kMediumVolumeDetail;
 /// Those with which the albedo differs from point to point.
-SHARED_CONST uint kMediaOfAlbedos = 192u;
+SHARED_CONST uint kMediaOfAlbedos = kMediumTransfer | kMediumColors;
 
 SHARED_END
 #endif
