@@ -92,6 +92,10 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   if (!plan.smoke) return;
   plan.noise.motion = smoke::noise_motion(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period,
                                           history.memory.get());
+  InputKey motion(history.memory.get());
+  add_motion(motion, plan.noise.motion);
+  plan.noise.motion_changed = motion != history.noise_motion.now();
+  history.noise_motion.propose() = motion;
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
     plan.noise.catches_up = history.noise.is_late();
     history.noise.skip_frame();
@@ -126,8 +130,8 @@ void plan_smoke_light(FramePlan& plan, const PlanTarget& target, PlanHistory& hi
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
        plan.level_changed || plan.volume_light.casters_changed || input.quality.rebuild_light ||
            (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
-       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version,
-       target.room.smoke_light},
+       input.quality.light_update_fraction, plan.noise.catches_up || plan.noise.motion_changed,
+       plan.indirect_light.version, target.room.smoke_light},
       history.memory.get());
 }
 
@@ -135,8 +139,8 @@ void plan_volume_light(FramePlan& plan, const PlanTarget& target, PlanHistory& h
   const FrameInput& input = plan.input;
   plan.volume_light = history.volume_light.plan(
       {&plan.lit_media, input.volumes, plan.lights, plan.smoke, input.smoke.look, input.smoke.time,
-       input.environment.sky, plan.level_changed || input.quality.rebuild_light, plan.indirect_light.version,
-       target.room.volume_light},
+       &plan.noise, &plan.holes, input.environment.sky, plan.level_changed || input.quality.rebuild_light,
+       plan.indirect_light.version, target.room.volume_light},
       history.memory.get());
   for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
@@ -196,6 +200,7 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
 
 void PlanHistory::commit() {
   noise.commit();
+  noise_motion.commit();
   smoke_shadows.commit();
   smoke_light.commit();
   volume_light.commit();

@@ -93,6 +93,7 @@ struct FramePlan {
 struct PlanHistory {
   std::unique_ptr<FrameMemory> memory = std::make_unique<FrameMemory>();  ///< For the plan.
   NoiseUpdates noise;
+  Proposed<InputKey> noise_motion;
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;
   VolumeLightCache volume_light;

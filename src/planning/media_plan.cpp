@@ -214,6 +214,20 @@ void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
   for (const Box<float>& box : boxes) *out[frame.box_count++] = {box.low, box.high};
 }
 
+/// What glows in a volume, and what of its noise that light depends on.
+void add_glow(InputKey& key, const PlacedVolume& visible, const VolumeInput& input) {
+  if (!shared::glows(visible.instance)) return;
+  key.add(visible.instance.heat);
+  key.add(visible.grids.heat ? visible.grids.heat->id() : 0);
+  key.add(visible.grids.heat ? visible.grids.heat->revision() : 0);
+  key.add(glm::vec3(input.heat.kelvin, input.heat.high, input.heat.emission));
+  key.add(visible.effect.tints);
+  key.add(visible.instance.detail);
+  if (visible.instance.detail.strength <= 0) return;
+  key.add(visible.effect.detail_per_voxel);
+  key.add(visible.effect.detail_offset);
+}
+
 void add_transfer(InputKey& key, const TransferInput& transfer) {
   for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
   for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
@@ -346,7 +360,9 @@ void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeIn
     key.add(visible.instance.bounds_max);
     key.add(visible.instance.look);
     key.add(visible.instance.transfer);
+    key.add(visible.instance.colors.kind);
     key.add(visible.instance.is_dense);
+    add_glow(key, visible, input);
     add_transfer(key, input.transfer);
     key.add(input.colors ? input.colors->id() : 0);
     key.add(input.colors ? input.colors->revision() : 0);

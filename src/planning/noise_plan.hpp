@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/frame_memory.hpp"
+#include "planning/input_key.hpp"
 #include "smoke/noise_motion.hpp"
 
 namespace brume::planning {
@@ -14,6 +15,14 @@ struct NoisePlan {
   std::optional<FrameVector<std::uint32_t>> slots_due = std::nullopt;
   /// Time-sliced noise catches up: it changes, though its inputs may not.
   bool catches_up = false;
+  /// It moves otherwise than in the frame before, though the time may be the same.
+  bool motion_changed = false;
 };
+
+/// Adds what moves the noise.
+inline void add_motion(InputKey& key, const smoke::NoiseMotion& motion) {
+  key.add_list(motion.clouds);
+  key.add_list(motion.impulses);
+}
 
 }  // namespace brume::planning

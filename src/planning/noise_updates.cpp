@@ -28,6 +28,10 @@ bool NoiseUpdates::all_are_due(const NoiseInputs& inputs) const {
   // The dirty slots are those since the revision before, no older ones.
   if (inputs.volume->revision() != last.revision && inputs.volume->revision() != last.revision + 1)
     return true;
+  // At one time clouds move otherwise only where they are others, or roll at another speed.
+  if (inputs.time == last.time &&
+      !std::ranges::equal(before.motions, inputs.motions, same_bytes<shared::CloudMotion>))
+    return true;
   // A front that moves carries the noise with it.
   return !std::ranges::equal(before.motions, inputs.motions, {}, &shared::CloudMotion::front,
                              &shared::CloudMotion::front);

@@ -43,8 +43,7 @@ void SmokeShadowCache::add_inputs(const SmokeShadowInputs& inputs, InputKey& key
   key.add(inputs.look.erosion);
   if (inputs.look.erosion > 0) {
     key.add(noise_look_of(inputs.look));
-    key.add_list(inputs.noise->motion.clouds);
-    key.add_list(inputs.noise->motion.impulses);
+    add_motion(key, inputs.noise->motion);
     key.add(inputs.time);
   }
   key.add_list(inputs.holes->holes);

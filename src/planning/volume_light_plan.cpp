@@ -38,6 +38,8 @@ InputKey key_of_others(const VolumeLightInputs& in, Allocator memory) {
     key.add(in.smoke->revision());
     key.add(in.smoke_look);
     key.add(in.time);
+    if (in.noise && in.smoke_look.erosion > 0) add_motion(key, in.noise->motion);
+    if (in.holes) key.add_list(in.holes->holes);
   }
   return key;
 }

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "planning/hole_plan.hpp"
 #include "planning/input_key.hpp"
 #include "planning/media_plan.hpp"
+#include "planning/noise_plan.hpp"
 #include "planning/proposed.hpp"
 #include "shared/light.h"
 #include "shared/volume_light.h"
@@ -39,7 +41,9 @@ struct VolumeLightInputs {
   std::span<const shared::Light> lights;  ///< FramePlan::lights.
   const smoke::SmokeBricks* smoke = nullptr;
   shared::SmokeLook smoke_look{};
-  float time = 0;  ///< Time of the smoke's noise and holes [s].
+  float time = 0;                    ///< Time of the smoke's noise and holes [s].
+  const NoisePlan* noise = nullptr;  ///< What moves the smoke's noise; null: nothing.
+  const HolePlan* holes = nullptr;   ///< In the smoke; null: none.
   shared::Sky sky{};
   bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
   std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.

@@ -73,8 +73,12 @@ class VolumeLightCacheTest : public testing::Test {
     media.volumes = {visible};
     media.sun = 0;
     media.frame.to_sun = -lights_[0].direction;
-    VolumeLightPlan plan =
-        cache_.plan({&media, inputs_, lights_, nullptr, {}, time_, {}, rebuild_, 0, room_});
+    VolumeLightPlan plan = cache_.plan({.media = &media,
+                                        .volumes = inputs_,
+                                        .lights = lights_,
+                                        .time = time_,
+                                        .rebuild = rebuild_,
+                                        .room = room_});
     if (commits_) {
       cache_.commit();
       room_ = {plan.edge, plan.sun_edge, 1, 1};
