@@ -27,7 +27,7 @@ Result<Measurement> swing_door(const Bench& bench, const std::string& name, cons
     shut = !shut;
     const voxel::LevelChange change = objects.level.show(parts, shut);
     changed = 0;
-    for (const sim::EditBlock& block : scenario::edit_of(change, objects.level.solids()))
+    for (const sim::EditBlock& block : scenario::make_edit(change, objects.level.solids()))
       changed += static_cast<std::size_t>(std::popcount(block.make_solid | block.make_free));
     planes = change.planes.plane_count();
   });

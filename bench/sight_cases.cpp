@@ -80,7 +80,7 @@ std::vector<smoke::Segment> segments_through(const std::vector<glm::vec3>& place
 Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& level, std::size_t holes) {
   std::mt19937 random(7);
   level.shoot(holes, random);
-  const std::vector<shared::Hole> open = smoke::holes_of(level.world.state(), &level.masks);
+  const std::vector<shared::Hole> open = smoke::make_holes(level.world.state(), &level.masks);
   const smoke::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()),
                            {.masks = &level.masks});
   const std::vector<smoke::Segment> segments = segments_through(level.places, random);

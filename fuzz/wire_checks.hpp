@@ -60,7 +60,7 @@ inline void check_state(const sim::State& base, const sim::State& state) {
   BRUME_ASSERT(sim::grenades_of(state).size() == state.flights.size(), "grenades");
   // Masks are not sent: holes can only be queried without them.
   if (state.masks == sim::MaskKey{})
-    BRUME_ASSERT(smoke::holes_of(state).size() == state.holes.size(), "holes");
+    BRUME_ASSERT(smoke::make_holes(state).size() == state.holes.size(), "holes");
 
   Receiver receiver;
   const auto received = receiver.receive(write_keyframe(state));

@@ -202,7 +202,7 @@ struct SequenceBake {
 grids::AtlasRange range_of_values(const grids::Grid& grid) {
   double low = 0, high = 1;
   const auto add = [&](const std::byte* value) {
-    const double number = grids::number_of(grid.type, value);
+    const double number = grids::to_number(grid.type, value);
     if (!std::isfinite(number)) return;
     low = std::min(low, number);
     high = std::max(high, number);

@@ -50,10 +50,10 @@ std::vector<std::string> choice_names(std::uint32_t count, const char* (*name_of
 
 /// "1.5-16", or one number for both. What is no range is left to the check of all options.
 glm::vec2 parse_radius(const std::string& text) {
-  if (const auto both = number_of(text)) return glm::vec2(static_cast<float>(*both));
+  if (const auto both = parse_number(text)) return glm::vec2(static_cast<float>(*both));
   // Takes, of several dashes ("1e-3-2"), the one between two numbers.
   for (std::size_t dash = text.find('-', 1); dash != text.npos; dash = text.find('-', dash + 1)) {
-    const auto least = number_of(text.substr(0, dash)), largest = number_of(text.substr(dash + 1));
+    const auto least = parse_number(text.substr(0, dash)), largest = parse_number(text.substr(dash + 1));
     if (least && largest) return {static_cast<float>(*least), static_cast<float>(*largest)};
   }
   throw Error(ErrorCode::usage,

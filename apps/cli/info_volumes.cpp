@@ -40,7 +40,7 @@ Values values_of(const Grid& grid) {
   Values values{
       false, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), {}};
   for_each_active(grid, [&](const grids::ActiveValue& active) {
-    const double value = grids::number_of(grid.type, active.value);
+    const double value = grids::to_number(grid.type, active.value);
     if (is_odd(value)) {
       values.odd += active.count();
       return;
@@ -52,7 +52,7 @@ Values values_of(const Grid& grid) {
   if (!values.any) return values;
   const double range = values.high - values.low;
   for_each_active(grid, [&](const grids::ActiveValue& active) {
-    const double value = grids::number_of(grid.type, active.value);
+    const double value = grids::to_number(grid.type, active.value);
     if (is_odd(value)) return;
     const double part = range > 0 ? (value - values.low) / range * kBins : 0;
     values.histogram[std::min(static_cast<std::size_t>(part), kBins - 1)] += active.count();

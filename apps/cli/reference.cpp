@@ -138,9 +138,9 @@ reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInpu
   const scene::Lens& lens = frame.view.camera.lens;
   settings.blades = lens.blades;
   settings.opening = planning::opening_of(scenario_.lens_openings, lens);
-  settings.eyes.push_back(reference::eye_of(frame.view.camera, settings_.size_px));
+  settings.eyes.push_back(reference::make_eye(frame.view.camera, settings_.size_px));
   for (const planning::FrameInput& step : later)
-    settings.eyes.push_back(reference::eye_of(step.view.camera, settings_.size_px));
+    settings.eyes.push_back(reference::make_eye(step.view.camera, settings_.size_px));
   if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
   if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
   if (options_.noise) settings.noise = static_cast<float>(*options_.noise);
@@ -208,7 +208,7 @@ Picture ReferenceFrames::draw(double seconds) {
   cpu_seconds_ += watch.cpu_seconds();
   display_ = {frame.view.exposure, static_cast<std::uint32_t>(frame.view.tone)};
   if (settings_.layers) return to_picture(render.layers(), *settings_.layers, display_);
-  return reference::picture_of(render, settings_.size_px, frame.view);
+  return reference::make_picture(render, settings_.size_px, frame.view);
 }
 
 Json ReferenceFrames::statistics() const {

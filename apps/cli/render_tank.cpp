@@ -79,7 +79,7 @@ Json render_by_paths(const TankJob& job) {
           reference::RenderSettings settings;
           settings.size_px = size_px;
           settings.blades = camera.lens.blades;
-          settings.eyes = {reference::eye_of(camera, size_px)};
+          settings.eyes = {reference::make_eye(camera, size_px)};
           settings.samples = samples;
           if (job.options.reference.noise) settings.noise = static_cast<float>(*job.options.reference.noise);
           reference::Render render(reference::tank_trace(model), settings);
@@ -91,7 +91,7 @@ Json render_by_paths(const TankJob& job) {
           planning::View view;
           view.exposure = std::exp2(job.scenario.scene.exposure);
           view.tone = job.scenario.scene.tone;
-          return reference::picture_of(render, size_px, view);
+          return reference::make_picture(render, size_px, view);
         });
   return {{"samples_per_pixel", drawn}};
 }

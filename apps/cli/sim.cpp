@@ -183,7 +183,7 @@ class VolumeFiles {
     simulation_->advance_to(static_cast<double>(world.tick()) / world.settings().ticks_per_second);
     const sim::State& state = simulation_->world().state();
     const scene::SmokeOptions& look = scenario_.timeline.smoke;
-    const auto holes = smoke::holes_of(state, &scenario_.masks);
+    const auto holes = smoke::make_holes(state, &scenario_.masks);
     const smoke::DrawnSmoke smoke({.volume = &simulation_->volume(),
                                    .state = &state,
                                    .holes = holes,

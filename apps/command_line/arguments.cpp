@@ -70,7 +70,7 @@ class WordCheck {
         options_ended_ = true;
       } else if (!options_ended_ && word.starts_with("--")) {
         check_long(word);
-      } else if (!options_ended_ && word.size() > 1 && word[0] == '-' && !number_of(word.substr(0, 2)) &&
+      } else if (!options_ended_ && word.size() > 1 && word[0] == '-' && !parse_number(word.substr(0, 2)) &&
                  word[1] != '.') {
         check_short(word);
       } else {
@@ -110,7 +110,7 @@ class WordCheck {
       if (option->get_positional()) most += static_cast<std::size_t>(option->get_items_expected_max());
     if (++positionals_ <= most) return;
     std::string message = "unexpected argument '" + word + "'";
-    if (word.find(',') != std::string::npos || number_of(word))
+    if (word.find(',') != std::string::npos || parse_number(word))
       message += "; put a value with blanks into quotes, such as --camera \"0,1.7,5 0,1.5,0 60\"";
     refuse(message, &command_);
   }

@@ -27,7 +27,7 @@ std::optional<double> to_decimal(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> parse_number(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return to_decimal(text);
   const auto above = to_decimal(text.substr(0, slash)), below = to_decimal(text.substr(slash + 1));
@@ -36,7 +36,7 @@ std::optional<double> number_of(std::string_view text) {
 }
 
 std::optional<double> checked_number(std::string_view text, const NumberRange& range, std::string& fault) {
-  const auto value = number_of(text);
+  const auto value = parse_number(text);
   const bool kind = value && (!range.whole || *value == std::floor(*value));
   if (kind && *value >= range.low && *value <= range.high) return value;
   fault = range.whole ? "expected a whole number" : "expected a number";

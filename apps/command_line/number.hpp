@@ -11,7 +11,7 @@ namespace brume::cli {
 
 /// The whole text as a finite number, independent of the locale: "2.5", "-1e3", "+4" or a fraction
 /// "24000/1001". Nothing for NaN, infinity, hexadecimal numbers, blanks and anything else.
-std::optional<double> number_of(std::string_view text);
+std::optional<double> parse_number(std::string_view text);
 
 /// What numbers an option takes.
 struct NumberRange {

@@ -102,7 +102,7 @@ std::optional<std::vector<double>> parse_numbers(const std::string& text, std::s
   for (const std::string& part : parse_points(text)) joined += (joined.empty() ? "" : " ") + part;
   std::vector<double> values;
   for (const std::string_view part : split(joined, ',')) {
-    const auto value = number_of(part);
+    const auto value = parse_number(part);
     if (!value) return std::nullopt;
     values.push_back(*value);
   }
@@ -126,7 +126,7 @@ scene::Camera parse_camera(const std::string& option, const std::string& text) {
   const auto parts = parse_points(text);
   if (parts.size() == 2 || parts.size() == 3) {
     const auto position = point(parts[0]), target = point(parts[1]);
-    const auto degrees = parts.size() == 3 ? number_of(parts[2]) : kDefaultFov;
+    const auto degrees = parts.size() == 3 ? parse_number(parts[2]) : kDefaultFov;
     const float radians = static_cast<float>(degrees.value_or(0) * std::numbers::pi / 180);
     if (position && target && *position != *target && degrees && *degrees < 180 && radians > 0)
       return {*position, *target, radians};
@@ -139,7 +139,7 @@ scene::Camera parse_camera(const std::string& option, const std::string& text) {
 passes::ViewSlice parse_slice(const std::string& option, const std::string& text) {
   const std::size_t axis = std::string_view("xyz").find(text.empty() ? '?' : text[0]);
   const bool begins = axis != std::string_view::npos && text.size() > 2 && text[1] == '=';
-  const auto at = begins ? number_of(std::string_view(text).substr(2)) : std::nullopt;
+  const auto at = begins ? parse_number(std::string_view(text).substr(2)) : std::nullopt;
   if (!at || !std::isfinite(static_cast<float>(*at)))
     refuse(option, text, "an axis and a position in metres, such as y=1.5");
   return {static_cast<std::uint32_t>(axis), static_cast<float>(*at)};
@@ -156,7 +156,7 @@ FrameRange parse_frames(const std::string& option, const std::string& text) {
 TimeRange parse_times(const std::string& option, const std::string& text) {
   const std::size_t dash = text.find('-', 1);
   if (dash != std::string::npos) {
-    const auto begin = number_of(text.substr(0, dash)), end = number_of(text.substr(dash + 1));
+    const auto begin = parse_number(text.substr(0, dash)), end = parse_number(text.substr(dash + 1));
     if (begin && end && *begin >= 0 && *begin < *end && *end <= 3600) return {*begin, *end};
   }
   refuse(option, text, "BEGIN-END in seconds, up to 3600, such as 1.5-6");

@@ -17,10 +17,10 @@ constexpr float kPointRadius = 4, kReach = 9;    // [px]
 constexpr ImU32 kBackground = IM_COL32(28, 32, 40, 255), kBars = IM_COL32(70, 82, 100, 255),
                 kLine = IM_COL32(250, 189, 102, 255), kArea = IM_COL32(250, 189, 102, 40);
 
-glm::vec2 vec_of(ImVec2 p) {
+glm::vec2 to_vec(ImVec2 p) {
   return {p.x, p.y};
 }
-ImVec2 im_of(glm::vec2 p) {
+ImVec2 to_im(glm::vec2 p) {
   return {p.x, p.y};
 }
 
@@ -45,8 +45,8 @@ void draw_histogram(ImDrawList& list, const Area& area, const CurveBackdrop& bac
     };
     const auto tall = static_cast<float>(std::log1p(static_cast<double>(bins[i])) / std::max(most, 1e-9));
     if (tall > 0 && end_of(i) < end_of(i + 1))
-      list.AddRectFilled(im_of(area.on_display({end_of(i), 0.95f * tall})),
-                         im_of(area.on_display({end_of(i + 1), 0})), kBars);
+      list.AddRectFilled(to_im(area.on_display({end_of(i), 0.95f * tall})),
+                         to_im(area.on_display({end_of(i + 1), 0})), kBars);
   }
 }
 
@@ -56,11 +56,11 @@ void draw_curve(ImDrawList& list, const Area& area, std::span<const scene::Opaci
   places.emplace_back(1, curve.back().opacity);
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     const glm::vec2 a = area.on_display(places[i]), b = area.on_display(places[i + 1]);
-    list.AddQuadFilled(im_of({a.x, area.high.y}), im_of(a), im_of(b), im_of({b.x, area.high.y}), kArea);
-    list.AddLine(im_of(a), im_of(b), kLine, 1.5f);
+    list.AddQuadFilled(to_im({a.x, area.high.y}), to_im(a), to_im(b), to_im({b.x, area.high.y}), kArea);
+    list.AddLine(to_im(a), to_im(b), kLine, 1.5f);
   }
   for (const scene::OpacityPoint& point : curve)
-    list.AddCircleFilled(im_of(area.on_display({point.at, point.opacity})), kPointRadius, kLine);
+    list.AddCircleFilled(to_im(area.on_display({point.at, point.opacity})), kPointRadius, kLine);
 }
 
 void draw_bar(const Area& area, const scene::ColorMap& map) {
@@ -73,7 +73,7 @@ void draw_bar(const Area& area, const scene::ColorMap& map) {
     const ImU32 left = color_of(i), right = color_of(i + 1);
     const glm::vec2 a = area.on_display({float(i) / kParts, 1}),
                     b = area.on_display({float(i + 1) / kParts, 0});
-    ImGui::GetWindowDrawList()->AddRectFilledMultiColor(im_of(a), im_of(b), left, right, right, left);
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor(to_im(a), to_im(b), left, right, right, left);
   }
 }
 
@@ -121,8 +121,8 @@ bool remove_point(std::vector<scene::OpacityPoint>& curve, std::size_t point) {
 
 bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, const CurveBackdrop& backdrop) {
   canvas(label, kHeight);
-  const Area area{vec_of(ImGui::GetItemRectMin()), vec_of(ImGui::GetItemRectMax())};
-  const glm::vec2 place = area.place(vec_of(ImGui::GetIO().MousePos)), reach = kReach / area.size();
+  const Area area{to_vec(ImGui::GetItemRectMin()), to_vec(ImGui::GetItemRectMax())};
+  const glm::vec2 place = area.place(to_vec(ImGui::GetIO().MousePos)), reach = kReach / area.size();
   ImGuiStorage& storage = *ImGui::GetStateStorage();
   const ImGuiID held = ImGui::GetID("held");
   bool changed = false;
@@ -147,7 +147,7 @@ bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, cons
 
   // Drawing.
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(im_of(area.low), im_of(area.high), kBackground, 3);
+  list.AddRectFilled(to_im(area.low), to_im(area.high), kBackground, 3);
   draw_histogram(list, area, backdrop);
   draw_curve(list, area, curve);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
@@ -192,7 +192,7 @@ std::vector<scene::ColorPoint> points_of(const scene::ColorMap& map) {
 }
 
 void draw_color_map(const scene::ColorMap& map) {
-  const glm::vec2 low = vec_of(ImGui::GetCursorScreenPos());
+  const glm::vec2 low = to_vec(ImGui::GetCursorScreenPos());
   const float width = ImGui::GetContentRegionAvail().x;
   draw_bar({low, low + glm::vec2(width, kBarHeight)}, map);
   ImGui::Dummy(ImVec2(width, kBarHeight));
@@ -201,8 +201,8 @@ void draw_color_map(const scene::ColorMap& map) {
 bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points) {
   ImGui::PushID(label);
   canvas(label, kBarHeight + 2 * kPointRadius);
-  const Area area{vec_of(ImGui::GetItemRectMin()), vec_of(ImGui::GetItemRectMax())};
-  const float at = area.place(vec_of(ImGui::GetIO().MousePos)).x, reach = kReach / area.size().x;
+  const Area area{to_vec(ImGui::GetItemRectMin()), to_vec(ImGui::GetItemRectMax())};
+  const float at = area.place(to_vec(ImGui::GetIO().MousePos)).x, reach = kReach / area.size().x;
   ImGuiStorage& storage = *ImGui::GetStateStorage();
   const ImGuiID held = ImGui::GetID("held");
   const auto near = [&]() -> std::optional<std::size_t> {
@@ -238,8 +238,8 @@ bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::vec2 tip(area.on_display({points[i].at, 0}).x, area.high.y - 2 * kPointRadius);
     const glm::vec2 side(kPointRadius, 0), down(0, 2 * kPointRadius);
-    ImGui::GetWindowDrawList()->AddTriangleFilled(im_of(tip), im_of(tip + down - side),
-                                                  im_of(tip + down + side), i == chosen ? kLine : kBars);
+    ImGui::GetWindowDrawList()->AddTriangleFilled(to_im(tip), to_im(tip + down - side),
+                                                  to_im(tip + down + side), i == chosen ? kLine : kBars);
   }
   glm::vec3 color = points[chosen].color;
   if (color_patch(color)) {

@@ -18,7 +18,7 @@ void Probe::pick(glm::vec3 place_world) {
 
 Result<ProbeResult> evaluate(const Probe& probe, const scenario::Scenario& scenario,
                              const scenario::Simulation& simulation, double seconds) {
-  const auto holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
+  const auto holes = smoke::make_holes(simulation.world().state(), &scenario.masks);
   smoke::SightSettings settings;
   settings.extinction = scenario.timeline.smoke.extinction;
   settings.masks = &scenario.masks;

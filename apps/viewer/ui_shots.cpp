@@ -36,7 +36,7 @@ class Eye {
       : session_(game.session()),
         camera_(game.player().camera()),
         scenario_(session_.live().scenario()),
-        holes_(smoke::holes_of(session_.simulation().world().state(), &scenario_.masks)),
+        holes_(smoke::make_holes(session_.simulation().world().state(), &scenario_.masks)),
         sight_(session_.simulation().volume(), session_.simulation().world().solids().sight, holes_,
                static_cast<float>(session_.seconds()), settings(scenario_)) {}
 

@@ -47,7 +47,7 @@ sim::Event event_of(std::uint32_t tick, const brume_move_event& e) {
 
 sim::Event event_of(std::uint32_t tick, const brume_edit_event& e, const voxel::GridLayout& layout) {
   require(e.solid <= 1, "an edit's `solid` must be 0 or 1");
-  const glm::ivec3 low = ivec3_of(e.low), high = ivec3_of(e.high);
+  const glm::ivec3 low = to_ivec3(e.low), high = to_ivec3(e.high);
   require(glm::all(glm::lessThan(low, high)), "the box of an edit must have a voxel");
   return sim::LevelEdit{tick, sim::edit_box(layout, low, high, e.solid == 1)};
 }

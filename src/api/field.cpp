@@ -43,7 +43,7 @@ bool is_point(const brume_point& p) {
   return within(p.x) && within(p.y) && within(p.z);
 }
 
-smoke::Segment segment_of(const brume_segment& s) {
+smoke::Segment to_segment(const brume_segment& s) {
   return {{s.a.x, s.a.y, s.a.z}, {s.b.x, s.b.y, s.b.z}};
 }
 
@@ -90,7 +90,7 @@ brume_result answer(const char* function, const brume_field* field, const brume_
       std::vector<smoke::Segment> chunk(std::min(count, kChunk));
       for (std::size_t first = 0; first < count; first += kChunk) {
         const std::size_t size = std::min(kChunk, count - first);
-        std::transform(segments + first, segments + first + size, chunk.begin(), segment_of);
+        std::transform(segments + first, segments + first + size, chunk.begin(), to_segment);
         query(*sight, std::span<const smoke::Segment>(chunk).first(size), std::span(out + first, size));
       }
     });
@@ -227,7 +227,7 @@ brume_result brume_field_densities(const brume_field* field, brume_voxel low, br
     checked_box(object.level->grid.layout(), low, high, count);
     required(densities, "densities");
     call.read(object, [&] {
-      read_densities(object.field->smoke().volume(), ivec3_of(low), ivec3_of(high), densities);
+      read_densities(object.field->smoke().volume(), to_ivec3(low), to_ivec3(high), densities);
     });
   });
 }

@@ -29,7 +29,7 @@ using voxel::GridLayout;
 constexpr std::uint32_t kMaxMargin = 256;
 
 GridLayout grid_layout_of(const brume_layout& layout) {
-  return {ivec3_of(layout.size), layout.voxel_size, {layout.origin.x, layout.origin.y, layout.origin.z}};
+  return {to_ivec3(layout.size), layout.voxel_size, {layout.origin.x, layout.origin.y, layout.origin.z}};
 }
 
 /// Throws a CallFailure unless worlds accept the layout.
@@ -168,13 +168,13 @@ brume_result create_level(const char* function, brume_context* context, const Pa
 
 }  // namespace
 
-glm::ivec3 ivec3_of(const brume_voxel& v) {
+glm::ivec3 to_ivec3(const brume_voxel& v) {
   return {v.x, v.y, v.z};
 }
 
 std::size_t checked_box(const GridLayout& layout, const brume_voxel& low, const brume_voxel& high,
                         std::size_t count) {
-  const glm::ivec3 from = ivec3_of(low), to = ivec3_of(high);
+  const glm::ivec3 from = to_ivec3(low), to = to_ivec3(high);
   require(glm::all(glm::greaterThanEqual(from, glm::ivec3(0))) && glm::all(glm::lessThan(from, to)) &&
               glm::all(glm::lessThanEqual(to, layout.size)),
           "the box must lie in the level and have a voxel");
@@ -219,7 +219,7 @@ brume_result brume_level_solid(const brume_level* level, brume_voxel low, brume_
   return Call(__func__).run([&](Call& call) {
     const BitGrid& grid = call.handle(level).data->grid;
     checked_box(grid.layout(), low, high, count);
-    read_solid(grid, ivec3_of(low), ivec3_of(high), &required(solid, "solid"));
+    read_solid(grid, to_ivec3(low), to_ivec3(high), &required(solid, "solid"));
   });
 }
 
@@ -228,7 +228,7 @@ brume_result brume_level_roles(const brume_level* level, brume_voxel low, brume_
   return Call(__func__).run([&](Call& call) {
     const LevelData& data = *call.handle(level).data;
     checked_box(data.grid.layout(), low, high, count);
-    read_roles(data.solids(), ivec3_of(low), ivec3_of(high), &required(roles, "roles"));
+    read_roles(data.solids(), to_ivec3(low), to_ivec3(high), &required(roles, "roles"));
   });
 }
 

@@ -24,7 +24,7 @@ struct LevelData {
   voxel::Solids solids() const { return {grid, roles}; }
 };
 
-glm::ivec3 ivec3_of(const brume_voxel& v);
+glm::ivec3 to_ivec3(const brume_voxel& v);
 /// The number of voxels of a box; throws a CallFailure unless it lies in the grid, has a voxel, and `count`
 /// is right.
 std::size_t checked_box(const voxel::GridLayout& layout, const brume_voxel& low, const brume_voxel& high,

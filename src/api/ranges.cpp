@@ -9,7 +9,7 @@ namespace brume::api {
 namespace {
 
 /// Large powers as such: 10^6, 2^22.
-std::string text_of(double value) {
+std::string to_text(double value) {
   const double exponent = std::round(std::log10(std::max(value, 1.0)));
   if (value >= 1e6 && std::pow(10.0, exponent) == value)
     return "10^" + std::to_string(static_cast<int>(exponent));
@@ -22,7 +22,7 @@ std::string text_of(double value) {
 }
 
 [[noreturn]] void refuse_range(const scene::OptionInfo& info, const std::string& name, const char* or_else) {
-  refuse(name + " must be from " + text_of(info.low) + " to " + text_of(info.high) + or_else);
+  refuse(name + " must be from " + to_text(info.low) + " to " + to_text(info.high) + or_else);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ void require_range(const scene::OptionInfo& info, float value, const std::string
 }
 
 void require_range(const scene::OptionInfo& info, std::uint32_t value, const std::string& name) {
-  if (value > info.high) refuse(name + " must be at most " + text_of(info.high));
+  if (value > info.high) refuse(name + " must be at most " + to_text(info.high));
   if (value < info.low) refuse_range(info, name, "");
 }
 

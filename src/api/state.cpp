@@ -25,7 +25,7 @@ sim::State load_state(const void* bytes, std::size_t size) {
   return unwrap(wire::read_keyframe(head), BRUME_ERROR_DATA);
 }
 
-brume_voxel voxel_of(const glm::ivec3& v) {
+brume_voxel to_voxel(const glm::ivec3& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -40,7 +40,7 @@ std::vector<brume_grenade> list_grenades(const sim::State& state) {
     const sim::Flight& flight = state.flights[i];
     const glm::vec3& at = shown[i].position_world;
     list.push_back(
-        {flight.id, flight.throw_tick, flight.detonation_tick, voxel_of(flight.landing), {at.x, at.y, at.z}});
+        {flight.id, flight.throw_tick, flight.detonation_tick, to_voxel(flight.landing), {at.x, at.y, at.z}});
   }
   return list;
 }
@@ -49,8 +49,8 @@ std::vector<brume_cloud> list_clouds(const sim::State& state) {
   std::vector<brume_cloud> list;
   for (const sim::LiveCloud& live : state.clouds) {
     const sim::CloudOrigin& origin = live.cloud->origin();
-    list.push_back({live.id, origin.detonation_tick, live.cloud->end_tick(), voxel_of(origin.source),
-                    voxel_of(live.cloud->low()), voxel_of(live.cloud->high() + 1)});
+    list.push_back({live.id, origin.detonation_tick, live.cloud->end_tick(), to_voxel(origin.source),
+                    to_voxel(live.cloud->low()), to_voxel(live.cloud->high() + 1)});
   }
   return list;
 }

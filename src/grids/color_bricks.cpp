@@ -114,7 +114,7 @@ class ChannelColors {
     const Grid& grid = part.grid();
     if (grid.world_from_index == first_) {
       const std::byte* const value = part.at(index);
-      return value ? std::optional(number_of(grid.type, value)) : std::nullopt;
+      return value ? std::optional(to_number(grid.type, value)) : std::nullopt;
     }
     const glm::dvec3 p(glm::inverse(grid.world_from_index) * (first_ * glm::dvec4(index, 1)));
     const glm::dvec3 low = glm::floor(p + kLeastWeight), weight = glm::clamp(p - low, 0.0, 1.0);
@@ -126,7 +126,7 @@ class ChannelColors {
       const double product = w.x * w.y * w.z;
       if (!(product > kLeastWeight)) continue;
       if (const std::byte* const value = part.at(glm::ivec3(low) + side))
-        sum = sum.value_or(0) + product * number_of(grid.type, value);
+        sum = sum.value_or(0) + product * to_number(grid.type, value);
     }
     return sum;
   }
@@ -215,7 +215,7 @@ bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density
     double brightest = 0;
     for (Lookup& channel : channels)
       if (const std::byte* const value = channel.at(index))
-        brightest = std::max(brightest, number_of(channel.grid().type, value));
+        brightest = std::max(brightest, to_number(channel.grid().type, value));
     return brightest;
   };
   // Sums of the density and of the brightest channel, where the density is below its mean and above.
@@ -224,7 +224,7 @@ bool are_multiplied(const std::array<const Grid*, 3>& parts, const Grid& density
   };
   const auto each = [&](const auto& use) {
     return for_each_active(density, [&](const ActiveValue& active) {
-      const double value = number_of(density.type, active.value);
+      const double value = to_number(density.type, active.value);
       return !(value > 0) || active.edge > 1 || use(value, brightest_at(active.low));
     });
   };

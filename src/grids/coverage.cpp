@@ -37,7 +37,7 @@ std::vector<Box<double>> boxes_of(const Grid& grid) {
   std::vector<Box<double>> boxes;
   glm::ivec3 last(0);
   for_each_active(grid, [&](const ActiveValue& active) {
-    if (!(number_of(grid.type, active.value) > 0)) return;
+    if (!(to_number(grid.type, active.value) > 0)) return;
     const glm::ivec3 brick = active.low >> 3;
     const Box<double> box{glm::dvec3(active.low) - 1.0,
                           glm::dvec3(active.low + static_cast<int>(active.edge))};

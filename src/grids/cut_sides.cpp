@@ -16,7 +16,7 @@ double densest_of(const Grid& grid) {
   std::map<std::uint32_t, double> counts;
   double all = 0;
   for_each_active(grid, [&](const ActiveValue& active) {
-    const double value = number_of(grid.type, active.value), count = static_cast<double>(active.count());
+    const double value = to_number(grid.type, active.value), count = static_cast<double>(active.count());
     if (!(value > 0) || !(value <= 1e30)) return;
     counts[std::bit_cast<std::uint32_t>(static_cast<float>(value)) >> kDropped] += count;
     all += count;
@@ -36,7 +36,7 @@ double value_at(const Grid& grid, glm::ivec3 at) {
   if (!brick) return 0;
   const auto voxel = static_cast<std::size_t>(within.x + 8 * (within.y + 8 * within.z));
   if (!grid.bricks[*brick].is_active(voxel)) return 0;
-  return number_of(grid.type, grid.values_of(*brick).data() + voxel * bytes_of(grid.type));
+  return to_number(grid.type, grid.values_of(*brick).data() + voxel * bytes_of(grid.type));
 }
 
 // Whether a value ends rather than fades: nothing is beyond it, and what is before it is not much more.
@@ -65,7 +65,7 @@ Sides cut_sides(const Grid& grid) {
   // How much each layer of voxels holds, along each axis.
   std::array<Layers, 3> layers;
   for_each_active(grid, [&](const ActiveValue& active) {
-    const double value = number_of(grid.type, active.value);
+    const double value = to_number(grid.type, active.value);
     const glm::ivec3 low = active.low;
     const auto edge = static_cast<int>(active.edge);
     if (!(value > least)) return;
@@ -76,7 +76,7 @@ Sides cut_sides(const Grid& grid) {
   if (layers[0].empty()) return sides;
   // How much of the first and last layers ends there, and does not fade.
   for_each_active(grid, [&](const ActiveValue& active) {
-    const double value = number_of(grid.type, active.value);
+    const double value = to_number(grid.type, active.value);
     const glm::ivec3 low = active.low;
     const auto edge = static_cast<int>(active.edge);
     if (!(value > least)) return;

@@ -100,14 +100,14 @@ class Splat {
     for (int voxel = 0; voxel < static_cast<int>(kBrickVoxels); ++voxel) {
       const auto at = static_cast<std::size_t>(voxel);
       double value = grid.bricks[brick].is_active(at) ? 1 : 0;
-      if (grid.type != ValueType::mask) value = number_of(grid.type, values + at * bytes);
+      if (grid.type != ValueType::mask) value = to_number(grid.type, values + at * bytes);
       const glm::ivec3 source = origin + glm::ivec3(voxel % 8, voxel / 8 % 8, voxel / 64);
       add(axes_[0].of_source(source.x), axes_[1].of_source(source.y), axes_[2].of_source(source.z), value);
     }
   }
   void add(const Grid& grid, const Tile& tile) {
     const double value =
-        grid.type == ValueType::mask ? (tile.active ? 1.0 : 0.0) : number_of(grid.type, tile.value.data());
+        grid.type == ValueType::mask ? (tile.active ? 1.0 : 0.0) : to_number(grid.type, tile.value.data());
     const int edge = static_cast<int>(tile.edge);
     const std::array runs{axes_[0].of_run(tile.origin.x, edge), axes_[1].of_run(tile.origin.y, edge),
                           axes_[2].of_run(tile.origin.z, edge)};
@@ -225,7 +225,7 @@ Result<DenseGrid> resample(const Grid& grid, const GridBox& box) {
     // Voxel 0 of the grid covers [-0.5, 0.5) of its index space.
     axes[static_cast<std::size_t>(axis)] =
         axis_weights(low[axis] + 0.5, (high[axis] - low[axis]) / box.size[axis], box.size[axis]);
-  const double background = grid.type == ValueType::mask ? 0 : number_of(grid.type, grid.background.data());
+  const double background = grid.type == ValueType::mask ? 0 : to_number(grid.type, grid.background.data());
   Splat splat(box.size, axes, std::isnan(background) ? 0 : background);
   for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick) splat.add(grid, brick);
   for (const Tile& tile : grid.tiles) splat.add(grid, tile);

@@ -54,7 +54,7 @@ std::uint64_t count_active(const Grid& grid) {
 
 bool any_above(const Grid& grid, double value) {
   return !for_each_active(grid, [&](const ActiveValue& active) {
-    const double number = number_of(grid.type, active.value);
+    const double number = to_number(grid.type, active.value);
     return !(number > value && std::isfinite(number));
   });
 }
@@ -63,13 +63,13 @@ bool is_level_set(const Grid& grid) {
   if (grid.grid_class == GridClass::level_set) return true;
   if (grid.grid_class != GridClass::unknown) return false;
   if (grid.type != ValueType::float32 && grid.type != ValueType::float64) return false;
-  const double background = number_of(grid.type, grid.background.data());
+  const double background = to_number(grid.type, grid.background.data());
   if (!(background > 0)) return false;
   // Rounding of halves.
   const double most = background * (1 + 1e-3);
   bool inside = false, outside = false;
   const bool all_may_be = for_each_active(grid, [&](const ActiveValue& active) {
-    const double value = number_of(grid.type, active.value);
+    const double value = to_number(grid.type, active.value);
     inside = inside || value < 0;
     outside = outside || value > 0;
     return std::abs(value) <= most;
@@ -133,7 +133,7 @@ T read_as(const std::byte* bytes) {
 
 }  // namespace
 
-double number_of(ValueType type, const std::byte* bytes) {
+double to_number(ValueType type, const std::byte* bytes) {
   switch (type) {
     case ValueType::float32:
       return static_cast<double>(read_as<float>(bytes));

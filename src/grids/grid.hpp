@@ -105,7 +105,7 @@ struct GridFile {
 using GridChoice = std::function<Result<std::vector<std::size_t>>(std::span<const Grid* const> grids)>;
 
 /// A value as a number: vectors by their length, masks as 1.
-double number_of(ValueType type, const std::byte* value);
+double to_number(ValueType type, const std::byte* value);
 
 /// Voxels that are active, tiles included.
 std::uint64_t count_active(const Grid& grid);

@@ -31,7 +31,7 @@ class MaskValues {
  private:
   /// A number that half floats hold; NaN is 0.
   float number(const std::byte* value) const {
-    const double number = number_of(grid_->type, value);
+    const double number = to_number(grid_->type, value);
     return number > 0 ? static_cast<float>(std::min(number, 65504.0)) : 0.0f;
   }
   float of_tile(glm::ivec3 index) const {

@@ -22,7 +22,7 @@ glm::vec3 unit(const brume_point& direction, const char* name) {
   return glm::vec3(v / length);
 }
 
-scene::Camera camera_of(const brume_camera& camera) {
+scene::Camera to_camera(const brume_camera& camera) {
   scene::Camera made;
   made.position_world = position(camera.position, "camera.position");
   made.target_world = made.position_world + unit(camera.forward, "camera.forward");
@@ -36,7 +36,7 @@ scene::Camera camera_of(const brume_camera& camera) {
   return made;
 }
 
-scene::SmokeOptions options_of(const brume_smoke_look& look, float extinction) {
+scene::SmokeOptions to_options(const brume_smoke_look& look, float extinction) {
   scene::SmokeOptions options;
   options.albedo = vec3_of(look.albedo);
   options.anisotropy = look.anisotropy;
@@ -99,7 +99,7 @@ bool depth_can_be_sampled(VkImageLayout layout) {
   }
 }
 
-/// 0: as without it.
+/// A factor; 0 counts as 1.
 float scale_of(float given, float low, float high, const char* expected) {
   if (given == 0) return 1;
   require(is_within(given, low, high), expected);
@@ -124,7 +124,7 @@ planning::Quality quality_of(const brume_quality& given) {
 
 void show_smoke(const brume_frame_params& params, const api::SmokeField& field, planning::FrameInput& input) {
   require(is_within(params.detail_reduction, 0, 1), "`detail_reduction` must be from 0 to 1");
-  scene::SmokeOptions options = options_of(params.look, field.extinction());
+  scene::SmokeOptions options = to_options(params.look, field.extinction());
   options.detail = 1 - params.detail_reduction;
   const smoke::Field& smoke = field.smoke();
   input.level.voxels = {&smoke.solids().smoke, smoke.state().edits, &smoke.solids().sight};
@@ -179,7 +179,7 @@ scene::Light scene_light(const brume_light& light, std::size_t number) {
   return made;
 }
 
-scene::Scene scene_of(const brume_renderer_params& params) {
+scene::Scene to_scene(const brume_renderer_params& params) {
   scene::Scene scene;
   require(params.light_count <= kMostLights, "at most 1024 lights");
   if (params.light_count > 0) api::required(params.lights, "lights");
@@ -214,13 +214,13 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   auto slices = std::move(input.slices);
   input.clear();
   input.slices = std::move(slices);
-  input.view.camera = camera_of(params.camera);
+  input.view.camera = to_camera(params.camera);
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues_previous != 0;
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
   input.environment.sky.ambient = vec3_of(params.ambient);
-  // A thousand times what a timeline's sky may have: a host's unit of radiance is its own.
+  // A thousand times more than in timelines: each host has its own unit of radiance.
   require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
   const auto sky = [](auto& o, auto& v) { scene::visit_sky_options(o, v); };
   api::require_range(scene::info_of<scene::SkyOptions>("bounce", sky), params.ambient_indoors,
@@ -230,7 +230,7 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   scene::visit_bounce_options(input.environment, api::RangeCheck("`"));
   add_lights(params, input.environment.flashes);
   input.quality = quality_of(params.quality);
-  // What is too dark to be seen depends on it.
+  // The exposure decides which light is too dark to be seen.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
   if (field) show_smoke(params, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);

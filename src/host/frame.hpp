@@ -34,7 +34,7 @@ bool spans_space(const glm::dvec3& x_axis, const glm::dvec3& y_axis, const glm::
 /// All throw a CallFailure for what brume_vulkan.h does not allow.
 glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
-scene::Scene scene_of(const brume_renderer_params& params);
+scene::Scene to_scene(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
 /// Normals for decals; the caller sets the image, where there is a view.
 passes::HostNormals host_normals(const brume_normals& normals);

@@ -61,7 +61,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.memory_follows_view = true;
   options.media_alone = true;
   const std::scoped_lock lock(owner.data->mutex);
-  create(renderer, owner.settings, owner.data, scene_of(params), atlas_of(call, params.masks), options);
+  create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options);
 }
 
 /// Whether the device can blend over a picture of a format of Vulkan 1.0.

@@ -78,7 +78,7 @@ void add_glass(const brume_tank_lighting& lighting, scene::TankScene& scene) {
   scene::visit_glass_options(glass, RangeCheck("`glass_"));
 }
 
-scene::TankScene scene_of(const brume_tank_lighting& lighting) {
+scene::TankScene to_scene(const brume_tank_lighting& lighting) {
   scene::TankScene scene;
   require(lighting.light_count <= scene::kMostTankLights, "at most 16 lights of a tank");
   if (lighting.light_count > 0) required(lighting.lights, "lights");
@@ -100,7 +100,7 @@ scene::TankScene scene_of(const brume_tank_lighting& lighting) {
 std::shared_ptr<const planning::TankLight> lit(const planning::TankContent& content,
                                                const brume_tank_lighting& lighting) {
   auto light = std::make_shared<planning::TankLight>();
-  light->scene = scene_of(lighting);
+  light->scene = to_scene(lighting);
   if (!light->scene.glass || lighting.photons == 0) return light;
   const planning::TankPlan plan = planning::plan_tank(light->scene, content.tank, 0, glm::uvec2(1));
   spheres::LightPathOptions options;

@@ -15,17 +15,17 @@ namespace {
 /// Device memory of a brick of a volume: half floats.
 constexpr std::uint64_t kBrickBytes = 2 * std::uint64_t{shared::kTexelsPerBrick};
 
-std::string text_of(const char* given) {
+std::string text_or_empty(const char* given) {
   return given ? given : "";
 }
 
-scene::VolumeOptions options_of(const brume_volume_params& params) {
+scene::VolumeOptions to_options(const brume_volume_params& params) {
   scene::VolumeOptions options;
-  options.file = text_of(&required(params.file, "file"));
+  options.file = text_or_empty(&required(params.file, "file"));
   require(!options.file.empty(), "`file` is empty");
-  options.density = text_of(params.density);
-  options.heat = text_of(params.heat);
-  options.color = text_of(params.color);
+  options.density = text_or_empty(params.density);
+  options.heat = text_or_empty(params.heat);
+  options.color = text_or_empty(params.color);
   options.frame_rate = params.frame_rate;
   scene::visit_volume_options(options, RangeCheck("`"));
   require(params.repeat <= BRUME_REPEAT_CLIP, "`repeat` must be a brume_repeat");
@@ -37,7 +37,7 @@ scene::VolumeOptions options_of(const brume_volume_params& params) {
 
 std::shared_ptr<VolumeData> load(const brume_volume_params& params) {
   auto data = std::make_shared<VolumeData>();
-  data->options = options_of(params);
+  data->options = to_options(params);
   data->wait = params.wait_for_frame != 0 ? volumes::VolumeWait::until_loaded : volumes::VolumeWait::never;
   data->volumes = loaded(volumes::Volumes::load(std::span(&data->options, 1), grids::load_volume_file));
   if (params.max_bytes > 0) {

@@ -53,7 +53,7 @@ void add_decals(const scenario::Scenario& scenario, std::span<const scene::Carri
 
 /// Steps of the jitter's golden-ratio sequence a second. Of eight successive frames at 24, 25, 30, 48, 50, 60
 /// or 120 frames per second, and the rates of television, the jitters leave no gap above 0.28 on average:
-/// 0.15 is the least possible, 0.34 that of random numbers, 0.65 that of the simulation's ticks at 24.
+/// 0.15 is the least possible, 0.34 with random numbers, 0.65 with the simulation's ticks at 24.
 constexpr double kJitterRate = 360;
 /// So that a time that is rounded down belongs to its own step.
 constexpr double kRounding = 1e-3;
@@ -81,7 +81,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits,
                         &simulation.world().solids().sight};
   input.smoke.volume = &simulation.volume();
-  holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
+  holes = smoke::make_holes(simulation.world().state(), &scenario.masks);
   input.smoke.holes = holes;
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))

@@ -10,7 +10,7 @@
 
 namespace brume::reference {
 
-image::Image8 picture_of(const Render& render, glm::uvec2 size_px, const planning::View& view) {
+image::Image8 make_picture(const Render& render, glm::uvec2 size_px, const planning::View& view) {
   const std::uint32_t tone =
       view.tone == scene::ToneCurve::standard ? shared::kToneStandard : shared::kToneNeutral;
   const std::vector<glm::vec4> radiance = render.radiance();

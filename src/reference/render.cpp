@@ -39,7 +39,7 @@ Eye mixed(const Eye& a, const Eye& b, float f) {
 
 }  // namespace
 
-Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px) {
+Eye make_eye(const scene::Camera& camera, glm::uvec2 size_px) {
   return {planning::device_camera(camera, size_px), camera.lens.aperture, scene::focus_distance(camera)};
 }
 
@@ -161,7 +161,7 @@ bool Render::advance(double seconds, const std::function<bool()>& stopped) {
     for (Tile& tile : tiles_)
       if (!tile.done) open.push_back(&tile);
     if (open.empty()) return true;
-    // Those behind first: a stop may have left some.
+    // Tiles with fewer samples first: a stop may have left some.
     const auto least = std::ranges::min(open, {}, &Tile::samples)->samples;
     std::erase_if(open, [&](const Tile* tile) { return tile->samples > least; });
     parallel_for(open.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -23,7 +23,7 @@ struct Eye {
   float aperture = 0;  ///< Radius of the lens [m].
   float focus = 1;     ///< Distance along the view axis that is sharp [m], > 0.
 };
-Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px);
+Eye make_eye(const scene::Camera& camera, glm::uvec2 size_px);
 
 struct RenderSettings {
   glm::uvec2 size_px{0};  ///< At most kMostPixels.
@@ -81,9 +81,9 @@ class Render {
     glm::dvec3 background{0};  ///< What is seen by paths that met nothing.
     double squares = 0;        ///< Squared luminance.
     glm::vec3 albedo{0}, normal{0};
-    float depth = 0, hits = 0;  ///< Along the view axis, of those that met a surface.
-    float clear = 0;            ///< That met neither a surface nor a medium.
-    float passed = 0;           ///< That met no medium before the surface.
+    float depth = 0, hits = 0;  ///< Along the view axis, of paths that met a surface.
+    float clear = 0;            ///< Paths that met neither a surface nor a medium.
+    float passed = 0;           ///< Paths that met no medium before the surface.
   };
   static_assert(sizeof(Sums) == 144);
   struct Tile {

@@ -88,7 +88,7 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   draw_frame(seconds, frame_index, {[&](gpu::Recorder& recorder, bool is_last) {
                if (is_last) recorder.read_back(renderer_.targets().display, pixels_);
              }});
-  return picture_of(pixels_, renderer_.targets().size_px);
+  return read_picture(pixels_, renderer_.targets().size_px);
 }
 
 image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_index) {

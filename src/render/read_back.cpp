@@ -5,14 +5,14 @@
 
 namespace brume::render {
 
-image::Image8 picture_of(const gpu::Buffer& pixels, glm::uvec2 size_px) {
+image::Image8 read_picture(const gpu::Buffer& pixels, glm::uvec2 size_px) {
   const auto bytes = gpu::values_of<std::uint8_t>(pixels);
   return {size_px.x, size_px.y, {bytes.begin(), bytes.end()}};
 }
 
 image::Image8 read_picture(gpu::Context& context, gpu::CommandRunner& runner, const gpu::Image& image,
                            const std::function<void(gpu::Recorder&)>& record) {
-  return picture_of(gpu::read_back(context, runner, image, 4, record), glm::uvec2(image.info().size));
+  return read_picture(gpu::read_back(context, runner, image, 4, record), glm::uvec2(image.info().size));
 }
 
 std::vector<glm::vec4> unpack_halves(const gpu::Buffer& pixels) {

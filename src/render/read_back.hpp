@@ -7,7 +7,7 @@
 namespace brume::render {
 
 /// The picture in a readback buffer of four bytes per pixel, once the device is done.
-image::Image8 picture_of(const gpu::Buffer& pixels, glm::uvec2 size_px);
+image::Image8 read_picture(const gpu::Buffer& pixels, glm::uvec2 size_px);
 /// The picture in an image of four bytes per texel. `record` comes first in the same submission.
 image::Image8 read_picture(gpu::Context& context, gpu::CommandRunner& runner, const gpu::Image& image,
                            const std::function<void(gpu::Recorder&)>& record = {});

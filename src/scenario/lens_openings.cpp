@@ -29,7 +29,7 @@ Result<std::shared_ptr<const LensOpening>> load_opening(const std::filesystem::p
                    file.string() + ": " + std::to_string(picture->width) + " x " +
                        std::to_string(picture->height) + " texels; the opening of a lens has at most " +
                        std::to_string(kMostOpeningTexels) + " along each axis, make it smaller"};
-  const auto mask = mask_of(*picture, file.string());
+  const auto mask = make_mask(*picture, file.string());
   if (!mask) return mask.failure();
   auto opening = LensOpening::create(*mask, file.string());
   if (!opening) return opening.failure();

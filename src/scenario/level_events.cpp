@@ -12,7 +12,7 @@ namespace {
 LevelEvent event_of(double time, const voxel::LevelChange& change, const voxel::Solids& now) {
   LevelEvent event;
   event.time = time;
-  event.blocks = edit_of(change, now);
+  event.blocks = make_edit(change, now);
   event.planes = std::make_shared<const voxel::PlanePatch>(voxel::PlanePatch{change.cells, change.planes});
   return event;
 }
@@ -50,7 +50,7 @@ ObjectLevel make_level(const Scenario& scenario) {
   return {voxel::Level(scenario.voxels.grid, scenario.voxels.roles, std::move(parts)), std::move(part_of)};
 }
 
-sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::Solids& now) {
+sim::EditBlocks make_edit(const voxel::LevelChange& change, const voxel::Solids& now) {
   return sim::difference({change.before, change.roles_before}, now, change.voxels.low, change.voxels.high);
 }
 

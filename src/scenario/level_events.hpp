@@ -32,7 +32,7 @@ struct ObjectLevel {
 ObjectLevel make_level(const Scenario& scenario);
 
 /// A change as an edit of the simulation; `now` is the level right after it.
-sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::Solids& now);
+sim::EditBlocks make_edit(const voxel::LevelChange& change, const voxel::Solids& now);
 
 /// The voxels with centres inside a box [m].
 Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);

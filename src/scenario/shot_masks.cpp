@@ -22,7 +22,7 @@ class Collector {
     if (shot.shape != scene::ShotShape::mask || of_shots_.pictures.contains(file)) return {};
     const auto picture = image::load_image(shot.mask);
     if (!picture) return at_place(shot.place, picture.failure());
-    auto mask = mask_of(*picture, file);
+    auto mask = make_mask(*picture, file);
     if (!mask) return at_place(shot.place, mask.failure());
     of_shots_.pictures[file] = take(std::move(*mask));
     last_place_ = shot.place;
@@ -124,7 +124,7 @@ class Collector {
 
 }  // namespace
 
-Result<smoke::Mask> mask_of(const image::Image8& picture, const std::string& name) {
+Result<smoke::Mask> make_mask(const image::Image8& picture, const std::string& name) {
   const std::uint32_t side = std::max(picture.width, picture.height);
   if (side > smoke::kMaxMaskAxis)
     return Failure{ErrorCode::resource_limit, name + ": " + std::to_string(picture.width) + " x " +

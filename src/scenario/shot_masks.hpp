@@ -39,7 +39,7 @@ struct LoadedMasks {
 
 /// Converts a picture to a mask: luminance times alpha, 255 for opaque white. A picture that is not square is
 /// centred in a square. Fails with resource_limit for a picture larger than an atlas can hold.
-Result<smoke::Mask> mask_of(const image::Image8& picture, const std::string& name);
+Result<smoke::Mask> make_mask(const image::Image8& picture, const std::string& name);
 
 /// Loads the pictures and fonts that the timeline names. Each picture and each glyph is one mask; masks with
 /// identical texels are shared. They are numbered by the time of their first use, so later shots do not

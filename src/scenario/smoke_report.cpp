@@ -106,7 +106,7 @@ SmokeReport report_throw(sim::World& world, const Throw& thrown, const Scenario&
   return report;
 }
 
-std::string text_of(glm::vec3 p) {
+std::string to_text(glm::vec3 p) {
   char text[96];
   std::snprintf(text, sizeof text, "%.5g,%.5g,%.5g", static_cast<double>(p.x), static_cast<double>(p.y),
                 static_cast<double>(p.z));
@@ -168,15 +168,15 @@ const char* name_of(SmokeFault fault) {
 std::string warning_of(const SmokeReport& report, std::size_t number, const Scenario& scenario) {
   const voxel::GridLayout& layout = scenario.voxels.grid.layout();
   const std::string smoke = (report.place.empty() ? "" : report.place + ": ") + "smoke " +
-                            std::to_string(number) + " at " + text_of(report.at_world);
-  const std::string works = report.works_at ? "; it fits at " + text_of(*report.works_at) : "";
+                            std::to_string(number) + " at " + to_text(report.at_world);
+  const std::string works = report.works_at ? "; it fits at " + to_text(*report.works_at) : "";
   // What is wrong, with the numbers to see by how much, and what works.
   switch (report.fault) {
     case SmokeFault::none:
       return "";
     case SmokeFault::outside_grid: {
       const glm::vec3 high = layout.origin_world + glm::vec3(layout.size) * layout.voxel_size;
-      return smoke + " is outside the grid, " + text_of(layout.origin_world) + " to " + text_of(high) + works;
+      return smoke + " is outside the grid, " + to_text(layout.origin_world) + " to " + to_text(high) + works;
     }
     case SmokeFault::in_solid:
       return smoke + " lies in something solid" + works;

@@ -67,7 +67,7 @@ void Field::set_patches(std::vector<std::shared_ptr<const voxel::PlanePatch>> pa
   for (auto patch = was; patch != patches_.end(); ++patch) patch_changed(**patch);
   for (auto patch = is; patch != patches.end(); ++patch) patch_changed(**patch);
 
-  // Those that were covered by one that goes count again.
+  // Patches that were covered by a patch that goes count again.
   auto to_add = is;
   if (was != patches_.end()) {
     patched_.clear();
@@ -93,7 +93,7 @@ std::span<const shared::Hole> Field::holes() const {
 
 /// With mutex_ locked, as make_sight.
 std::span<const shared::Hole> Field::find_holes() const {
-  if (!holes_) holes_ = holes_of(*state_, masks_);
+  if (!holes_) holes_ = make_holes(*state_, masks_);
   return *holes_;
 }
 

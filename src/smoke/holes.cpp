@@ -50,7 +50,7 @@ ShotAxes axes_of(const sim::Shot& shot) {
   return {turn.x * right - turn.y * up, turn.x * up + turn.y * right, forward};
 }
 
-shared::Hole hole_of(const sim::BulletHole& open, const sim::State& state) {
+shared::Hole make_hole(const sim::BulletHole& open, const sim::State& state) {
   const sim::Shot& shot = open.shot;
   const ShotAxes axes = axes_of(shot);
   shared::Hole hole{};
@@ -69,10 +69,10 @@ shared::Hole hole_of(const sim::BulletHole& open, const sim::State& state) {
   return hole;
 }
 
-std::vector<shared::Hole> holes_of(const sim::State& state, const MaskAtlas* masks) {
+std::vector<shared::Hole> make_holes(const sim::State& state, const MaskAtlas* masks) {
   std::vector<shared::Hole> holes;
   for (const sim::BulletHole& open : state.holes) {
-    shared::Hole hole = hole_of(open, state);
+    shared::Hole hole = make_hole(open, state);
     if (open.shot.shape == sim::HoleShape::mask) {
       if (!masks || masks->key() != state.masks)
         throw Error(ErrorCode::bad_input, "holes: the state has other masks; load the same timeline");

@@ -18,9 +18,9 @@ ShotAxes axes_of(const sim::Shot& shot);
 
 /// A hole as the shaders read it (shared/hole.h), without the rectangle of a mask: the same bits on every
 /// machine.
-shared::Hole hole_of(const sim::BulletHole& open, const sim::State& state);
+shared::Hole make_hole(const sim::BulletHole& open, const sim::State& state);
 /// All holes of a state, with their rectangles. `masks` belong to the state's timeline; null: it has none.
 /// Throws Error(bad_input) where a hole is a mask and `masks` are others.
-std::vector<shared::Hole> holes_of(const sim::State& state, const MaskAtlas* masks = nullptr);
+std::vector<shared::Hole> make_holes(const sim::State& state, const MaskAtlas* masks = nullptr);
 
 }  // namespace brume::smoke

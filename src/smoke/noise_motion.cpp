@@ -46,7 +46,7 @@ double front_voxels(const sim::Cloud& cloud, double tick) {
 
 void add_shot(const sim::BulletHole& open, const sim::State& state, double seconds,
               FrameVector<shared::Impulse>& out) {
-  const shared::Hole hole = hole_of(open, state);
+  const shared::Hole hole = make_hole(open, state);
   const double age = seconds - static_cast<double>(hole.time_start);
   const double length = static_cast<double>(hole.time_to_reach_far) +
                         static_cast<double>(hole.time_to_expand) +
@@ -127,7 +127,7 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
           static_cast<float>(1 - kGoneWeight * smooth(dissolve))};
 }
 
-FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory) {
+FrameVector<shared::Impulse> make_impulses(const sim::State& state, double seconds, Allocator memory) {
   FrameVector<shared::Impulse> impulses(memory);
   const std::size_t shots = std::min(state.holes.size(), kMaxImpulses);
   for (const sim::BulletHole& open : std::span(state.holes).last(shots))
@@ -140,7 +140,7 @@ FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds
 }
 
 NoiseMotion noise_motion(const sim::State& state, double seconds, double swirl_period, Allocator memory) {
-  NoiseMotion motion{FrameVector<shared::CloudMotion>(memory), impulses_of(state, seconds, memory)};
+  NoiseMotion motion{FrameVector<shared::CloudMotion>(memory), make_impulses(state, seconds, memory)};
   motion.clouds.reserve(state.clouds.size());
   for (const sim::LiveCloud& live : state.clouds)
     motion.clouds.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));

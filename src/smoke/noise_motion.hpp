@@ -23,7 +23,7 @@ constexpr std::size_t kMaxImpulses = 64;
 
 /// The impulses of shots, bodies and explosions; of more than kMaxImpulses the latest. Each begins and ends
 /// at rest.
-FrameVector<shared::Impulse> impulses_of(const sim::State& state, double seconds, Allocator memory = {});
+FrameVector<shared::Impulse> make_impulses(const sim::State& state, double seconds, Allocator memory = {});
 
 struct NoiseMotion {
   FrameVector<shared::CloudMotion> clouds;  ///< One for each cloud of the state, in their order.

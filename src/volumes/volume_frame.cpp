@@ -127,9 +127,9 @@ std::string note_of_negative(const grids::Grid& grid) {
   for (std::size_t i = 0; i < grid.bricks.size(); ++i)
     for (std::size_t voxel = 0; voxel < grids::kBrickVoxels; ++voxel)
       if (grid.bricks[i].is_active(voxel))
-        add(grids::number_of(grid.type, grid.values_of(i).data() + voxel * bytes));
+        add(grids::to_number(grid.type, grid.values_of(i).data() + voxel * bytes));
   for (const grids::Tile& tile : grid.tiles)
-    if (tile.active) add(grids::number_of(grid.type, tile.value.data()));
+    if (tile.active) add(grids::to_number(grid.type, tile.value.data()));
   if (!(low < -kRounding * high)) return "";
   char text[160];
   std::snprintf(text, sizeof text,

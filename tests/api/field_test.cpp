@@ -70,7 +70,7 @@ class Expected {
       return planes_.at(cell);
     });
     volume_->update(world_);
-    holes_ = smoke::holes_of(world_.state(), &atlas_);
+    holes_ = smoke::make_holes(world_.state(), &atlas_);
     smoke::SightSettings settings;
     settings.masks = &atlas_;
     sight_.emplace(*volume_, world_.grid(), holes_, world_.state().seconds(tick), settings);

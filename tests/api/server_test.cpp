@@ -95,7 +95,7 @@ std::string line_of(const Level& level, const sim::World& world, std::size_t pac
     return level.planes.at(cell);
   });
   volume.update(world);
-  const auto holes = smoke::holes_of(world.state());
+  const auto holes = smoke::make_holes(world.state());
   const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()));
   char line[300];
   std::snprintf(line, sizeof line, "%4u  %6zu  %5zu  %-6s  %5.1f  %2zu/66  %6zu  %016llx\n", world.tick(),

@@ -339,7 +339,7 @@ void compare_level(const WorkFolder& folder, unsigned seed, Counts& counts) {
     const sim::State& state = simulation->world().state();
     const Embedded embedded(scenario, simulation->world());
     ASSERT_EQ(embedded.world->hash(), simulation->world().state_hash()) << "the grenade landed elsewhere";
-    const std::vector<shared::Hole> holes = smoke::holes_of(state);
+    const std::vector<shared::Hole> holes = smoke::make_holes(state);
     const smoke::Sight sight(simulation->volume(), simulation->world().solids().sight, holes,
                              state.seconds(state.tick), {scenario.timeline.smoke.extinction});
     std::vector<smoke::Segment> segments;

@@ -127,7 +127,7 @@ std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& wor
     return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
   };
   for (smoke::Segment& segment : segments) segment = {metres(), metres()};
-  const auto holes = smoke::holes_of(world.state(), &masks);
+  const auto holes = smoke::make_holes(world.state(), &masks);
   const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()),
                            {.masks = &masks});
   std::vector<float> depths(segments.size());
@@ -150,7 +150,7 @@ std::uint64_t hash_drawn(const smoke::SmokeVolume& volume, const sim::World& wor
   const auto metres = [&] {
     return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
   };
-  const auto holes = smoke::holes_of(world.state(), &masks);
+  const auto holes = smoke::make_holes(world.state(), &masks);
   const float time = world.state().seconds(world.tick());
   smoke::SmokeInput input{.volume = &volume, .state = &world.state(), .holes = holes, .time = time};
   smoke::set_noise(input.look, {});

@@ -50,7 +50,7 @@ TEST(Coverage, HoldsWhateverFilteringFinds) {
     const auto fraction = [&] { return static_cast<double>(random() % 2001) / 1000 - 1; };
     for (std::size_t b = 0; b < grid.bricks.size(); ++b)
       for (std::size_t i = 0; i < kBrickVoxels; ++i) {
-        if (!(number_of(grid.type, grid.values_of(b).data() + i * sizeof(float)) > 0)) continue;
+        if (!(to_number(grid.type, grid.values_of(b).data() + i * sizeof(float)) > 0)) continue;
         const glm::dvec3 centre(grid.bricks[b].origin + glm::ivec3(i & 7, i >> 3 & 7, i >> 6));
         const glm::dvec4 p(centre + 0.999 * glm::dvec3(fraction(), fraction(), fraction()), 1);
         const glm::ivec3 low(glm::floor(glm::dvec3(glm::inverse(other) * turned * p)));

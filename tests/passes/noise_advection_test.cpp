@@ -73,10 +73,10 @@ TEST(Impulses, OfAShotBeginAndEndWithNothing) {
   world.append(shot).value_or_throw();
   world.advance_to(129);
   ASSERT_EQ(world.state().holes.size(), 1u);
-  const float radius = smoke::hole_of(world.state().holes[0], world.state()).radius;
+  const float radius = smoke::make_hole(world.state().holes[0], world.state()).radius;
   float most = 0;
   for (double t = 2; t < 5; t += 1.0 / 480) {
-    const auto impulses = smoke::impulses_of(world.state(), t);
+    const auto impulses = smoke::make_impulses(world.state(), t);
     if (impulses.empty()) continue;
     const float along = impulses[0].along.x;
     EXPECT_GE(along, 0.0f);
@@ -85,8 +85,8 @@ TEST(Impulses, OfAShotBeginAndEndWithNothing) {
     most = std::max(most, along);
   }
   EXPECT_GT(most, 1.5f * radius);
-  EXPECT_TRUE(smoke::impulses_of(world.state(), 2.0).empty());
-  EXPECT_TRUE(smoke::impulses_of(world.state(), 4.5).empty());
+  EXPECT_TRUE(smoke::make_impulses(world.state(), 2.0).empty());
+  EXPECT_TRUE(smoke::make_impulses(world.state(), 4.5).empty());
 }
 
 TEST(Impulses, OfABodyFollowItAndDieDown) {
@@ -99,15 +99,15 @@ TEST(Impulses, OfABodyFollowItAndDieDown) {
     world.append(move).value_or_throw();
   }
   world.advance_to(26);
-  const auto now = smoke::impulses_of(world.state(), 26.0 / kTicks);
+  const auto now = smoke::make_impulses(world.state(), 26.0 / kTicks);
   ASSERT_EQ(now.size(), 1u);
   EXPECT_LT(glm::distance(now[0].to_world, glm::vec3(3, 1, 4)), 1e-3f);
   EXPECT_LT(glm::distance(now[0].from_world, glm::vec3(1, 1, 4)), 1e-3f);  // half a second of its path
   EXPECT_NEAR(now[0].along.x, 0.6, 1e-4);
-  const auto later = smoke::impulses_of(world.state(), 26.0 / kTicks + 0.75);
+  const auto later = smoke::make_impulses(world.state(), 26.0 / kTicks + 0.75);
   ASSERT_EQ(later.size(), 1u);
   EXPECT_NEAR(later[0].along.x, 0.3, 1e-3);
-  EXPECT_TRUE(smoke::impulses_of(world.state(), 26.0 / kTicks + 1.51).empty());
+  EXPECT_TRUE(smoke::make_impulses(world.state(), 26.0 / kTicks + 1.51).empty());
 }
 
 TEST(Impulses, OfABlastCarryOutwards) {
@@ -119,8 +119,8 @@ TEST(Impulses, OfABlastCarryOutwards) {
   blast.radius = 2 * 1024;
   world.append(blast).value_or_throw();
   world.advance_to(65);
-  EXPECT_TRUE(smoke::impulses_of(world.state(), 1.0).empty());
-  const auto open = smoke::impulses_of(world.state(), 1.2);
+  EXPECT_TRUE(smoke::make_impulses(world.state(), 1.0).empty());
+  const auto open = smoke::make_impulses(world.state(), 1.2);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].along, glm::vec3(0));
   EXPECT_NEAR(open[0].radius, 3, 1e-3);
@@ -343,7 +343,7 @@ TEST_F(NoiseAdvectionTest, DisplacesAsTheProcessorWhereCloudsMeetAndImpulsesAct)
   show(448);
   ASSERT_EQ(state().clouds.size(), 2u);
   const double seconds = 448.0 / kTicks;
-  ASSERT_EQ(smoke::impulses_of(state(), seconds).size(), 3u);
+  ASSERT_EQ(smoke::make_impulses(state(), seconds).size(), 3u);
   const std::size_t displaced = compare_with_processor(seconds, [&](glm::ivec3 voxel) {
     // Well behind a front, in a cloud: elsewhere all weights may be near 0, and their ratio hardly
     // determined.

@@ -16,7 +16,7 @@ int width_at(float distance, float aperture) {
   settings.size_px = {80, 3};
   scene::Camera camera{{0, 0, 0}, {0, 0, -1}, 2 * std::atan(3.0f / 80)};
   camera.lens = {.aperture = aperture, .focus = 4};
-  settings.eyes = {eye_of(camera, settings.size_px)};
+  settings.eyes = {make_eye(camera, settings.size_px)};
   settings.blades = 6;
   settings.samples = 256;
   Render render(*made, settings);

@@ -235,7 +235,7 @@ TEST(TankRender, PicturesAreTheSameForAnyNumberOfThreads) {
   settings.size_px = {37, 21};
   scene::Camera camera{{0.2f, 0.1f, 1.5f}, {0, 0, 0}, 0.6f};
   camera.lens = {.aperture = 0.02f, .blades = 6};
-  settings.eyes = {eye_of(camera, settings.size_px)};
+  settings.eyes = {make_eye(camera, settings.size_px)};
   settings.blades = 6;
   settings.samples = 4;
   std::vector<std::vector<glm::vec4>> pictures;

@@ -215,7 +215,7 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   const float texel = 1.2f * std::sqrt(2 * (9.5f * 9.5f + 4 * 3.5f * 3.5f) / 65536) * 7.5f / 4.75f;
   const auto depths = [&](glm::vec2 place) {
     const sim::World& world = playback.simulation().world();
-    const auto holes = smoke::holes_of(world.state());
+    const auto holes = smoke::make_holes(world.state());
     const smoke::Sight sight(playback.simulation().volume(), world.grid(), holes,
                              world.state().seconds(world.tick()),
                              {.extinction = scenario.timeline.smoke.extinction});

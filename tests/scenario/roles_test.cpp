@@ -47,7 +47,7 @@ void expect_role_of_objects(const voxel::Solids& solids, const scene::Scene& sce
 
 bool sees(const Simulation& simulation, vec3 a, vec3 b) {
   const sim::State& state = simulation.world().state();
-  const std::vector<shared::Hole> holes = smoke::holes_of(state);
+  const std::vector<shared::Hole> holes = smoke::make_holes(state);
   const smoke::Sight sight(simulation.volume(), simulation.world().solids().sight, holes,
                            state.seconds(state.tick));
   return sight.visible(a, b, kWalls).value_or_throw();

@@ -118,7 +118,7 @@ TEST(Text, MatchesItsGlyphsMirroredFromBehindAndCloses) {
   const auto simulation = Simulation::create(scenario).value_or_throw();
   simulation->advance_to(2.8);
   const auto& world = simulation->world();
-  const auto holes = smoke::holes_of(world.state(), &scenario.masks);
+  const auto holes = smoke::make_holes(world.state(), &scenario.masks);
   ASSERT_EQ(holes.size(), 5u);
   const float time = world.state().seconds(world.tick());
 
@@ -196,13 +196,13 @@ TEST(ShotMasks, AreTheLuminanceTimesAlphaCentredInASquare) {
                                    {255, 255, 255, 128}, {128, 128, 128, 255}, {255, 0, 0, 255},
                                    {0, 255, 0, 255},     {0, 0, 255, 255}};
   for (const auto& texel : rgba) picture.rgba.insert(picture.rgba.end(), texel, texel + 4);
-  const smoke::Mask mask = mask_of(picture, "x.png").value_or_throw();
+  const smoke::Mask mask = make_mask(picture, "x.png").value_or_throw();
   ASSERT_EQ(mask.width, 4u);
   ASSERT_EQ(mask.height, 4u);
   const std::vector<std::uint8_t> expected{0,   0,  0,   0,  255, 0, 0, 128,
                                            128, 54, 182, 18, 0,   0, 0, 0};  // 0.2126, 0.7152, 0.0722 of 255
   EXPECT_EQ(mask.texels, expected);
-  EXPECT_EQ(mask_of({4095, 1, std::vector<std::uint8_t>(4 * 4095)}, "wide.png").failure().message,
+  EXPECT_EQ(make_mask({4095, 1, std::vector<std::uint8_t>(4 * 4095)}, "wide.png").failure().message,
             "wide.png: 4095 x 1 texels, at most 4094 per axis are possible for a mask; make it smaller");
 }
 

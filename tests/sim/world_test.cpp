@@ -433,7 +433,7 @@ TEST(World, HoleReachesThroughTheSmokeToTheWallAndCloses) {
   EXPECT_TRUE(world.state().holes.empty());
   world.advance_to(200);
   ASSERT_EQ(world.state().holes.size(), 1u);
-  const shared::Hole hole = smoke::holes_of(world.state())[0];
+  const shared::Hole hole = smoke::make_holes(world.state())[0];
   EXPECT_NEAR(hole.distance_to_far, 9.25, 0.01);
   EXPECT_NEAR(hole.forward.x, 1, 1e-6);
   EXPECT_NEAR(glm::dot(hole.forward, hole.right), 0, 1e-6);

@@ -138,7 +138,7 @@ TEST(Hole, ShowsItsMaskUprightFromTheShooterMirroredFromBehind) {
         mask_shot(glm::ivec3(700, 5000, -300), glm::ivec3(700, 5000, -300) + 2000 * way, 0);
     open.shot.mask = 1;
     state.holes = {open};
-    const Hole hole = holes_of(state, &atlas)[0];
+    const Hole hole = make_holes(state, &atlas)[0];
     const vec3 forward = glm::normalize(vec3(way));
     const vec3 up_world = std::abs(forward.y) < 0.999f ? vec3(0, 1, 0) : vec3(0, 0, 1);
     const vec3 right = glm::normalize(glm::cross(forward, up_world)), up = glm::cross(right, forward);
@@ -167,7 +167,7 @@ TEST(Hole, RollsClockwiseAsTheShooterSeesIt) {
   state.masks = atlas.key();
   for (std::uint32_t roll = 0; roll < sim::kFullTurn; roll += 911) {
     state.holes = {mask_shot(glm::ivec3(0), glm::ivec3(0, 0, -1024), roll)};
-    const Hole hole = holes_of(state, &atlas)[0];
+    const Hole hole = make_holes(state, &atlas)[0];
     const double angle = 2 * 3.14159265358979 * roll / sim::kFullTurn;
     // The top, seen along -z: from up to the right.
     EXPECT_NEAR(hole.up.x, std::sin(angle), 1e-7);
@@ -188,11 +188,11 @@ TEST(Hole, OfAMaskNeedsTheMasksOfItsState) {
   state.masks = {1, atlas.key().hash + 1};
   const sim::BulletHole open = mask_shot(glm::ivec3(0), glm::ivec3(0, 0, -1024), 0);
   state.holes = {open};
-  EXPECT_THROW(holes_of(state, &atlas), Error);
-  EXPECT_THROW(holes_of(state), Error);
-  EXPECT_EQ(hole_of(open, state).shape, shared::kHoleMask) << "its axis does not depend on masks";
+  EXPECT_THROW(make_holes(state, &atlas), Error);
+  EXPECT_THROW(make_holes(state), Error);
+  EXPECT_EQ(make_hole(open, state).shape, shared::kHoleMask) << "its axis does not depend on masks";
   state.holes[0].shot.shape = sim::HoleShape::cylinder;
-  EXPECT_EQ(holes_of(state)[0].shape, shared::kHoleCylinder);
+  EXPECT_EQ(make_holes(state)[0].shape, shared::kHoleCylinder);
 }
 
 }  // namespace

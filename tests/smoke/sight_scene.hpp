@@ -59,7 +59,7 @@ class SightScene {
   void advance_to(std::uint32_t tick) {
     world_.advance_to(tick);
     volume_.update(world_);
-    holes_ = holes_of(world_.state(), &masks_);
+    holes_ = make_holes(world_.state(), &masks_);
   }
   float time() const { return world_.state().seconds(world_.tick()); }
   const sim::State& state() const { return world_.state(); }
