@@ -105,6 +105,7 @@ void move_frame(const scenario::Scenario& scenario, double from_seconds, double 
       scenario::moved_objects(carriers, scenario.scene, to_seconds);
   for (scenario::MovedObject& object : input.level.moved)
     object = *std::ranges::lower_bound(moved, object.object, {}, &scenario::MovedObject::object);
+  // How a carrier moves between the two times.
   const auto moves = [&](const std::string& carrier) {
     const glm::dmat4 before(scene::pose_of(carriers, carrier, from_seconds));
     return glm::dmat4(scene::pose_of(carriers, carrier, to_seconds)) * glm::inverse(before);
