@@ -13,7 +13,7 @@ namespace brume::scene {
 /// parse_timeline restores the same timeline, every number bit for bit, angles included: each is written as
 /// the shortest decimal with that property. Three members may differ: the `place` of events; paths outside of
 /// the folder, which become relative to it; and the unused anisotropy of a smoke with droplets, which becomes
-/// that of SmokeOptions().
+/// the default.
 ///
 /// The lists must be sorted as Timeline requires. The scene's path is relative to the folder (absolute if
 /// they share no folder); pictures and fonts must lie below the folder to be read again.
