@@ -74,7 +74,7 @@ class LevelPainter {
   Key rendered_;
   int still_frames_ = 0;       ///< Frames since the image changed.
   bool in_motion_ = false;     ///< The last frame was one of the running film.
-  std::uint32_t samples_ = 0;  ///< That the paused image has at full quality.
+  std::uint32_t samples_ = 0;  ///< Samples of the paused image at full quality.
   bool is_best_ = false;       ///< The paused image has full quality.
 };
 

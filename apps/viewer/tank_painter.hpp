@@ -79,7 +79,7 @@ class TankPainter {
 
   TankSchedule schedule_;
   TankPhotons photons_;
-  std::optional<TankPictureKey> drawn_;  ///< At the window's size, whatever that of the picture.
+  std::optional<TankPictureKey> drawn_;  ///< At the window's size, whatever the picture's.
   planning::TankDisplay display_;
   TankSlice slice_;  ///< The last one.
   bool is_best_ = false;

@@ -37,7 +37,7 @@ class TankPictures {
   gpu::CommandRunner runner_;
   spheres::BrickLists bricks_;
   TankRenderer renderer_;
-  std::optional<spheres::LightPathScene> traced_;  ///< Whose light the renderer has, of this batch.
+  std::optional<spheres::LightPathScene> traced_;  ///< Its light of this batch is in the renderer.
   std::uint32_t batch_ = 0;
   glm::uvec2 size_px_;
   std::uint32_t samples_;

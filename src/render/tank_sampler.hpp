@@ -32,10 +32,10 @@ class TankSampler {
   void set_kind(scene::TankView kind);
   /// How voxels are lit from the next picture on.
   void set_lighting(scene::TankLighting lighting);
-  /// What the samples from the next one on show. `index`: of the first one; those of other indices have other
-  /// noise.
+  /// What the samples from the next one on show. `index`: of the first one; samples of other indices have
+  /// other noise.
   void set_view(const planning::TankPlan& plan, std::uint32_t index = 0);
-  /// Light that comes through the glass, from the next picture on: that of the view's lights.
+  /// Light of the view's lights that comes through the glass, from the next picture on.
   void set_photons(const spheres::LightPaths& paths);
   /// Other paths of the same light, for the samples from now on: the picture goes on.
   void replace_photons(const spheres::LightPaths& paths);
