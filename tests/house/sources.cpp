@@ -20,11 +20,4 @@ int for_each_source(const std::filesystem::path& folder,
   return count;
 }
 
-std::string room_of(const std::filesystem::path& path) {
-  const auto relative = std::filesystem::relative(path, kRoot);
-  auto part = relative.begin();
-  const std::filesystem::path first = *part;
-  return (first / *++part).string();
-}
-
 }  // namespace brume::house

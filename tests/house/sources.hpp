@@ -14,7 +14,4 @@ inline const std::filesystem::path kRoot = BRUME_SOURCE_DIR;
 int for_each_source(const std::filesystem::path& folder,
                     const std::function<void(const std::filesystem::path&, const std::string&)>& visit);
 
-/// "src/core" for src/core/file.hpp, "apps/cli" for apps/cli/main.cpp.
-std::string room_of(const std::filesystem::path& path);
-
 }  // namespace brume::house

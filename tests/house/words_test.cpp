@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "tests/house/sources.hpp"
 
@@ -41,14 +43,13 @@ TEST(Words, NothingIsNamedOf) {
 
 TEST(House, WordsOfCommentsAndNames) {
   for (const char* root : {"src", "apps"})
-    for_each_source(kRoot / root, [&](const std::filesystem::path& path, const std::string& text) {
+    for_each_source(kRoot / root, [](const std::filesystem::path& path, const std::string& text) {
       const std::string file = std::filesystem::relative(path, kRoot).string() + ":";
       for (const Length& function : uncommented_functions(text, kLongBody))
         ADD_FAILURE() << file << function.line << ": a long body without a comment";
       for (const std::size_t line : nounless_comments(text))
         ADD_FAILURE() << file << line << ": a comment without a noun";
-      for (const std::size_t line : lines_with_of(text))
-        ADD_FAILURE() << file << line << ": something is named `of`";
+      for (const std::size_t line : lines_with_of(text)) ADD_FAILURE() << file << line << ": a name `of`";
     });
 }
 
