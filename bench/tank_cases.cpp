@@ -152,10 +152,10 @@ Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture
   planning::FrameInput frame;
   planning::TankInput& input = frame.tanks.emplace_back();
   input.content =
-      std::make_shared<const planning::TankContent>(planning::TankContent{tank, spheres::list_bricks(tank)});
+      std::make_shared<const scene::TankContent>(scene::TankContent{tank, spheres::list_bricks(tank)});
   scene::TankScene scene = scene::scene_of_tank_file({});
   scene.bounces = picture.bounces;
-  input.light = std::make_shared<const planning::TankLight>(planning::TankLight{scene, {}});
+  input.light = std::make_shared<const scene::TankIllumination>(scene::TankIllumination{scene, {}});
   input.view = picture.view;
   scene::Camera& camera = frame.view.camera;
   camera.position_world = {0, 0, 1.6f};
@@ -170,7 +170,7 @@ Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture
     blue_noise = passes::make_blue_noise(bench.context(), recorder);
     recorder.clear(media, {});
   });
-  render::TanksPart tanks(bench.context(), runner, size);
+  render::TanksPart tanks(bench.context(), runner, size, render::TanksPart::Over::host);
   tanks.prepare(frame);
   Measurement m =
       time_pass(bench, runner, picture.name, {"tank", "tank_layers"}, [&](gpu::Recorder& recorder) {

@@ -1,17 +1,21 @@
 // What a pane adds to the picture that panes_filter.frag has filtered: what it reflects and emits, through the media
-// before it, and what these media themselves lost to the filter.
+// and tanks before it, and what these themselves lost to the filter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/pane.glsl"
 #include "lib/shading.glsl"
+#include "shared/layers.h"
 #include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
 
 layout(constant_id = 0) const uint kMedia = 0u;         // those that may be before a pane
 layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
+layout(constant_id = 2) const uint kTanks = 0u;         // 1: tanks are among the layers
 
 layout(binding = kBindSmoke) uniform sampler2D smoke;
+layout(binding = kBindLayers) uniform sampler2D layers;
+layout(binding = kBindLayerDepth) uniform sampler2D layer_depth;
 layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
 #include "lib/light_rows.glsl"
 #include "lib/smoke_transmittance.glsl"
@@ -37,6 +41,13 @@ vec4 media_before(Pane pane) {
   const float before = clamp((depth / whole - kRough) / (1.0 - 2.0 * kRough), 0.0, 1.0);
   const float transmittance = exp(-whole * before);
   return vec4(all.rgb * ((1.0 - transmittance) / (1.0 - all.a)), transmittance);
+}
+
+/// Media and tanks between the eye and the pane. Glass of a tank, which has no depth, is behind it.
+vec4 layers_before(Pane pane) {
+  const ivec2 px = ivec2(gl_FragCoord.xy);
+  const bool behind = kTanks != 0u && texelFetch(layer_depth, px, 0).r > gl_FragCoord.z;
+  return behind ? texelFetch(layers, px, 0) : media_before(pane);
 }
 
 /// Reflected radiance of all lights.
@@ -70,6 +81,6 @@ void main() {
   radiance += pane_reflectance(pane.weight, dot(pane.normal, pane.view)) *
               arriving(pane.position_world, reflect(-pane.view, pane.normal));
   if (pane.albedo != vec3(0.0)) radiance += pane.albedo * arriving(pane.position_world, pane.normal);
-  const vec4 before = media_before(pane);
+  const vec4 before = layers_before(pane);
   shine = vec4(before.rgb * (1.0 - pane.passes) + before.a * radiance, 0.0);
 }

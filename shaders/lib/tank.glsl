@@ -42,7 +42,8 @@ vec3 inverse_of(vec3 direction) {
 void tank_camera_ray(vec2 position_px, vec2 on_lens, out vec3 origin, out vec3 direction) {
   const TankCamera camera = tank.camera;
   const vec2 ndc = position_px / vec2(tank.size_px) * 2.0 - 1.0;
-  const vec3 along = camera.forward + ndc.x * camera.right - ndc.y * camera.up;
+  const vec3 along =
+      camera.forward + (camera.shift.x + ndc.x) * camera.right + (camera.shift.y - ndc.y) * camera.up;
   const vec3 apart = camera.aperture * (on_lens.x * normalize(camera.right) + on_lens.y * normalize(camera.up));
   origin = camera.eye + apart;
   direction = normalize(camera.focus * along - apart);

@@ -82,7 +82,7 @@ SampleSource sample_source(ivec2 px, uint i) {
   return SampleSource(px, samples.index + samples.first + i, 0u);
 }
 
-/// The camera's ray of a sample, anywhere in its pixel and on the lens. The first of a pinhole is in the middle.
+/// The camera's ray of a sample, anywhere in its pixel unless all are in the middle, and anywhere on the lens.
 void sample_camera(inout SampleSource source, out vec3 origin, out vec3 direction) {
   const vec2 in_pixel = next_point(source), u = next_point(source);
   vec2 on_lens = vec2(0.0);
@@ -90,7 +90,7 @@ void sample_camera(inout SampleSource source, out vec3 origin, out vec3 directio
     on_lens = tank.camera.lens_points == kLensRejection
                   ? lens_point_by_rejection(tank.camera.blades, uvec3(source.px, source.index * 64u))
                   : lens_point(tank.camera.blades, u);
-  tank_camera_ray(vec2(source.px) + in_pixel, on_lens, origin, direction);
+  tank_camera_ray(vec2(source.px) + (tank.in_middle != 0u ? vec2(0.5) : in_pixel), on_lens, origin, direction);
 }
 
 #endif

@@ -6,6 +6,8 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindOverLayer, 101u);
 SHARED_BINDING(kBindUnderLayers, 102u);
+SHARED_BINDING(kBindLayers, 118u);
+SHARED_BINDING(kBindLayerDepth, 119u);
 
 SHARED_END
 #endif

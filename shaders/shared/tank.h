@@ -42,8 +42,9 @@ struct TankCamera {
   uint blades;     // as lens_point
   vec3 up;         // scaled by tan(half the vertical field of view)
   uint lens_points;  // kLensRemap or kLensRejection
+  vec2 shift;        // of all rays, in units of right and up, as that of Camera
 };
-SHARED_SIZE(TankCamera, 64);
+SHARED_SIZE(TankCamera, 72);
 
 /// What surrounds the tank and fills it.
 struct TankAir {
@@ -66,8 +67,9 @@ struct TankConstants {
   uint bounces;  // most scattering events of a path
   PhotonGrid photons;
   float surface_near;  // in a frame: its depth d is that of a surface at surface_near / d along the camera's axis
+  uint in_middle;      // 1: rays of the camera pass through the middles of pixels, 0: anywhere through them
 };
-SHARED_SIZE(TankConstants, 196);
+SHARED_SIZE(TankConstants, 208);
 
 /// What is found for each voxel.
 struct SphereVoxelsParams {

@@ -73,14 +73,14 @@ struct brume_decal : brume::api::Handle {
 struct brume_tank : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::tank;
   brume_tank(std::shared_ptr<brume::api::Settings> context_settings,
-             std::shared_ptr<const brume::planning::TankContent> tank_content,
-             std::shared_ptr<const brume::planning::TankLight> tank_light)
+             std::shared_ptr<const brume::scene::TankContent> tank_content,
+             std::shared_ptr<const brume::scene::TankIllumination> illumination)
       : Handle(kKind, std::move(context_settings)),
         content(std::move(tank_content)),
-        light(std::move(tank_light)) {}
+        light(std::move(illumination)) {}
 
-  const std::shared_ptr<const brume::planning::TankContent> content;
-  std::shared_ptr<const brume::planning::TankLight> light;
+  const std::shared_ptr<const brume::scene::TankContent> content;
+  std::shared_ptr<const brume::scene::TankIllumination> light;
 };
 
 struct brume_renderer : brume::api::Handle {

@@ -13,7 +13,6 @@ using namespace brume::api;
 namespace brume::host {
 namespace {
 
-constexpr std::size_t kMostTanks = 4;
 /// Samples of a frame at most; a picture of a file may have more.
 constexpr std::uint32_t kMostSamples = 64;
 
@@ -37,8 +36,8 @@ spheres::Tank copied_tank(const brume_tank_params& params) {
   return tank;
 }
 
-std::shared_ptr<const planning::TankContent> content_of(const brume_tank_params& params) {
-  auto content = std::make_shared<planning::TankContent>();
+std::shared_ptr<const scene::TankContent> content_of(const brume_tank_params& params) {
+  auto content = std::make_shared<scene::TankContent>();
   if (params.file) {
     require(params.sphere_count == 0, "`sphere_count` must be 0 beside a `file`");
     content->tank = unwrap(spheres::load_tank(params.file), BRUME_ERROR_DATA);
@@ -97,17 +96,9 @@ scene::TankScene to_scene(const brume_tank_lighting& lighting) {
   return scene;
 }
 
-std::shared_ptr<const planning::TankLight> lit(const planning::TankContent& content,
-                                               const brume_tank_lighting& lighting) {
-  auto light = std::make_shared<planning::TankLight>();
-  light->scene = to_scene(lighting);
-  if (!light->scene.glass || lighting.photons == 0) return light;
-  const planning::TankPlan plan = planning::plan_tank(light->scene, content.tank, 0, glm::uvec2(1));
-  spheres::LightPathOptions options;
-  options.count = lighting.photons;
-  light->paths =
-      spheres::trace_light_paths(content.tank, content.bricks, planning::light_path_scene(plan), options);
-  return light;
+std::shared_ptr<const scene::TankIllumination> lit(const scene::TankContent& content,
+                                                   const brume_tank_lighting& lighting) {
+  return std::make_shared<const scene::TankIllumination>(scene::illuminate(content, to_scene(lighting)));
 }
 
 planning::TankPlacement placement_of(const brume_shown_tank& shown, const std::string& name) {
@@ -133,7 +124,7 @@ planning::TankPlacement placement_of(const brume_shown_tank& shown, const std::s
 }  // namespace
 
 void add_tanks(Call& call, const brume_frame_params& params, planning::FrameInput& frame) {
-  require(params.tank_count <= kMostTanks, "at most 4 tanks");
+  require(params.tank_count <= scene::kMostTanks, "at most 4 tanks");
   if (params.tank_count > 0) required(params.tanks, "tanks");
   for (std::size_t i = 0; i < params.tank_count; ++i) {
     const brume_shown_tank& shown = params.tanks[i];

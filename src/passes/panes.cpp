@@ -5,6 +5,7 @@
 #include "brume_shaders.hpp"
 #include "shared/frame.h"
 #include "shared/indirect_light.h"
+#include "shared/layers.h"
 #include "shared/resolve.h"
 
 namespace brume::passes {
@@ -37,6 +38,14 @@ std::vector<const Draw*> in_order(const VisiblePanes& panes) {
   return draws;
 }
 
+// Without tanks neither is read.
+const gpu::Image& layers_of(const PanePass::Inputs& in) {
+  return in.tanks ? in.tanks->layers : in.smoke;
+}
+const gpu::Image& layer_depth_of(const PanePass::Inputs& in) {
+  return in.tanks ? in.tanks->depth : in.smoke;
+}
+
 }  // namespace
 
 PanePass::PanePass(gpu::Context& context)
@@ -48,10 +57,10 @@ PanePass::PanePass(gpu::Context& context)
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
 
 void PanePass::reserve(const Needs& needs) {
-  const Needs own{needs.voxel_shadows, needs.media & kPaneMedia};
+  const Needs own{needs.voxel_shadows, needs.media & kPaneMedia, needs.tanks};
   if (shine_.contains(own)) return;
   gpu::GraphicsInfo info = pane_info(shaders::panes_shine_frag, gpu::Blend::add);
-  info.constants = {own.media, own.voxel_shadows ? 1u : 0u};
+  info.constants = {own.media, own.voxel_shadows ? 1u : 0u, own.tanks ? 1u : 0u};
   shine_.try_emplace(own, context_, info);
 }
 
@@ -61,7 +70,8 @@ void PanePass::prepare(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shi
       {gpu::uniform(in.frame), gpu::read(scene.vertices), gpu::read(scene.lights),
        gpu::uniform(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
        gpu::sampled(in.smoke_shadows.atlas, linear_), gpu::read(in.smoke_shadows.faces),
-       gpu::sampled(in.smoke, nearest_), gpu::sampled(in.level.sky.light(), linear_),
+       gpu::sampled(in.smoke, nearest_), gpu::sampled(layers_of(in), nearest_),
+       gpu::sampled(layer_depth_of(in), nearest_), gpu::sampled(in.level.sky.light(), linear_),
        gpu::sampled(in.level.indirect_cube, linear_), gpu::sampled(in.level.solid.texels(), linear_)});
   recorder.prepare_for_draws(shine, {in.media.bindings()}, {});
   maps_.prepare_for_draws(recorder, scene);
@@ -72,7 +82,8 @@ void PanePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs&
                       const VisiblePanes& panes, const gpu::Image& radiance) const {
   const std::vector<const Draw*> draws = in_order(panes);
   if (draws.empty()) return;
-  const gpu::GraphicsPipeline& shine = shine_.at({needs.voxel_shadows, needs.media & kPaneMedia});
+  const gpu::GraphicsPipeline& shine =
+      shine_.at({needs.voxel_shadows, needs.media & kPaneMedia, needs.tanks});
   prepare(recorder, shine, in, panes.scene);
   gpu::Recorder::Attachments attachments{{&radiance}, &in.depth};
   attachments.keep = 0b1;
@@ -115,6 +126,8 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
                               {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
                               {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
                               {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
+                              {shared::kBindLayers, gpu::sampled(layers_of(in), nearest_)},
+                              {shared::kBindLayerDepth, gpu::sampled(layer_depth_of(in), nearest_)},
                               {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                               {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                               {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},

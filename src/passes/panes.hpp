@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <map>
+#include <optional>
 
 #include "passes/map_samplers.hpp"
 #include "passes/media_resources.hpp"
@@ -26,7 +27,13 @@ class PanePass {
   struct Needs {
     bool voxel_shadows = true;  ///< A light may be shadowed by voxels (kShadowByVoxels).
     std::uint32_t media = ~0u;  ///< Media that light meets: MediaPlan::casters.
+    bool tanks = false;         ///< Inputs::tanks is given.
     auto operator<=>(const Needs&) const = default;
+  };
+  /// Tanks between the level and the media.
+  struct Tanks {
+    const gpu::Image& layers;  ///< Premultiplied radiance and transmittance of media and tanks.
+    const gpu::Image& depth;   ///< Reverse depth of the surfaces, tanks included.
   };
   struct Inputs {
     const gpu::Buffer& frame;  ///< FrameConstants.
@@ -36,6 +43,7 @@ class PanePass {
     const gpu::Image& depth;  ///< Reverse depth of the other surfaces: GBuffer::depth.
     const gpu::Image& smoke;  ///< Premultiplied radiance and transmittance of the media up to these.
     MediaResources media;     ///< As light meets them.
+    std::optional<Tanks> tanks = {};
   };
 
   explicit PanePass(gpu::Context& context);

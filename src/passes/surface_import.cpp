@@ -26,15 +26,24 @@ SurfaceImport::SurfaceImport(gpu::Context& context)
 
 void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
                            float near_z, const GBuffer& target) const {
-  const glm::uvec2 size_px(target.depth.info().size);
   recorder.clear(target.emission, {});
+  record(recorder, host_depth, params_of(range, near_z, glm::uvec2(target.depth.info().size)), target.depth);
+}
+
+void SurfaceImport::record_copy(gpu::Recorder& recorder, const gpu::Image& depth,
+                                const gpu::Image& copy) const {
+  record(recorder, depth, {glm::uvec2(copy.info().size), 0, 1, 0}, copy);
+}
+
+void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& from,
+                           const shared::SurfaceImportParams& params, const gpu::Image& to) const {
   recorder.bind(pipeline_,
                 {
-                    {shared::kBindHostDepth, gpu::sampled(host_depth, nearest_)},
-                    {shared::kBindImportedDepth, gpu::stored(target.depth)},
+                    {shared::kBindHostDepth, gpu::sampled(from, nearest_)},
+                    {shared::kBindImportedDepth, gpu::stored(to)},
                 },
-                params_of(range, near_z, size_px));
-  recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+                params);
+  recorder.dispatch_threads(pipeline_, params.size_px.x, params.size_px.y);
 }
 
 SurfaceNormalPass::SurfaceNormalPass(gpu::Context& context)

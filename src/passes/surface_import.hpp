@@ -25,8 +25,13 @@ class SurfaceImport {
   /// `near_z`: of the frame's camera. There is no surface where the host's depth is far_plane's.
   void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
               float near_z, const GBuffer& target) const;
+  /// Copies the depth of a GBuffer into an image of floats of the same size, to which shaders can write.
+  void record_copy(gpu::Recorder& recorder, const gpu::Image& depth, const gpu::Image& copy) const;
 
  private:
+  void record(gpu::Recorder& recorder, const gpu::Image& from, const shared::SurfaceImportParams& params,
+              const gpu::Image& to) const;
+
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_;
 };

@@ -194,7 +194,7 @@ struct FrameInput {
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
   std::vector<ParticleInput> particles;
-  std::vector<TankInput> tanks;  ///< Over a host's surfaces (RendererOptions::media_alone).
+  std::vector<TankInput> tanks;  ///< Over a host's surfaces, or those of the renderer's own level.
   Quality quality;
   DebugRequest debug;
 

@@ -4,23 +4,9 @@
 #include <glm/glm.hpp>
 #include <memory>
 
-#include "scene/tank_scene.hpp"
-#include "spheres/brick_lists.hpp"
-#include "spheres/light_paths.hpp"
-#include "spheres/tank.hpp"
+#include "scene/tank_illumination.hpp"
 
 namespace brume::planning {
-
-/// A tank, which does not change.
-struct TankContent {
-  spheres::Tank tank;
-  spheres::BrickLists bricks;
-};
-/// What it is lit by, which does not change either.
-struct TankLight {
-  scene::TankScene scene;  ///< Lights, glass, fog, bounces and Sky::ambient, as they are at the start.
-  spheres::LightPaths paths;
-};
 
 /// Where a tank is in a world: turned, scaled and moved.
 struct TankPlacement {
@@ -32,15 +18,15 @@ struct TankPlacement {
 };
 /// A tank in a frame.
 struct TankInput {
-  std::shared_ptr<const TankContent> content;
-  std::shared_ptr<const TankLight> light;
+  std::shared_ptr<const scene::TankContent> content;
+  std::shared_ptr<const scene::TankIllumination> light;
   TankPlacement placement;
   scene::TankView view = scene::TankView::spheres;
   std::uint32_t samples = 1;  ///< Paths of each pixel in this frame, > 0.
   std::uint32_t index =
       0;  ///< The first one's number, where the picture begins: another one has other noise.
   /// The surfaces before the tank are the same as in the frame before: samples are added to it, where all
-  /// else is the same, too.
+  /// else is the same, too. Of a level of the renderer's own, it compares them itself.
   bool continues = false;
 };
 

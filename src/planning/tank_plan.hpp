@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "planning/tank_input.hpp"
+#include "planning/frame_input.hpp"
 #include "scene/tank_scene.hpp"
 #include "shared/frame.h"
 #include "shared/tank.h"
@@ -29,9 +29,11 @@ TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, dou
                    const std::optional<scene::Camera>& camera = {});
 
 /// The tank in a frame of this camera, over the frame's surfaces (passes::TankTargets::surfaces). Lights and
-/// glass are where they are at the start.
+/// glass are where they are at the start. Where the frame is one of several samples of a picture, its rays
+/// are the frame's own; else they lie anywhere in their pixels, whatever its point of the pixel.
 TankPlan plan_tank_in_frame(const scene::TankScene& scene, const spheres::Tank& tank,
-                            const TankPlacement& placement, const scene::Camera& camera, glm::uvec2 size_px);
+                            const TankPlacement& placement, const scene::Camera& camera,
+                            const ViewSample& sample, glm::uvec2 size_px);
 
 /// Where light through the glass is traced from.
 spheres::LightPathScene light_path_scene(const TankPlan& plan);

@@ -31,13 +31,13 @@ std::array<Half, 256> linear_halves() {
   return table;
 }
 
-/// A channel of the albedo, 0 without a surface.
+/// A channel of the albedo, 0 where the nearest surface is none of the level.
 Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel,
-                         std::span<const float> depth) {
+                         std::span<const float> level_depth, std::span<const float> depth) {
   static const std::array<Half, 256> table = linear_halves();
   Halves values(rgba.size() / 4);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = depth[i] > 0 ? table[rgba[4 * i + channel]] : Half{0};
+    values[i] = depth[i] > 0 && depth[i] == level_depth[i] ? table[rgba[4 * i + channel]] : Half{0};
   return values;
 }
 
@@ -58,7 +58,10 @@ void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   recorder.read_back(renderer.radiance(), radiance_);
   recorder.read_back(renderer.media(), media_);
   recorder.read_back(targets.gbuffer.albedo_roughness, albedo_);
-  recorder.read_back(targets.gbuffer.depth, depth_);
+  recorder.read_back(renderer.surfaces(), depth_);
+  has_tanks_ = &renderer.surfaces() != &targets.gbuffer.depth;
+  if (has_tanks_ && !level_depth_) level_depth_ = gpu::readback_buffer(context_, depth_.size());
+  if (has_tanks_) recorder.read_back(targets.gbuffer.depth, level_depth_);
   recorder.read_back(renderer.march().counters(), entries_, entries_.size());
   has_decals_ = renderer.has_decals();
   has_occlusion_ = renderer.occlusion() != nullptr;
@@ -73,6 +76,7 @@ image::LayeredImage FrameLayers::image() const {
   const auto radiance = gpu::values_of<Half>(radiance_), media = gpu::values_of<Half>(media_);
   const auto albedo = gpu::values_of<std::uint8_t>(albedo_);
   const auto depth = gpu::values_of<float>(depth_);
+  const auto level_depth = has_tanks_ ? gpu::values_of<float>(level_depth_) : depth;
   const auto entries = gpu::values_of<float>(entries_).subspan(1);
 
   // What is computed from them.
@@ -89,7 +93,7 @@ image::LayeredImage FrameLayers::image() const {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = names[c];
     image.layers.push_back({name, channel_of(radiance, c)});
-    image.layers.push_back({"albedo." + name, linear_channel_of(albedo, c, depth)});
+    image.layers.push_back({"albedo." + name, linear_channel_of(albedo, c, level_depth, depth)});
     image.layers.push_back({"media." + name, channel_of(media, c)});
   }
   image.layers.push_back({"A", std::move(alpha)});

@@ -25,7 +25,7 @@ class FrameLayers {
   ///   all media, up to the surface depth_in.V         float: distance along the ray at which the
   ///   transmittance falls to
   ///                      shared::kEntryTransmittance [m]; infinity: it does not
-  ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none
+  ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none, or a tank
   ///   media.R, .G, .B    half: radiance of the media alone, premultiplied
   ///   occlusion.V        half: of the light that surfaces reflect, what decals take; in frames with decals
   ///   alone
@@ -37,8 +37,9 @@ class FrameLayers {
   glm::uvec2 size_px_;
   gpu::Context& context_;
   gpu::Buffer radiance_, media_, albedo_, depth_, entries_;
-  gpu::Buffer occlusion_;  ///< From the first frame with decals in view on.
-  bool has_decals_ = false, has_occlusion_ = false;
+  gpu::Buffer occlusion_;    ///< From the first frame with decals in view on.
+  gpu::Buffer level_depth_;  ///< From the first frame with tanks in view on.
+  bool has_decals_ = false, has_occlusion_ = false, has_tanks_ = false;
 };
 
 }  // namespace brume::render

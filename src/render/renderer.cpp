@@ -117,6 +117,8 @@ FramePlan Renderer::plan(const FrameInput& input) {
 FramePlan Renderer::try_plan() {
   volumes_.prepare(input_, history_.volume_streaming);
   slices_.prepare(input_);
+  if (!input_.tanks.empty() && picture_ && !tanks_)
+    tanks_.emplace(context_, stream_, targets_.size_px, TanksPart::Over::level);
   if (tanks_) tanks_->prepare(input_);
   FramePlan plan = planning::plan_frame(input_, plan_target(), history_);
   reserve(plan);
@@ -142,7 +144,7 @@ void Renderer::reserve_over(const HostNeeds& needs) {
   }
   if (needs.shadows) host_->reserve_shadows(targets_.size_px);
   if (needs.picture != VK_FORMAT_UNDEFINED) host_->reserve_layer(needs.picture);
-  if (needs.tanks && !tanks_) tanks_.emplace(context_, stream_, targets_.size_px);
+  if (needs.tanks && !tanks_) tanks_.emplace(context_, stream_, targets_.size_px, TanksPart::Over::host);
 }
 
 void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then) {
@@ -160,6 +162,7 @@ FrameResources Renderer::resources(const FramePlan& plan) const {
   };
   return {.frame = frame_,
           .targets = targets_,
+          .surfaces = surfaces(),
           .blue_noise = blue_noise_,
           .scene = level_.resources(),
           .shadows = level_.shadows(),
@@ -220,6 +223,11 @@ const gpu::Image& Renderer::layers() const {
   return with_tanks ? *with_tanks : media();
 }
 
+const gpu::Image& Renderer::surfaces() const {
+  const gpu::Image* with_tanks = tanks_ ? tanks_->surfaces() : nullptr;
+  return with_tanks ? *with_tanks : targets_.gbuffer.depth;
+}
+
 const gpu::Image* Renderer::shadows() const {
   return recorded_.get(context_).has_shadows ? &host_->shadows() : nullptr;
 }
@@ -250,13 +258,14 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
     level_.record_gbuffer(recorder, plan, in);
   });
   if (host) record_on_host(recorder, plan, in, *host);
+  if (tanks_) tanks_->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   scope(recorder, "glow", [&] { volumes_.record_glow(recorder, plan); });
   level_.record_indirect_light(recorder, plan, in);
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
 }
 
-/// Decals lie on the host's surfaces; tanks are surfaces in front of them.
+/// Decals lie on the host's surfaces; tanks become surfaces in front of them.
 void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                               const HostSurfaces& host) {
   decals_.begin(recorder, plan);
@@ -265,7 +274,6 @@ void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, co
       if (!plan.decals.empty()) host_->record_normals(recorder, in, host);
       decals_.record(recorder, plan, in, slices_, march_.is_accumulated());
     });
-  if (tanks_) tanks_->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
 }
 
 /// Records all that later frames rely on: what the plan's history counts as updated.
@@ -284,6 +292,7 @@ void Renderer::record_march(gpu::Recorder& recorder, const FramePlan& plan, cons
 
 void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   march_.record_accumulate(recorder, plan, in);
+  if (tanks_) tanks_->record_layers(recorder, media());
   decals_.begin(recorder, plan);
   const planning::DebugView view = plan.input.debug.view;
   if (view != planning::DebugView::none) {
@@ -295,8 +304,8 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
   }
   if (!plan.decals.empty())
     scope(recorder, "decals", [&] { decals_.record(recorder, plan, in, slices_, march_.is_accumulated()); });
-  if (picture_->record_shade(recorder, plan, in, media(), occlusion())) return;
-  level_.record_panes(recorder, plan, in, media());
+  if (picture_->record_shade(recorder, plan, in, layers(), occlusion())) return;
+  level_.record_panes(recorder, plan, in, media(), layers());
   particles_.record(recorder, plan, in, slices_);
   picture_->record_display(recorder, plan, in, media());
 }

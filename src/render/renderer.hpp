@@ -100,8 +100,10 @@ class Renderer {
   const gpu::Buffer& frame() const { return frame_; }
   /// Half floats: premultiplied radiance and transmittance of the media.
   const gpu::Image& media() const { return march_.result(targets_); }
-  /// The same of the media and the tanks before a host's surfaces.
+  /// The same of the media and the tanks, before the level's surfaces or those of a host.
   const gpu::Image& layers() const;
+  /// Reverse depth of the last plan's surfaces, tanks included.
+  const gpu::Image& surfaces() const;
   /// The last frame's shadows, half floats: see SurfaceShadowPass. Null: it had no shadow_lights.
   const gpu::Image* shadows() const;
   /// Half floats: radiance of the picture before exposure and tone curve.

@@ -26,6 +26,7 @@ void check_frame(const FramePlan& plan) {
     refuse("a volume that is opaque within a voxel or two cannot be divided; give a smaller extinction");
   if (plan.lights.size() > (plan.media.sun == shared::kNoSun ? 0u : 1u))
     refuse("only the sun and the sky may light it");
+  if (!input.tanks.empty()) refuse("there are no tanks; remove [[tank]]");
   if (input.environment.bounces > 0) refuse("there is no indirect light; set bounces to 0");
   if (plan.media.frame.volume_count != 1) refuse("the volume is not in view; move the camera");
 }

@@ -49,6 +49,7 @@ struct MediaOptions {
 struct FrameResources {
   const gpu::Buffer& frame;  ///< FrameConstants.
   const Targets& targets;
+  const gpu::Image& surfaces;  ///< Depth of what is opaque to media: the G-buffer's, nearer where a tank is.
   const gpu::Image& blue_noise;
 
   const passes::SceneResources& scene;

@@ -22,8 +22,8 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
   return draws;
 }
 
-passes::PanePass::Needs pane_needs(const FramePlan& plan) {
-  return {planning::has_voxel_shadows(plan.lights), plan.media.casters};
+passes::PanePass::Needs pane_needs(const FramePlan& plan, bool has_tanks) {
+  return {planning::has_voxel_shadows(plan.lights), plan.media.casters, has_tanks};
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ void LevelPart::reserve(const FramePlan& plan) {
   solid_.reserve(level.voxels);
   sky_light_.reserve(solid_);
   reserve_indirect_light(plan);
-  if (pane_pass_) pane_pass_->reserve(pane_needs(plan));
+  if (pane_pass_) pane_pass_->reserve(pane_needs(plan, false));
+  if (pane_pass_ && !plan.input.tanks.empty()) pane_pass_->reserve(pane_needs(plan, true));
   redraw_shadows(level.hidden_objects);
 }
 
@@ -129,14 +130,16 @@ void LevelPart::record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan,
 }
 
 void LevelPart::record_panes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                             const gpu::Image& media) const {
+                             const gpu::Image& media, const gpu::Image& layers) const {
   if (!scene_.has_panes) return;
   const gpu::Scope timed(recorder, "panes");
   const planning::LevelState& level = plan.input.level;
   const std::vector<passes::Draw> moving = moving_draws(scene_, level);
+  std::optional<passes::PanePass::Tanks> tanks;
+  if (&layers != &media) tanks.emplace(passes::PanePass::Tanks{layers, in.surfaces});
   pane_pass_->record(
-      recorder, pane_needs(plan),
-      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.lit_media},
+      recorder, pane_needs(plan, tanks.has_value()),
+      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.lit_media, tanks},
       {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)},
       in.targets.radiance);
 }

@@ -29,9 +29,9 @@ class LevelPart {
   void record_indirect_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   /// Draws the surfaces, grenades in the air included.
   void record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) const;
-  /// Draws the panes over the picture, in front of `media`. Where there are any.
+  /// Draws the panes over the picture, among `media` and, where they are other images, the tanks of `layers`.
   void record_panes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                    const gpu::Image& media) const;
+                    const gpu::Image& media, const gpu::Image& layers) const;
 
   bool has_panes() const { return scene_.has_panes; }
   /// Whether the device has the indirect light of the last frame: not where the level of a frame that was

@@ -21,7 +21,7 @@ passes::MarchPass::Inputs march_inputs(const FrameResources& in) {
           .light = in.media_light,
           .noise = in.noise,
           .detail = in.detail,
-          .depth = in.targets.gbuffer.depth,
+          .depth = in.surfaces,
           .blue_noise = in.blue_noise};
 }
 
@@ -109,7 +109,7 @@ void MarchPart::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
                                      shared::phase_of_hg(anisotropy)};
   planning::RaycastSteps steps;
   steps.opaque_transmittance = std::min(steps.opaque_transmittance, media.opaque_transmittance);
-  raycast_pass_->record(recorder, {in.media.volumes, in.targets.gbuffer.depth},
+  raycast_pass_->record(recorder, {in.media.volumes, in.surfaces},
                         planning::plan_raycast(plan.camera, size_px_, volumes, light, steps),
                         in.targets.media);
 }
@@ -123,7 +123,7 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
   scope(recorder, "march", [&] {
     if (raycast_pass_) return record_raycast(recorder, plan, in);
     if (!tiles_) return march.pass.record(recorder, inputs, targets.media, march.counters);
-    resolve_pass_->record_ends(recorder, in.frame, targets.gbuffer.depth, *tiles_);
+    resolve_pass_->record_ends(recorder, in.frame, in.surfaces, *tiles_);
     march.pass.record_tiles(recorder, inputs, *tiles_, march.counters);
   });
   if (!tiles_) return;
@@ -133,7 +133,7 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
     // Neither fills the device, and both only read the rays.
     recorder.concurrently([&] {
       resolve_pass_->record_select(recorder, in.frame, targets.gbuffer.emission, *tiles_);
-      resolve_pass_->record(recorder, in.frame, targets.gbuffer.depth, *tiles_, targets.media);
+      resolve_pass_->record(recorder, in.frame, in.surfaces, *tiles_, targets.media);
     });
     march.pass.record_list(recorder, inputs, *tiles_, targets.media, march.counters);
   });
@@ -142,7 +142,7 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
 void MarchPart::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!accumulate_pass_) return;
   scope(recorder, "accumulate", [&] {
-    accumulate_pass_->record(recorder, in.frame, plan.camera, in.targets.gbuffer.depth, in.targets.media,
+    accumulate_pass_->record(recorder, in.frame, plan.camera, in.surfaces, in.targets.media,
                              plan.input.view.continues);
   });
 }

@@ -27,8 +27,7 @@ void ParticlesPart::record(gpu::Recorder& recorder, const FramePlan& plan, const
                            const SlicesPart& slices) const {
   if (plan.particles.empty()) return;
   const gpu::Scope timed(recorder, "particles");
-  pass_->record(recorder, {in.frame, slices.image(), in.targets.gbuffer.depth}, plan.particles,
-                in.targets.radiance);
+  pass_->record(recorder, {in.frame, slices.image(), in.surfaces}, plan.particles, in.targets.radiance);
 }
 
 void ParticlesPart::record_overdraw(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
@@ -79,12 +78,12 @@ const gpu::Buffer* PicturePart::step_counters(const FramePlan& plan) const {
 }
 
 bool PicturePart::record_shade(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                               const gpu::Image& media, const gpu::Image* occlusion) const {
+                               const gpu::Image& layers, const gpu::Image* occlusion) const {
   const gpu::Scope timed(recorder, "shade");
   const passes::ShadePass::Needs needs = shade_needs(plan);
   const Targets& targets = in.targets;
   shade_pass_.record(recorder, needs,
-                     {in.frame, in.scene, in.shadows, in.smoke_shadows, in.level, targets.gbuffer, media,
+                     {in.frame, in.scene, in.shadows, in.smoke_shadows, in.level, targets.gbuffer, layers,
                       in.blue_noise, occlusion},
                      {targets.radiance, targets.display});
   return needs.display;
@@ -100,7 +99,7 @@ void PicturePart::record_display(gpu::Recorder& recorder, const FramePlan& plan,
     scope(recorder, "antialias", [&] {
       planning::ViewSample middle = view.sample;
       middle.pixel = {0, 0};
-      antialias_pass_->record(recorder, {in.frame, targets.gbuffer.depth, media, targets.radiance},
+      antialias_pass_->record(recorder, {in.frame, in.surfaces, media, targets.radiance},
                               planning::device_camera(view.camera, size_px_, middle).clip_from_world,
                               view.sample.pixel, view.continues);
     });

@@ -46,9 +46,9 @@ class PicturePart {
   /// Throws resource_limit.
   void reserve(const FramePlan& plan);
 
-  /// The surfaces behind `media`, less what decals take. True where that is the picture already.
+  /// The surfaces behind `layers`, less what decals take. True where that is the picture already.
   bool record_shade(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                    const gpu::Image& media, const gpu::Image* occlusion) const;
+                    const gpu::Image& layers, const gpu::Image* occlusion) const;
   /// The mean of several samples or frames, and its colours on a display.
   void record_display(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                       const gpu::Image& media);

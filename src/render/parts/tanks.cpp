@@ -14,6 +14,10 @@ constexpr std::uint64_t kKeptFrames = 256;
 /// Samples of a picture: floats count them, and more change nothing.
 constexpr std::uint32_t kMostSamples = 1u << 16;
 
+bool is_alike(const scenario::MovedObject& a, const scenario::MovedObject& b) {
+  return a.object == b.object && a.world_from_mesh == b.world_from_mesh;
+}
+
 bool same_picture(const planning::TankPlan& a, const planning::TankPlan& b) {
   return same_bytes(a.constants, b.constants) &&
          std::ranges::equal(a.lights, b.lights, same_bytes<shared::TankLight>);
@@ -27,8 +31,9 @@ bool may_be_seen(const planning::TankInput& tank, const planning::ViewFrustum& f
 
 }  // namespace
 
-TanksPart::TanksPart(gpu::Context& context, gpu::CommandStream& stream, glm::uvec2 size_px)
-    : context_(context), stream_(stream), layer_pass_(context), size_px_(size_px) {
+TanksPart::TanksPart(gpu::Context& context, gpu::CommandStream& stream, glm::uvec2 size_px, Over over)
+    : context_(context), stream_(stream), over_(over), layer_pass_(context), size_px_(size_px) {
+  if (over == Over::level) copy_pass_.emplace(context);
   resize(size_px);
 }
 
@@ -38,6 +43,8 @@ void TanksPart::resize(glm::uvec2 size_px) {
   size_px_ = size_px;
   layers_ = gpu::Image(
       context_, gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+  if (over_ == Over::level)
+    surfaces_ = gpu::Image(context_, gpu::storage_image(size_px, VK_FORMAT_R32_SFLOAT));
   for (Slot& slot : slots_) slot.sampler.resize(size_px);
 }
 
@@ -53,14 +60,14 @@ TanksPart::Slot& TanksPart::slot_of(const planning::TankInput& tank) {
   return made;
 }
 
-void TanksPart::add(const planning::TankInput& tank, const scene::Camera& camera) {
+void TanksPart::add(const planning::TankInput& tank, const planning::View& view) {
   Slot& slot = slot_of(tank);
-  const bool continues = tank.continues && slot.frame + 1 == frame_ && slot.light == tank.light &&
-                         slot.view == tank.view && slot.sampler.samples() > 0;
+  const bool continues = tank.continues && level_stands_ && slot.frame + 1 == frame_ &&
+                         slot.light == tank.light && slot.view == tank.view && slot.sampler.samples() > 0;
   slot.frame = frame_;
   shown_.push_back(&slot);
-  planning::TankPlan plan =
-      planning::plan_tank_in_frame(tank.light->scene, tank.content->tank, tank.placement, camera, size_px_);
+  planning::TankPlan plan = planning::plan_tank_in_frame(tank.light->scene, tank.content->tank,
+                                                         tank.placement, view.camera, view.sample, size_px_);
   if (slot.light != tank.light) slot.sampler.set_photons(tank.light->paths);
   slot.light = tank.light;
   if (slot.view != tank.view) slot.sampler.set_kind(tank.view);
@@ -72,12 +79,26 @@ void TanksPart::add(const planning::TankInput& tank, const scene::Camera& camera
   slot.samples = std::min(tank.samples, kMostSamples - slot.sampler.samples());
 }
 
+bool TanksPart::LevelSurfaces::is(const planning::LevelState& level) const {
+  return hidden_objects == level.hidden_objects && grenades == level.grenades &&
+         std::ranges::equal(moved, level.moved, is_alike);
+}
+
+/// Whether the level's surfaces are those of the frame before.
+void TanksPart::begin_level(const FrameInput& input) {
+  level_stands_ = level_.is(input.level);
+  if (!level_stands_) level_ = {input.level.hidden_objects, input.level.grenades, input.level.moved};
+}
+
 void TanksPart::prepare(const FrameInput& input) {
   const scene::Camera& camera = input.view.camera;
   ++frame_;
   shown_.clear();
-  has_tanks_ = !input.tanks.empty();
+  has_layers_now_ = over_ == Over::host && !input.tanks.empty();
   std::erase_if(slots_, [&](const Slot& slot) { return slot.frame + kKeptFrames < frame_; });
+  // Debug views show what the level's passes have.
+  if (input.tanks.empty() || input.debug.view != planning::DebugView::none) return;
+  if (over_ == Over::level) begin_level(input);
   std::vector<const planning::TankInput*> far_first;
   for (const planning::TankInput& tank : input.tanks) far_first.push_back(&tank);
   const auto distance = [&](const planning::TankInput* tank) {
@@ -86,17 +107,21 @@ void TanksPart::prepare(const FrameInput& input) {
   std::ranges::stable_sort(far_first, std::ranges::greater(), distance);
   const planning::ViewFrustum frustum(planning::device_camera(camera, size_px_));
   for (const planning::TankInput* tank : far_first)
-    if (may_be_seen(*tank, frustum)) add(*tank, camera);
+    if (may_be_seen(*tank, frustum)) add(*tank, input.view);
+  has_layers_now_ = has_layers_now_ || !shown_.empty();
 }
 
 void TanksPart::record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth,
                                 const gpu::Image& blue_noise) {
-  for (Slot* slot : shown_) slot->sampler.record_samples(recorder, blue_noise, slot->samples, &depth);
+  const gpu::Image* const surfaces = this->surfaces();
+  if (surfaces) copy_pass_->record_copy(recorder, depth, *surfaces);
+  for (Slot* slot : shown_)
+    slot->sampler.record_samples(recorder, blue_noise, slot->samples, surfaces ? surfaces : &depth);
 }
 
 void TanksPart::record_layers(gpu::Recorder& recorder, const gpu::Image& media) {
-  recorder.change(has_layers_) = has_tanks_;
-  if (!has_tanks_) return;
+  recorder.change(has_layers_) = has_layers_now_;
+  if (!has_layers_now_) return;
   const gpu::Scope timed(recorder, "tank_layers");
   layer_pass_.begin(recorder, layers_);
   for (const Slot* slot : shown_) layer_pass_.add(recorder, slot->sampler.radiance(), layers_);
