@@ -257,6 +257,7 @@ Json write_frames(const RenderOptions& options, const Plan& plan, CommonOptions&
 
 Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   simulate(options, plan, loaded);
+  if (!loaded.scenario.tanks.empty()) log_warning(options.input + ": --mode reference shows no [[tank]]");
   if (!options.reference.checkpoint.empty()) common.grace_seconds = kCheckpointGrace;
   Json statistics{{"mode", options.mode}};
   statistics.update(

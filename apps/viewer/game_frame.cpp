@@ -27,8 +27,10 @@ planning::CameraAt camera_of(const Game& game) {
 
 render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes, volumes::VolumeWait wait) {
   const auto steered = game.steered_carriers();
-  return input_of(game, {.wait = wait, .steered = steered ? &*steered : nullptr, .camera = camera_of(game)},
-                  holes);
+  return input_of(
+      game,
+      {.wait = wait, .steered = steered ? &*steered : nullptr, .camera = camera_of(game), .tank_samples = 1},
+      holes);
 }
 
 StillFrame::StillFrame(const Game& game) : steered_(game.steered_carriers()) {

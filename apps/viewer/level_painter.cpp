@@ -149,6 +149,7 @@ bool LevelPainter::draw_film(const Game& game, const Quality& quality, float lig
   input.quality.volume_upload_bytes = kVolumeUploadBytes;
   input.view.continues = continues_ && game.choices().temporal;
   input.view.frame_index = ++frame_index_;
+  for (planning::TankInput& tank : input.tanks) tank.index = frame_index_;
   if (input.view.continues) input.view.sample = planning::film_sample(frame_index_);
   input.quality.step_scale = quality.step_scale;
   input.quality.resolve_error_scale = quality.resolve_error_scale;

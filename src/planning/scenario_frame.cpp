@@ -51,6 +51,35 @@ void add_decals(const scenario::Scenario& scenario, std::span<const scene::Carri
   }
 }
 
+/// Where a tank is, moved by its carrier.
+TankPlacement placement_of(std::span<const scene::Carrier> carriers, const scene::TankOptions& tank,
+                           double seconds) {
+  const glm::mat4 pose = scene::pose_of(carriers, tank.carrier, seconds);
+  return {glm::mat3(pose) * glm::mat3(scene::rotation_of(tank.rotation)),
+          glm::vec3(pose * glm::vec4(tank.position_world, 1)), tank.scale};
+}
+
+/// Paths of a tank in a sample of a picture with that many; the first one's number is unique to the frame.
+void set_samples(std::uint32_t samples, std::uint32_t frame_index, TankInput& tank) {
+  tank.samples = std::max(samples, 1u);
+  tank.index = frame_index * tank.samples;
+}
+
+void add_tanks(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
+               const FrameOptions& options, FrameInput& input) {
+  for (std::size_t i = 0; i < scenario.tanks.size(); ++i) {
+    const scene::TankOptions& tank = scenario.timeline.tanks[i];
+    const scenario::LitTank& lit = scenario.tanks[i];
+    TankInput& shown = input.tanks.emplace_back();
+    shown.content = lit.content;
+    shown.light = lit.light;
+    shown.placement = placement_of(carriers, tank, seconds);
+    shown.view = tank.view.value_or(lit.light->scene.view);
+    shown.continues = options.tank_samples.has_value();
+    set_samples(options.tank_samples.value_or(tank.samples), input.view.frame_index, shown);
+  }
+}
+
 /// Steps of the jitter's golden-ratio sequence a second. Of eight successive frames at 24, 25, 30, 48, 50, 60
 /// or 120 frames per second, and the rates of television, the jitters leave no gap above 0.28 on average:
 /// 0.15 is the least possible, 0.34 with random numbers, 0.65 with the simulation's ticks at 24.
@@ -93,6 +122,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   // Where what moves will be is unknown.
   if (input.environment.bounces > 0 && carriers.empty()) input.level.next = simulation.next_level();
   add_decals(scenario, carriers, seconds, input);
+  add_tanks(scenario, carriers, seconds, options, input);
   return input;
 }
 
@@ -121,6 +151,8 @@ void move_frame(const scenario::Scenario& scenario, double from_seconds, double 
     move(moves(scenario.timeline.volumes[particles.index].carrier), {&particles.world_from_uvw});
   for (std::size_t i = 0; i < input.decals.size(); ++i)
     move(moves(scenario.timeline.decals[i].carrier), {&input.decals[i].world_from_box});
+  for (std::size_t i = 0; i < input.tanks.size(); ++i)
+    input.tanks[i].placement = placement_of(carriers, scenario.timeline.tanks[i], to_seconds);
 }
 
 FrameSamples::FrameSamples(const scenario::Scenario& scenario, double seconds, const FrameOptions& options,
@@ -140,6 +172,8 @@ FrameInput FrameSamples::operator[](std::uint32_t i) const {
     move_frame(scenario_, seconds_, seconds_ + double{shutter * sample.time}, options_, frame);
   frame.view.sample = sample.view;
   frame.view.frame_index += i;
+  for (TankInput& tank : frame.tanks)
+    set_samples((tank.samples + count() - 1) / count(), frame.view.frame_index, tank);
   return frame;
 }
 

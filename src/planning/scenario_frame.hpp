@@ -20,10 +20,13 @@ struct FrameOptions {
   bool particles = true;
   /// Where the camera is at a time [s], in place of the timeline's path; empty: there.
   CameraAt camera = {};
+  /// In the place of the timeline's samples of tanks, for frames that follow each other: as long as nothing
+  /// moves in front of a tank, each frame adds its samples to those before (TankInput::continues).
+  std::optional<std::uint32_t> tank_samples = {};
 };
 
 /// What a frame shows of a scenario at a time. `holes` keeps the holes that the result refers to. Objects,
-/// volumes and decals move with the carriers.
+/// volumes, decals and tanks move with the carriers.
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                        double seconds, std::vector<shared::Hole>& holes, const FrameOptions& options = {});
 

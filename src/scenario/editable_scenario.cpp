@@ -57,6 +57,7 @@ bool same_parts(const scene::Timeline& a, const scene::Timeline& b) {
   return std::ranges::equal(a.volumes, b.volumes, {}, &scene::VolumeOptions::file,
                             &scene::VolumeOptions::file) &&
          std::ranges::equal(a.decals, b.decals, same_decal) &&
+         std::ranges::equal(a.tanks, b.tanks, {}, &scene::TankOptions::file, &scene::TankOptions::file) &&
          std::ranges::equal(a.carriers, b.carriers, same_carrier) &&
          std::ranges::equal(a.roles, b.roles, same_role);
 }
@@ -299,7 +300,7 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   if (!same_parts(timeline, scenario_.timeline))
     return Failure{
         ErrorCode::bad_input,
-        "the timeline has other volumes, decals, carriers or roles than the scenario; load it as a "
+        "the timeline has other volumes, decals, tanks, carriers or roles than the scenario; load it as a "
         "new scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;

@@ -55,6 +55,8 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
   if (!masks) return masks.failure();
   auto slices = load_slice_volumes(timeline);
   if (!slices) return slices.failure();
+  auto tanks = load_tanks(timeline);
+  if (!tanks) return tanks.failure();
   LensOpenings lens_openings;
   if (auto loaded = load_lens_openings(timeline, lens_openings); !loaded) return loaded.failure();
   return Scenario{.timeline = std::move(timeline),
@@ -65,6 +67,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
                   .shot_masks = std::move(masks->of_shots),
                   .volumes = std::move(volumes),
                   .slices = std::move(*slices),
+                  .tanks = std::move(*tanks),
                   .lens_openings = std::move(lens_openings),
                   .camera_is_fitted = is_fitted};
 }
@@ -245,6 +248,8 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
         files.push_back(file);
     }
   for (std::filesystem::path& file : slice_files_of(scenario.timeline)) files.push_back(std::move(file));
+  for (const scene::TankOptions& tank : scenario.timeline.tanks)
+    for (std::filesystem::path& file : files_of_tank_input(tank.file)) files.push_back(std::move(file));
   for (const scene::ShotEvent& shot : scenario.timeline.shots)
     if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
   for (const auto& [file, opening] : scenario.lens_openings) files.push_back(file);

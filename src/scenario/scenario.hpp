@@ -8,6 +8,7 @@
 #include "scenario/lens_openings.hpp"
 #include "scenario/shot_masks.hpp"
 #include "scenario/slice_volumes.hpp"
+#include "scenario/tank.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
 #include "smoke/mask_atlas.hpp"
@@ -26,6 +27,7 @@ struct Scenario {
   bool measure_exposure = false;
   std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Timeline::volumes, loaded; null: none.
   SliceVolumes slices = {};                               ///< Volumes of Timeline::decals.
+  std::vector<LitTank> tanks = {};                        ///< Tanks of Timeline::tanks.
   LensOpenings lens_openings = {};                        ///< Images of openings in the camera's keys.
   /// Whether `camera` frames the scene, whose file has none.
   bool camera_is_fitted = false;

@@ -1,5 +1,7 @@
 #include "scenario/tank.hpp"
 
+#include <algorithm>
+
 #include "palettes/choice.hpp"
 #include "palettes/sample.hpp"
 #include "spheres/file.hpp"
@@ -44,6 +46,30 @@ Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
   auto tank = make_tank(scene, stopped);
   if (!tank) return tank.failure();
   return TankScenario{std::move(scene), std::move(*tank)};
+}
+
+Result<std::vector<LitTank>> load_tanks(const scene::Timeline& timeline) {
+  std::vector<LitTank> tanks;
+  for (const scene::TankOptions& options : timeline.tanks) {
+    const auto first = std::ranges::find(timeline.tanks, options.file, &scene::TankOptions::file);
+    const auto index = static_cast<std::size_t>(first - timeline.tanks.begin());
+    if (index < tanks.size()) {
+      tanks.push_back(tanks[index]);
+      continue;
+    }
+    auto loaded = load_tank_scenario(options.file);
+    if (!loaded) {
+      const std::string place = options.place.empty() ? "" : options.place + ": ";
+      return Failure{loaded.failure().code, place + loaded.failure().message};
+    }
+    auto content = std::make_shared<scene::TankContent>();
+    content->tank = std::move(loaded->tank);
+    content->bricks = spheres::list_bricks(content->tank);
+    auto light = std::make_shared<const scene::TankIllumination>(
+        scene::illuminate(*content, std::move(loaded->scene)));
+    tanks.push_back({std::move(content), std::move(light)});
+  }
+  return tanks;
 }
 
 std::vector<std::filesystem::path> files_of(const scene::TankScene& scene) {

@@ -1,12 +1,14 @@
-// The tank of a scene: loaded, or packed.
+// The tank of a scene: loaded, or packed; and the tanks of a timeline.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene/tank_scene.hpp"
+#include "scene/tank_illumination.hpp"
+#include "scene/timeline.hpp"
 #include "spheres/tank.hpp"
 
 namespace brume::scenario {
@@ -29,6 +31,16 @@ Result<spheres::Tank> make_tank(const scene::TankScene& scene, const std::functi
 /// The same for the file of a scene, or of a tank (.spheres) in a scene of its own: a light, a sky.
 Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
                                         const std::function<bool()>& stopped = {});
+
+/// A tank of a timeline with its light.
+struct LitTank {
+  std::shared_ptr<const scene::TankContent> content;
+  std::shared_ptr<const scene::TankIllumination> light;
+};
+
+/// Loads and lights the tanks of a timeline, those of one file once. Fails as load_tank_scenario, with the
+/// place of the table.
+Result<std::vector<LitTank>> load_tanks(const scene::Timeline& timeline);
 
 /// Whether load_tank_scenario takes a file.
 bool is_tank_input(const std::filesystem::path& path);

@@ -11,8 +11,8 @@ namespace brume::scene {
 /// A decal of baked occlusion (brume bake occlusion): darkens the surfaces in its box.
 struct DecalOptions {
   std::filesystem::path file;  ///< A volume, resolved.
-  std::string grid =
-      {};  ///< Holds the occlusion; empty: up and down if there are such grids, else the first.
+  /// Holds the occlusion; empty: up and down if there are such grids, else the first.
+  std::string grid = {};
   std::string carrier = {};     ///< Empty: the world.
   glm::vec3 position_world{0};  ///< In the carrier's space if there is one.
   glm::vec3 rotation{0};        ///< About x, then y, then z [degrees].

@@ -188,6 +188,16 @@ void visit_carrier_options(Options& o, Visitor&& visit) {
         o.rotation);
 }
 
+/// Settings of TankOptions without its place.
+template <typename Options, typename Visitor>
+void visit_tank_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
+  visit(OptionInfo{"scale", "", "metres per metre of the tank", 1e-6, 1e6}, o.scale);
+  visit(OptionInfo{"samples", "", "paths of each pixel in an image; one in each of its samples at least", 1,
+                   64},
+        o.samples);
+}
+
 /// Settings of DecalOptions without its place.
 template <typename Options, typename Visitor>
 void visit_decal_options(Options& o, Visitor&& visit) {

@@ -232,7 +232,8 @@ bool is_tank_scene(const std::filesystem::path& path) {
   const auto text = read_text_file(path, kMostFileBytes);
   if (!text) return false;
   const auto document = parse_toml(*text, path.string());
-  return document && document->contains("tank");
+  // [[tank]] belongs to a timeline.
+  return document && document->contains("tank") && !(*document)["tank"].is_array();
 }
 
 std::vector<std::filesystem::path> files_named_by_tank_scene(const std::filesystem::path& path) {

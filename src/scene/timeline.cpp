@@ -106,6 +106,7 @@ class TimelineReader {
     const auto carriers = root.tables("carrier");
     const auto volumes = root.tables("volume");
     const auto decals = root.tables("decal");
+    const auto tanks = root.tables("tank");
     const auto roles = root.tables("role");
     const auto cameras = root.tables("camera");
     const auto events = root.tables("event");
@@ -125,6 +126,7 @@ class TimelineReader {
     read_all(carriers, read_carrier);
     read_all(volumes, read_volume);
     read_all(decals, read_decal);
+    read_all(tanks, read_tank);
     read_all(roles, read_role);
     for (std::size_t i = 0; i < cameras.size() && outcome; ++i)
       outcome = read_camera_key(*cameras[i], path_, timeline_.camera);

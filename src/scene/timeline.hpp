@@ -14,6 +14,7 @@
 #include "scene/carrier.hpp"
 #include "scene/decal_options.hpp"
 #include "scene/events.hpp"
+#include "scene/level_tank.hpp"
 #include "scene/scene.hpp"
 #include "scene/sky.hpp"
 #include "scene/smoke_options.hpp"
@@ -54,6 +55,7 @@ struct Timeline {
   std::vector<Carrier> carriers;
   std::vector<VolumeOptions> volumes;
   std::vector<DecalOptions> decals;
+  std::vector<TankOptions> tanks;
   std::vector<RoleOptions> roles;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
   // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
@@ -93,12 +95,12 @@ void sort_events(Timeline& timeline);
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
 /// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
 /// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
-/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[role]] (object, role), and [[camera]]
-/// (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type, time and the
-/// fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; those of events [-16384,
-/// 16384]. check_objects checks whether the objects of doors, roles and carriers exist. Fails with bad_input
-/// and file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value
-/// of the wrong type or out of range.
+/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[tank]], [[role]] (object, role), and
+/// [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type, time
+/// and the fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; those of events
+/// [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers exist. Fails with
+/// bad_input and file:line:column for malformed TOML, an unknown key (suggesting what was probably meant),
+/// and a value of the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

@@ -212,6 +212,15 @@ Result<void> check_decal(const Timeline& timeline, const DecalOptions& decal) {
   return look.done();
 }
 
+Result<void> check_tank(const Timeline& timeline, const TankOptions& tank) {
+  Checker look("[[tank]] " + tank.file.filename().string());
+  look.text("file", tank.file.string());
+  check_carrier_name(timeline, tank.carrier, look);
+  look.point("position", tank.position_world, kFarthestPoint);
+  visit_tank_options(tank, look);
+  return look.done();
+}
+
 Result<void> check_roles(const std::vector<RoleOptions>& roles) {
   Checker look("[[role]]");
   for (const RoleOptions& role : roles) {
@@ -262,6 +271,9 @@ Result<void> check_settings(const Timeline& timeline) {
     if (auto done = check_volume(timeline, volume); !done) return done;
   for (const DecalOptions& decal : timeline.decals)
     if (auto done = check_decal(timeline, decal); !done) return done;
+  if (auto done = check_count("[[tank]]", timeline.tanks.size(), kMostTanks); !done) return done;
+  for (const TankOptions& tank : timeline.tanks)
+    if (auto done = check_tank(timeline, tank); !done) return done;
   if (auto done = check_roles(timeline.roles); !done) return done;
 
   return check_keys("camera", timeline.camera, [](const CameraKey& key, Checker& of_key) {

@@ -47,5 +47,6 @@ Result<void> read_carrier(const toml::table& source, const std::filesystem::path
 Result<void> read_volume(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 Result<void> read_role(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 Result<void> read_decal(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
+Result<void> read_tank(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 
 }  // namespace brume::scene

@@ -1,8 +1,9 @@
-// Reads [[volume]], [[carrier]] and [[decal]].
+// Reads [[volume]], [[carrier]], [[decal]] and [[tank]].
 #include <algorithm>
 #include <utility>
 
 #include "core/similar.hpp"
+#include "scene/tank_scene.hpp"
 #include "scene/text_reader.hpp"
 #include "scene/timeline_parts.hpp"
 
@@ -29,13 +30,16 @@ void read_carrier_name(TomlTable& table, const Timeline& timeline, std::string& 
                "\"carrier\": there is no [[carrier]] " + in_quotes(name) + suggestion(name, known, "\""));
 }
 
-/// The file of a volume.
-void read_volume_file(TomlTable& table, const std::filesystem::path& path, std::filesystem::path& file) {
+constexpr const char* kFileOfGrids = "a file of grids";
+
+/// A file, which may lie anywhere.
+void read_part_file(TomlTable& table, const std::filesystem::path& path, const std::string& what,
+                    std::filesystem::path& file) {
   std::string name;
   table.require("file");
   table.read("file", name);
   if (name.empty() || name.find('\0') != std::string::npos)
-    table.fail("file", "\"file\": expected the name of a file of grids");
+    table.fail("file", "\"file\": expected the name of " + what);
   file = path.parent_path() / name;
 }
 
@@ -171,7 +175,7 @@ Result<void> read_carrier(const toml::table& source, const std::filesystem::path
 Result<void> read_decal(const toml::table& source, const std::filesystem::path& path, Timeline& timeline) {
   TomlTable table(source, "[[decal]]", path.string());
   DecalOptions decal;
-  read_volume_file(table, path, decal.file);
+  read_part_file(table, path, kFileOfGrids, decal.file);
   if (timeline.decals.size() >= kMostDecals)
     table.fail("file", "[[decal]]: expected at most " + std::to_string(kMostDecals) + " of them");
   table.read("grid", decal.grid);
@@ -183,10 +187,32 @@ Result<void> read_decal(const toml::table& source, const std::filesystem::path& 
   return table.finish();
 }
 
+Result<void> read_tank(const toml::table& source, const std::filesystem::path& path, Timeline& timeline) {
+  TomlTable table(source, "[[tank]]", path.string());
+  TankOptions tank;
+  read_part_file(table, path, "a tank's scene or a .spheres file", tank.file);
+  if (timeline.tanks.size() >= kMostTanks)
+    table.fail("file", "[[tank]]: expected at most " + std::to_string(kMostTanks) + " of them");
+  read_carrier_name(table, timeline, tank.carrier);
+  table.read("position", tank.position_world, -kFarthestPoint, kFarthestPoint);
+  visit_tank_options(tank, OptionReader{table});
+  if (table.has("view")) {
+    std::string name;
+    table.read("view", name);
+    if (const auto view = choice_of(name, 2, view_name))
+      tank.view = *view;
+    else
+      table.fail("view", "\"view\": " + view.failure().message);
+  }
+  tank.place = table.place("file");
+  timeline.tanks.push_back(std::move(tank));
+  return table.finish();
+}
+
 Result<void> read_volume(const toml::table& source, const std::filesystem::path& path, Timeline& timeline) {
   TomlTable table(source, "[[volume]]", path.string());
   VolumeOptions volume;
-  read_volume_file(table, path, volume.file);
+  read_part_file(table, path, kFileOfGrids, volume.file);
   if (timeline.volumes.size() >= kMostVolumes)
     table.fail("file", "[[volume]]: expected at most " + std::to_string(kMostVolumes) + " of them");
   read_sequence(table, volume);

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "scene/event_fields.hpp"
 #include "scene/file_collector.hpp"
+#include "scene/tank_scene.hpp"
 #include "scene/toml_text.hpp"
 
 namespace brume::scene {
@@ -63,6 +64,7 @@ class Writer : private TomlText {
     for (const Carrier& carrier : timeline.carriers) write_carrier(carrier);
     for (const VolumeOptions& volume : timeline.volumes) write_volume(volume);
     for (const DecalOptions& decal : timeline.decals) write_decal(decal);
+    for (const TankOptions& tank : timeline.tanks) write_tank(tank);
     for (const RoleOptions& role : timeline.roles) write_role(role);
     for (const CameraKey& key : timeline.camera) camera(key);
     write_events(timeline);
@@ -164,6 +166,15 @@ class Writer : private TomlText {
     if (!decal.carrier.empty()) line("carrier", decal.carrier);
     line("position", decal.position_world);
     options(decal, DecalOptions(), "", [](auto& o, auto& v) { visit_decal_options(o, v); });
+  }
+
+  void write_tank(const TankOptions& tank) {
+    text_ += "\n[[tank]]\n";
+    line("file", path_from(tank.file, folder_).generic_string());
+    if (!tank.carrier.empty()) line("carrier", tank.carrier);
+    line("position", tank.position_world);
+    options(tank, TankOptions(), "", [](auto& o, auto& v) { visit_tank_options(o, v); });
+    if (tank.view) line("view", std::string(view_name(*tank.view)));
   }
 
   void write_role(const RoleOptions& role) {

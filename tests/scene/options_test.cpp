@@ -105,7 +105,7 @@ TEST(Options, MatchTheTableInTheDocs) {
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/guides/timelines.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
       volume("`[[volume]]` "), mask("`[[volume.mask]]` "), disturbance("`[volume.disturb]` "),
-      detail("`[volume.detail]` "), carrier("`[[carrier.key]]` "), decal("`[[decal]]` "),
+      detail("`[volume.detail]` "), carrier("`[[carrier.key]]` "), decal("`[[decal]]` "), tank("`[[tank]]` "),
       camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
   visit_bounce_options(static_cast<const Timeline&>(Timeline()), top);
@@ -121,10 +121,11 @@ TEST(Options, MatchTheTableInTheDocs) {
   visit_detail_options(static_cast<const VolumeDetail&>(VolumeDetail()), detail);
   visit_carrier_options(static_cast<const CarrierKey&>(CarrierKey()), carrier);
   visit_decal_options(static_cast<const DecalOptions&>(DecalOptions()), decal);
+  visit_tank_options(static_cast<const TankOptions&>(TankOptions()), tank);
   visit_camera_options(static_cast<const Camera&>(Camera()), camera);
   const std::string head = part_of(text, "| key |");
-  for (const RowMaker* maker :
-       {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &detail, &carrier, &decal, &camera})
+  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &detail,
+                                &carrier, &decal, &tank, &camera})
     expect_rows(head, maker->rows);
 
   for_each_event_kind([&](const char* kind, auto list) {
@@ -211,6 +212,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(VolumeOptions(), visit_particle_options), 2u);
   EXPECT_EQ(MET(CarrierKey(), visit_carrier_options), 1u);
   EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);
+  EXPECT_EQ(MET(TankOptions(), visit_tank_options), 3u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 5u);
   EXPECT_EQ(MET(ShotEvent(), visit_event_numbers), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_event_numbers), 8u);

@@ -212,6 +212,16 @@ inline DecalOptions random_decal(Drawing& draw, const std::vector<Carrier>& carr
   return decal;
 }
 
+inline TankOptions random_tank(Drawing& draw, const std::vector<Carrier>& carriers) {
+  TankOptions tank;
+  tank.file = "scenes/" + std::to_string(draw.below(3)) + ".toml";
+  tank.carrier = random_carrier_name(draw, carriers);
+  tank.position_world = draw.point(-kFarthestPoint, kFarthestPoint);
+  visit_tank_options(tank, draw);
+  if (draw.below(2) == 0) tank.view = TankView{draw.below(2)};
+  return tank;
+}
+
 inline Timeline random_timeline(std::uint32_t seed) {
   Drawing draw(seed);
   Timeline timeline;
@@ -227,6 +237,8 @@ inline Timeline random_timeline(std::uint32_t seed) {
     timeline.carriers.push_back(random_carrier(draw, carriers));
   for (std::uint32_t decals = draw.below(3); decals > 0; --decals)
     timeline.decals.push_back(random_decal(draw, timeline.carriers));
+  for (std::uint32_t tanks = draw.below(3); tanks > 0; --tanks)
+    timeline.tanks.push_back(random_tank(draw, timeline.carriers));
   for (std::uint32_t roles = draw.below(3); roles > 0; --roles)
     timeline.roles.push_back({random_name(draw, roles), static_cast<Role>(draw.below(4))});
   for (std::uint32_t volumes = draw.below(3); volumes > 0; --volumes) {

@@ -97,6 +97,7 @@ void spoil(Timeline& t, Spoiler& s) {
     for (CarrierKey& key : carrier.keys)
       s.time(key.time), s.place(key.position_world), visit_carrier_options(key, s);
   for (DecalOptions& decal : t.decals) s.place(decal.position_world), visit_decal_options(decal, s);
+  for (TankOptions& tank : t.tanks) s.place(tank.position_world), visit_tank_options(tank, s);
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
   for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
   for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_event_numbers(e, s);
@@ -157,7 +158,7 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
             "camera at 1 s: \"time\": expected a later time than that of the previous key");
 }
 
-/// A timeline with one of each: a carrier, a volume with a mask, a decal, a role.
+/// A timeline with one of each: a carrier, a volume with a mask, a decal, a tank, a role.
 Timeline with_effects() {
   Timeline timeline;
   timeline.scene = "a.glb";
@@ -174,11 +175,14 @@ Timeline with_effects() {
   timeline.decals.resize(1);
   timeline.decals[0].file = "ao.vdb";
   timeline.decals[0].carrier = "ship";
+  timeline.tanks.resize(1);
+  timeline.tanks[0].file = "reef.toml";
+  timeline.tanks[0].carrier = "ship";
   timeline.roles = {{"fence", Role::grille}};
   return timeline;
 }
 
-TEST(TimelineCheck, NamesCarriersMasksAndDecals) {
+TEST(TimelineCheck, NamesCarriersMasksDecalsAndTanks) {
   const auto expect = [](const auto& change, const std::string& message) {
     Timeline timeline = with_effects();
     ASSERT_TRUE(check_settings(timeline));
@@ -193,6 +197,12 @@ TEST(TimelineCheck, NamesCarriersMasksAndDecals) {
          "[[decal]] ao.vdb: \"carrier\": expected the name of a [[carrier]]");
   expect([](Timeline& t) { t.decals.resize(kMostDecals + 1, t.decals[0]); },
          "[[decal]]: expected at most 32 of them");
+  expect([](Timeline& t) { t.tanks[0].samples = 65; },
+         "[[tank]] reef.toml: \"samples\": expected a number from 1 to 64, found 65");
+  expect([](Timeline& t) { t.tanks[0].carrier = "shop"; },
+         "[[tank]] reef.toml: \"carrier\": expected the name of a [[carrier]]");
+  expect([](Timeline& t) { t.tanks.resize(kMostTanks + 1, t.tanks[0]); },
+         "[[tank]]: expected at most 4 of them");
   expect([](Timeline& t) { t.carriers.clear(); },
          "[[volume]] f.vdb: \"carrier\": expected the name of a [[carrier]]");
   expect([](Timeline& t) { t.volumes[0].masks[0].intensity = -1; },

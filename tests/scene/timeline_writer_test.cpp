@@ -104,6 +104,15 @@ void add_decals(Bits& b, const std::vector<DecalOptions>& decals) {
   }
 }
 
+void add_tanks(Bits& b, const std::vector<TankOptions>& tanks) {
+  b.add(static_cast<std::uint32_t>(tanks.size()));
+  for (const TankOptions& tank : tanks) {
+    b.add(tank.file.string()), b.add(tank.carrier), b.add(tank.position_world);
+    visit_tank_options(tank, b);
+    b.add(tank.view ? static_cast<std::uint32_t>(*tank.view) : 9u);
+  }
+}
+
 std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   Bits b;
   b.add(timeline.scene.string());
@@ -126,6 +135,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   }
   add_carriers(b, timeline.carriers);
   add_decals(b, timeline.decals);
+  add_tanks(b, timeline.tanks);
   b.add(static_cast<std::uint32_t>(timeline.roles.size()));
   for (const RoleOptions& role : timeline.roles)
     b.add(role.object), b.add(static_cast<std::uint32_t>(role.role));
