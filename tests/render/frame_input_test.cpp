@@ -540,7 +540,7 @@ TEST_F(FrameInputTest, QualityAndDebugViews) {
 TEST_F(FrameInputTest, AllGroups) {
   [[maybe_unused]] const auto& [view, environment, level, smoke, volumes, slices, decals, particles, tanks,
                                 quality, debug] = input_;
-  EXPECT_TRUE(tanks.empty()) << "tank_in_level_test.cpp has theirs";
+  EXPECT_TRUE(tanks.empty()) << "tank_frames_test.cpp has theirs";
 }
 
 }  // namespace
