@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/log.hpp"
 #include "render/playback.hpp"
+#include "scenario/editable_scenario.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/work_folder.hpp"
 
@@ -101,6 +101,17 @@ TEST_F(TankTimelineTest, FilesAreNamedAndFaultsHaveTheirPlace) {
   EXPECT_NE(message.find("gone.toml"), message.npos) << message;
   const auto misspelt = load(std::string(kStanding) + "view = \"balls\"\n").failure().message;
   EXPECT_NE(misspelt.find("\"view\": expected \"spheres\" or \"voxels\""), misspelt.npos) << misspelt;
+}
+
+TEST_F(TankTimelineTest, AnEditedTimelineMovesItsTanksAndLoadsNoOthers) {
+  const auto live = scenario::EditableScenario::create(load(kStanding).value_or_throw()).value_or_throw();
+  scene::Timeline timeline = live->scenario().timeline;
+  timeline.tanks[0].position_world.x = 1;
+  const auto moved = live->reset(timeline);
+  ASSERT_TRUE(moved) << moved.failure().message;
+  EXPECT_EQ(frame_of(live->scenario(), 0).tanks.at(0).placement.position_world, glm::vec3(1, 1, 0));
+  timeline.tanks[0].file = "other.toml";
+  EXPECT_FALSE(live->reset(timeline));
 }
 
 TEST_F(TankTimelineTest, ATimeIsOnePictureWhateverCameBefore) {
