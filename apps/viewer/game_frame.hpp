@@ -1,6 +1,7 @@
 // A frame of a game, as a renderer takes it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "apps/viewer/game.hpp"
@@ -20,6 +21,8 @@ class StillFrame {
   explicit StillFrame(const Game& game);
   std::uint32_t samples() const { return samples_->count(); }
   render::FrameInput sample(std::uint32_t i) const { return (*samples_)[i]; }
+  /// The last one that is asked for.
+  render::FrameInput last_sample(std::uint32_t i) { return std::move(*samples_)[i]; }
 
  private:
   std::vector<shared::Hole> holes_;

@@ -66,17 +66,16 @@ void LevelPainter::set_resolution(glm::uvec2 picture_px, std::uint32_t march_sca
 }
 
 /// Renders `input` (null: repeats the previous image) and shows it.
-bool LevelPainter::show(const render::FrameInput* input, const Quality& quality, const ImDrawData& ui) {
+bool LevelPainter::show(render::FrameInput* input, const Quality& quality, const ImDrawData& ui) {
   const auto size_px = screen_.begin();
   if (!size_px) return false;
   const auto begin = std::chrono::steady_clock::now();
   std::optional<render::FramePlan> plan;
   if (input) {
     set_resolution(scaled(*size_px, quality.picture_scale), quality.march_scale);
-    render::FrameInput frame = *input;
-    frame.view.continues = input->view.continues && !history_lost_;
+    input->view.continues = input->view.continues && !history_lost_;
     history_lost_ = false;
-    plan.emplace(renderer_.plan(frame));
+    plan.emplace(renderer_.plan(*input));
   }
   plan_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   screen_.show(
@@ -162,8 +161,8 @@ bool LevelPainter::draw_film(const Game& game, const Quality& quality, float lig
 }
 
 bool LevelPainter::draw_best(const Game& game, const Quality& quality, const ImDrawData& ui) {
-  const StillFrame still(game);
-  const bool is_refined = refine(still.sample(samples_));
+  StillFrame still(game);
+  const bool is_refined = refine(still.last_sample(samples_));
   continues_ = false;
   if (is_refined) {
     is_best_ = ++samples_ == still.samples();

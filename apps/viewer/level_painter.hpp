@@ -54,7 +54,7 @@ class LevelPainter {
   };
   void restart();
   bool is_still(const Game& game);
-  bool show(const render::FrameInput* input, const Quality& quality, const ImDrawData& ui);
+  bool show(render::FrameInput* input, const Quality& quality, const ImDrawData& ui);
   bool refine(render::FrameInput input);
   bool draw_frame(const Game& game, const Quality& quality, double frame_seconds, const ImDrawData& ui);
   bool draw_film(const Game& game, const Quality& quality, float light_update_fraction, const ImDrawData& ui);

@@ -164,10 +164,9 @@ FrameSamples::FrameSamples(const scenario::Scenario& scenario, double seconds, c
       camera_samples(count.value_or(usual), camera.lens, opening_of(scenario.lens_openings, camera.lens));
 }
 
-FrameInput FrameSamples::operator[](std::uint32_t i) const {
+FrameInput FrameSamples::seen(std::uint32_t i, FrameInput frame) const {
   const CameraSample& sample = samples_[i];
-  FrameInput frame = frame_;
-  const float shutter = frame_.view.camera.shutter;
+  const float shutter = frame.view.camera.shutter;
   if (shutter > 0 && sample.time > 0)
     move_frame(scenario_, seconds_, seconds_ + double{shutter * sample.time}, options_, frame);
   frame.view.sample = sample.view;

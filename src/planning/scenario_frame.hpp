@@ -1,29 +1,16 @@
 // The frame of a scenario at a time.
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "planning/frame_input.hpp"
+#include "planning/frame_options.hpp"
 #include "planning/lens.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::planning {
-
-using CameraAt = std::function<scene::Camera(double seconds)>;
-
-struct FrameOptions {
-  volumes::VolumeWait wait = volumes::VolumeWait::until_loaded;
-  /// In place of the timeline's carriers; of the same names and objects. Null: the timeline's.
-  const std::vector<scene::Carrier>* steered = nullptr;
-  /// Whether volumes that the timeline shows as particles are; else they are volumes like others.
-  bool particles = true;
-  /// Where the camera is at a time [s], in place of the timeline's path; empty: there.
-  CameraAt camera = {};
-  /// In the place of the timeline's samples of tanks, for frames that follow each other: as long as nothing
-  /// moves in front of a tank, each frame adds its samples to those before (TankInput::continues).
-  std::optional<std::uint32_t> tank_samples = {};
-};
 
 /// What a frame shows of a scenario at a time. `holes` keeps the holes that the result refers to. Objects,
 /// volumes, decals and tanks move with the carriers.
@@ -43,9 +30,13 @@ class FrameSamples {
   FrameSamples(const scenario::Scenario& scenario, double seconds, const FrameOptions& options,
                FrameInput frame, std::optional<std::uint32_t> count);
   std::uint32_t count() const { return static_cast<std::uint32_t>(samples_.size()); }
-  FrameInput operator[](std::uint32_t i) const;
+  FrameInput operator[](std::uint32_t i) const& { return seen(i, frame_); }
+  /// Without a copy of the frame: the last one that is asked for.
+  FrameInput operator[](std::uint32_t i) && { return seen(i, std::move(frame_)); }
 
  private:
+  FrameInput seen(std::uint32_t i, FrameInput frame) const;
+
   const scenario::Scenario& scenario_;
   double seconds_;
   FrameOptions options_;

@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "planning/scenario_frame.hpp"
+#include "planning/frame_input.hpp"
+#include "planning/frame_options.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::planning {

@@ -1,6 +1,7 @@
 #include "render/playback.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/progress.hpp"
 #include "render/exposure.hpp"
@@ -65,18 +66,19 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   if (exposure_) input.view.exposure = *exposure_;
   input.debug = debug_;
   display_ = {input.view.exposure, static_cast<std::uint32_t>(input.view.tone)};
-  const planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
-                                       renderer_.march().is_accumulated() ? 1u : samples_);
+  planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
+                                 renderer_.march().is_accumulated() ? 1u : samples_);
   samples_drawn_ = samples.count();
-  for (std::uint32_t i = 0; i < samples.count(); ++i) {
-    FrameInput sample = samples[i];
+  for (std::uint32_t i = 0; i < samples_drawn_; ++i) {
+    const bool is_last = i + 1 == samples.count();
+    FrameInput sample = is_last ? std::move(samples)[i] : samples[i];
     // Samples smooth what is finer than a step. Of one alone it would be grain.
-    if (samples.count() == 1 && !renderer_.march().is_accumulated() && sample.smoke.look.detail > 0)
+    if (samples_drawn_ == 1 && !renderer_.march().is_accumulated() && sample.smoke.look.detail > 0)
       sample.quality.step_scale *= kStepScaleOfOneSample;
     if (renderer_.is_antialiased() && sample.view.continues)
       sample.view.sample = planning::film_sample(frame_index);
     renderer_.draw(sample, [&](gpu::Recorder& recorder) {
-      each.read_back(recorder, i + 1 == samples.count());
+      each.read_back(recorder, is_last);
       if (renderer_.march().tiles())
         recorder.read_back(renderer_.march().tiles()->list, list_, sizeof(shared::MarchList));
     });

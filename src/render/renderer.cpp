@@ -94,7 +94,6 @@ void Renderer::commit_recorded() {
 
 FramePlan Renderer::plan(const FrameInput& input) {
   commit_recorded();
-  input_ = input;
   const std::uint32_t room = bricks_of(smoke_.atlas_bricks());
   const std::uint32_t wanted = holds_all_smoke() ? room : history_.resident->wanted_count();
   if (smoke_budget_.begin_frame(context_.memory(), room, wanted)) {
@@ -106,7 +105,7 @@ FramePlan Renderer::plan(const FrameInput& input) {
     std::optional<gpu::Memory::Unlimited> reserve;
     if (smoke_budget_.is_reserve()) reserve.emplace(context_.memory());
     try {
-      return try_plan();
+      return try_plan(input);
     } catch (const Error& error) {
       const bool is_full = error.code() == ErrorCode::resource_limit;
       if (!is_full || !input.smoke.volume || !smoke_budget_.reduce(bricks_of(smoke_.atlas_bricks()))) throw;
@@ -114,13 +113,13 @@ FramePlan Renderer::plan(const FrameInput& input) {
   }
 }
 
-FramePlan Renderer::try_plan() {
-  volumes_.prepare(input_, history_.volume_streaming);
-  slices_.prepare(input_);
-  if (!input_.tanks.empty() && picture_ && !tanks_)
+FramePlan Renderer::try_plan(const FrameInput& input) {
+  volumes_.prepare(input, history_.volume_streaming);
+  slices_.prepare(input);
+  if (!input.tanks.empty() && picture_ && !tanks_)
     tanks_.emplace(context_, stream_, targets_.size_px, TanksPart::Over::level);
-  if (tanks_) tanks_->prepare(input_);
-  FramePlan plan = planning::plan_frame(input_, plan_target(), history_);
+  if (tanks_) tanks_->prepare(input);
+  FramePlan plan = planning::plan_frame(input, plan_target(), history_);
   reserve(plan);
   return plan;
 }

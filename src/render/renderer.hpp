@@ -62,10 +62,12 @@ class Renderer {
 
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
   /// Call outside of a recording, when the device is done with the frame before. The plan is valid until the
-  /// next one. A frame that is not recorded, or whose recording is dropped, leaves nothing behind. Where
-  /// memory is short, smoke becomes coarser: see smoke_level(). Throws resource_limit where that does not
-  /// help, and bad_input for volumes and particles that FrameInput does not allow.
+  /// next one, and no longer than `input`, to which it refers. A frame that is not recorded, or whose
+  /// recording is dropped, leaves nothing behind. Where memory is short, smoke becomes coarser: see
+  /// smoke_level(). Throws resource_limit where that does not help, and bad_input for volumes and particles
+  /// that FrameInput does not allow.
   FramePlan plan(const FrameInput& input);
+  FramePlan plan(FrameInput&& input) = delete;
   /// Records the frame of the last plan. No allocation of device memory besides staging, no submit, no wait.
   void record_frame(gpu::Recorder& recorder, const FramePlan& plan);
   /// The same in kParts parts, which may be submitted one by one. After the first one the others may be
@@ -133,7 +135,7 @@ class Renderer {
   bool holds_all_smoke() const { return !memory_follows_view_ && smoke_budget_.is_unlimited(); }
   planning::PlanTarget plan_target() const;
   void commit_recorded();
-  FramePlan try_plan();
+  FramePlan try_plan(const FrameInput& input);
   void reserve(const FramePlan& plan);
   FrameResources resources(const FramePlan& plan) const;
   void upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
@@ -167,7 +169,6 @@ class Renderer {
   SmokeBudget smoke_budget_;
   const bool memory_follows_view_;
   planning::PlanHistory history_;
-  FrameInput input_;  ///< What the last plan refers to.
   /// The last frame whose commands were recorded.
   struct Recorded {
     std::uint64_t plan = 0;  ///< FramePlan::number; 0: there was no frame.

@@ -73,7 +73,8 @@ void VolumePartRenderer::set_halves(const gpu::Image& image, std::span<const std
 
 std::vector<float> VolumePartRenderer::find_depths(const FrameInput& input) {
   plan_.reset();  // its lists end before the next plan's begin in their memory
-  plan_.emplace(renderer_.plan(input));
+  input_ = input;
+  plan_.emplace(renderer_.plan(input_));
   check_frame(*plan_);
   volume_bytes_ = std::uint64_t{input.volumes.front().volume->slot_count()} * shared::kTexelsPerBrick *
                   sizeof(std::uint16_t);

@@ -20,7 +20,6 @@ const Groups kKnownCircles{
     {"apps/viewer/document", "apps/viewer/ui", "apps/viewer/ui_parts", "apps/viewer/viewer"},
     {"python/density", "python/smoke"},
     {"python/wire", "python/world"},
-    {"src/planning/scenario_frame", "src/planning/volume_inputs"},
     {"src/reference/emission_cells", "src/reference/medium"},
     {"src/scenario/events", "src/scenario/level_events"},
     {"src/scenario/scenario", "src/scenario/smoke_report"},
