@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "python/wire.hpp"
+#include "python/bytes.hpp"
 
 namespace brume::python {
 namespace {

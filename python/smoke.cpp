@@ -206,7 +206,7 @@ a, b: points [m], shape (..., 3), both of the same shape or one of them (3,). Ar
 drawn: of the smoke as pictures show it, eroded by noise and with frayed rims, some hundred times as slowly.
 Returns float32, shape (...); a float for two points of the shape (3,).
 
-Holes and blasts are part of it. The same bits for one line or among many, on
+All events up to the present are part of it. The same bits for one line or among many, on
 every machine. Uses all cores and runs without the interpreter lock; Ctrl-C ends it. Raises ValueError for
 another shape or a point out of range, TypeError for what is no array of numbers.)")
       .def("visible", &Smoke::visible, "a"_a, "b"_a, "threshold"_a = 3.0f, "drawn"_a = false,

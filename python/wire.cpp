@@ -2,10 +2,10 @@
 
 #include <pybind11/stl.h>
 
-#include <cstring>
 #include <mutex>
 #include <optional>
 
+#include "python/bytes.hpp"
 #include "python/world.hpp"
 #include "wire/receiver.hpp"
 #include "wire/sender.hpp"
@@ -85,19 +85,6 @@ class Receiver {
 };
 
 }  // namespace
-
-py::bytes bytes_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::vector<std::byte> copy_of(const py::bytes& bytes) {
-  char* data = nullptr;
-  Py_ssize_t size = 0;
-  if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0) throw py::error_already_set();
-  std::vector<std::byte> copy(static_cast<std::size_t>(size));
-  if (size > 0) std::memcpy(copy.data(), data, copy.size());
-  return copy;
-}
 
 void bind_wire(py::module_& module) {
   using namespace py::literals;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "python/wire.hpp"
+#include "python/bytes.hpp"
 #include "scenario/level_events.hpp"
 #include "wire/packet.hpp"
 

@@ -7,6 +7,7 @@
 #include "apps/cli/scene_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "core/log.hpp"
+#include "scenario/free_place.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/world_triangles.hpp"
 #include "scene/load.hpp"

@@ -12,7 +12,7 @@
 #include "apps/viewer/frame_log.hpp"
 #include "apps/viewer/notice_list.hpp"
 #include "apps/viewer/screen.hpp"
-#include "apps/viewer/viewer.hpp"
+#include "apps/viewer/viewer_options.hpp"
 #include "apps/viewer/window_choices.hpp"
 #include "core/progress.hpp"
 

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -109,17 +110,24 @@ void lay_out_level_status(const Game& game, const Figures& figures, const Notice
   if (!choices.decals) ImGui::TextUnformatted("decals hidden (B)");
 }
 
+/// Colours of the marks of events, in the order of scene::for_each_event_kind; 0: no mark.
+constexpr std::array<ImU32, 7> kEventColours{IM_COL32(200, 205, 215, 255),
+                                             IM_COL32(255, 190, 90, 255),
+                                             IM_COL32(255, 220, 140, 255),
+                                             IM_COL32(240, 90, 80, 255),
+                                             0,
+                                             IM_COL32(120, 160, 220, 255),
+                                             IM_COL32(120, 190, 120, 255)};
+
 void mark_events(const scene::Timeline& timeline, const TimeMark& mark) {
   const auto marks = [&](const auto& events, ImU32 colour) {
     for (const auto& event : events) mark(event.time, colour);
   };
   for (const scene::Carrier& carrier : timeline.carriers) marks(carrier.keys, IM_COL32(180, 130, 240, 255));
-  marks(timeline.smokes, IM_COL32(200, 205, 215, 255));
-  marks(timeline.shots, IM_COL32(255, 190, 90, 255));
-  marks(timeline.texts, IM_COL32(255, 220, 140, 255));
-  marks(timeline.blasts, IM_COL32(240, 90, 80, 255));
-  marks(timeline.doors, IM_COL32(120, 190, 120, 255));
-  marks(timeline.edits, IM_COL32(120, 160, 220, 255));
+  std::size_t kind = 0;
+  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
+    if (const ImU32 colour = kEventColours.at(kind++); colour != 0) marks(events, colour);
+  });
 }
 
 void lay_out_level_buttons(const Session& session, UiRequests& requests) {

@@ -115,16 +115,14 @@ void lay_out_shots(Game& game) {
   lay_out_file_list(game);
 
   // How.
-  const auto rows = [&](const char* what, auto& event, const auto& file) {
+  for_each_weapon([&](const char* what, auto member) {
     if (!begin_tree(what)) return;
+    auto& event = weapons.*member;
     const auto visit = [](auto& o, auto&& visitor) { scene::visit_event_numbers(o, visitor); };
-    if (option_rows(event, file, visit)) game.setting_changed(what);
+    if (option_rows(event, first.*member, visit)) game.setting_changed(what);
     scene::keep_rules(event);
     ImGui::TreePop();
-  };
-  rows("bullets and images", weapons.shot, first.shot);
-  rows("letters and words", weapons.text, first.text);
-  rows("explosions", weapons.blast, first.blast);
+  });
 }
 
 void lay_out_quality(Choices& choices, const Notices& notices) {

@@ -16,7 +16,7 @@ namespace brume::viewer {
 enum class ShotKind { bullet, glyph, word, picture };
 const char* name_of(ShotKind kind);
 
-/// Settings of the next shots and blasts.
+/// Settings of what is shot and blown up next.
 struct Weapons {
   ShotKind kind = ShotKind::bullet;
   scene::ShotEvent shot;  ///< For bullets and pictures; time, origin and direction are ignored.
@@ -24,6 +24,13 @@ struct Weapons {
   scene::BlastEvent blast;
   std::filesystem::path picture;  ///< PNG or JPEG; empty: none.
 };
+/// Calls visit(what, member) for the event of each weapon: what it makes, and a pointer to its settings.
+template <typename Visitor>
+void for_each_weapon(Visitor&& visit) {
+  visit("bullets and images", &Weapons::shot);
+  visit("letters and words", &Weapons::text);
+  visit("explosions", &Weapons::blast);
+}
 
 class Session {
  public:

@@ -86,8 +86,12 @@ void lay_out_state(const Session& session, const Figures& figures, const Status&
   ImGui::Text("from the input to the image: %.1f ms", figures.median(&FrameFigures::latency_ms));
   ImGui::Text("memory: GPU %.0f MiB, process %.0f MiB", static_cast<double>(status.device_bytes) / kMiB,
               static_cast<double>(resident_bytes()) / kMiB);
-  ImGui::Text("tick %u; clouds %zu, holes %zu, explosions %zu", state.tick, state.clouds.size(),
-              state.holes.size(), state.blasts.size());
+  ImGui::Text("tick %u", state.tick);
+  sim::for_each_state_list([&](const char* what, auto list) {
+    if ((state.*list).empty()) return;
+    ImGui::SameLine(0, 0);
+    ImGui::Text("; %s %zu", what, (state.*list).size());
+  });
   std::uint64_t amount = 0;  // in voxels / 2^20
   for (const sim::LiveCloud& cloud : state.clouds) amount += cloud.cloud->amount(state.tick);
   const double edge = double{session.live().scenario().voxels.grid.layout().voxel_size};

@@ -6,6 +6,7 @@
 #include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
+#include "volumes/volume_grids.hpp"
 
 namespace brume::viewer {
 namespace {

@@ -36,8 +36,8 @@ def _density(self, low=None, high=None, *, dtype="float32"):
     low, high: the voxels [low, high), three whole numbers each; default: the whole level.
     dtype: "float32", 0 to 1, or "uint8", the steps of 1/255 that the simulation counts in.
 
-    Grid.values has the shape (x, y, z); Grid.low, Grid.matrix, Grid.origin and Grid.voxel_size are its place. Blasts
-    are part of the densities, holes and the noise of pictures are not. Raises ValueError for a box that is empty or
+    Grid.values has the shape (x, y, z); Grid.low, Grid.matrix, Grid.origin and Grid.voxel_size are its place. Holes
+    and the noise of pictures are no part of the densities. Raises ValueError for a box that is empty or
     leaves the level, MemoryError beyond 2^30 voxels.
     """
     dtype = np.dtype(dtype)

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "api/objects.hpp"
+#include "sim/event_fields.hpp"
 #include "sim/level_edit.hpp"
 
 namespace brume::api {

@@ -7,6 +7,7 @@
 #include "core/tasks.hpp"
 #include "scene/smoke_options.hpp"
 #include "shared/volume.h"
+#include "sim/event_fields.hpp"
 
 namespace brume::api {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planning/frame_input.hpp"
-#include "reference/medium.hpp"
+#include "reference/media.hpp"
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/sky_light.h"

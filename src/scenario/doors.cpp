@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/events.hpp"
+#include "scenario/ticks.hpp"
 #include "scenario/world_triangles.hpp"
 
 namespace brume::scenario {

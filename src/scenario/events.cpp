@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <variant>
 
 #include "scenario/smoke_start.hpp"
 #include "scene/event_fields.hpp"
@@ -133,7 +134,7 @@ std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t tic
   return shots;
 }
 
-// The events of the simulation that an event of a timeline becomes.
+// The events of the simulation that an event of a timeline becomes, where it is more than same_kind makes.
 std::vector<sim::Event> make_events(const scene::SmokeEvent& event, const EventSettings& settings,
                                     BodyNumbers&) {
   const std::uint32_t rate = settings.ticks_per_second;
@@ -155,11 +156,6 @@ std::vector<sim::Event> make_events(const scene::TextEvent& event, const EventSe
   return {shots.begin(), shots.end()};
 }
 
-std::vector<sim::Event> make_events(const scene::BlastEvent& event, const EventSettings& settings,
-                                    BodyNumbers&) {
-  return {convert<sim::Blast>(event, tick_at(event.time, settings.ticks_per_second))};
-}
-
 std::vector<sim::Event> make_events(const scene::MoveEvent& event, const EventSettings& settings,
                                     BodyNumbers& bodies) {
   auto move = convert<sim::MoveBody>(event, tick_at(event.time, settings.ticks_per_second));
@@ -173,6 +169,18 @@ std::vector<sim::Event> make_events(const scene::EditEvent&, const EventSettings
 }
 std::vector<sim::Event> make_events(const scene::DoorEvent&, const EventSettings&, BodyNumbers&) {
   return {};
+}
+
+/// The event of the simulation of the same name, with the fields that both have.
+template <typename Event, typename... Kinds>
+sim::Event same_kind(const char* name, const Event& event, std::uint32_t tick,
+                     const std::variant<Kinds...>*) {
+  sim::Event made;
+  const auto try_kind = [&]<typename Kind>(const Kind& kind) {
+    if (std::string_view(name) == sim::name_of(kind)) made = convert<Kind>(event, tick);
+  };
+  (try_kind(Kinds{}), ...);
+  return made;
 }
 
 template <typename Event>
@@ -207,11 +215,6 @@ class EventList {
 
 }  // namespace
 
-std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second) {
-  // A time meant as an exact tick may lie below it by a rounding error.
-  return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * ticks_per_second + 1e-9));
-}
-
 BodyNumbers number_bodies(const scene::Timeline& timeline) {
   BodyNumbers bodies;
   for (const scene::MoveEvent& event : timeline.moves) bodies[event.body];
@@ -231,11 +234,17 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
 
   // All others, of one tick in the order of the kinds.
   EventKind kind = 0;
-  scene::for_each_event_list(timeline, [&](const char*, const auto& list) {
+  scene::for_each_event_list(timeline, [&](const char* name, const auto& list) {
     ++kind;
     for (const auto& event : list)
-      for (sim::Event& made : make_events(event, settings, bodies))
-        events.add(kind, event.time, std::move(made), place_of(event));
+      if constexpr (requires { make_events(event, settings, bodies); })
+        for (sim::Event& made : make_events(event, settings, bodies))
+          events.add(kind, event.time, std::move(made), place_of(event));
+      else
+        events.add(kind, event.time,
+                   same_kind(name, event, tick_at(event.time, settings.ticks_per_second),
+                             static_cast<const sim::Event*>(nullptr)),
+                   place_of(event));
   });
   return std::move(events).sorted();
 }

@@ -9,12 +9,10 @@
 #include "core/error.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/ticks.hpp"
 #include "sim/world.hpp"
 
 namespace brume::scenario {
-
-/// The tick at or before a time [s]; 0 for times before 0. The only place where seconds become ticks.
-std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
 /// The order of kinds of events within one tick: 0 for changes of the level, then from 1 on as
 /// scene::for_each_event_kind lists them.

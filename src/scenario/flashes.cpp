@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "scenario/events.hpp"
-#include "sim/world.hpp"
+#include "scenario/ticks.hpp"
+#include "scene/event_fields.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -33,19 +33,18 @@ void add_flash(std::vector<shared::Light>& lights, glm::vec3 position_world, flo
 }  // namespace
 
 std::vector<shared::Light> flashes_of(const scene::Timeline& timeline, double seconds) {
-  // Burning powder, and a fireball that fades from yellow to red.
-  constexpr glm::vec3 kMuzzle{1, 0.68f, 0.34f}, kFire{1, 0.72f, 0.38f}, kEmbers{1, 0.34f, 0.08f};
   std::vector<shared::Light> lights;
-  for (const scene::ShotEvent& shot : timeline.shots) {
-    const float remaining = remaining_fraction(shot.time, seconds, kMuzzleSeconds);
-    const glm::vec3 ahead = kMuzzleAhead * glm::normalize(shot.toward_world - shot.from_world);
-    add_flash(lights, shot.from_world + ahead, shot.flash * remaining * remaining, kMuzzle);
-  }
-  for (const scene::BlastEvent& blast : timeline.blasts) {
-    const float remaining = remaining_fraction(blast.time, seconds, kBlastSeconds);
-    add_flash(lights, blast.at_world + glm::vec3(0, kBlastAbove, 0), blast.flash * remaining * remaining,
-              glm::mix(kEmbers, kFire, remaining));
-  }
+  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
+    for (const auto& event : events)
+      if constexpr (requires { scene::flash_of(event); }) {
+        const scene::EventFlash flash = scene::flash_of(event);
+        const float remaining = remaining_fraction(event.time, seconds, flash.seconds);
+        add_flash(lights, flash.at_world, event.flash * remaining * remaining,
+                  flash.first_color == flash.last_color
+                      ? flash.first_color
+                      : glm::mix(flash.last_color, flash.first_color, remaining));
+      }
+  });
   return lights;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenario/events.hpp"
+#include "scenario/ticks.hpp"
 #include "scenario/world_triangles.hpp"
 
 namespace brume::scenario {

@@ -44,9 +44,4 @@ std::vector<SmokeReport> report_smokes(const Scenario& scenario, sim::World& wor
 /// nothing is.
 std::string warning_of(const SmokeReport& report, std::size_t number, const Scenario& scenario);
 
-/// The centre of the nearest free voxel from which smoke fills at least `voxels`, the voxel of the point
-/// itself first; one with something solid below it if there is any. Nothing within 48 voxels.
-std::optional<glm::vec3> nearest_free_place(const voxel::BitGrid& grid, glm::vec3 at_world,
-                                            std::uint32_t voxels);
-
 }  // namespace brume::scenario

@@ -173,6 +173,28 @@ void visit_event(Event& e, Visitor&& visit) {
   visit(FlagField{"open", "whether it opens, or closes"}, e.open);
 }
 
+/// The short light of an event: its intensity falls from `flash` with the square of the remaining time, and
+/// its colour goes from the first to the last.
+struct EventFlash {
+  glm::vec3 at_world{0};
+  double seconds = 0;  ///< How long it lasts, from the tick of the event.
+  glm::vec3 first_color{1}, last_color{1};
+};
+/// How far a muzzle flash is ahead of the muzzle, and a fireball's light above its centre, which may be on
+/// the ground [m].
+constexpr float kMuzzleAhead = 0.3f, kFireballAbove = 0.4f;
+
+// For each kind of event with a `flash`.
+inline EventFlash flash_of(const ShotEvent& shot) {
+  constexpr glm::vec3 kPowder{1, 0.68f, 0.34f};
+  const glm::vec3 ahead = kMuzzleAhead * glm::normalize(shot.toward_world - shot.from_world);
+  return {shot.from_world + ahead, 0.06, kPowder, kPowder};
+}
+/// A fireball that fades from yellow to red.
+inline EventFlash flash_of(const BlastEvent& blast) {
+  return {blast.at_world + glm::vec3(0, kFireballAbove, 0), 0.3, {1, 0.72f, 0.38f}, {1, 0.34f, 0.08f}};
+}
+
 /// Passes on the numbers of an event alone.
 template <typename Visitor>
 struct EventNumbers {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
+#include <vector>
 
 namespace brume::scene {
 
@@ -96,5 +97,36 @@ struct DoorEvent {
   bool open = true;
   std::string place = {};  ///< Where the file names the object, for messages.
 };
+
+/// The events of a timeline, each list sorted by time; events of the same time in file order. A new kind of
+/// event needs a line in for_each_event_kind.
+struct EventLists {
+  std::vector<SmokeEvent> smokes;
+  std::vector<ShotEvent> shots;
+  std::vector<TextEvent> texts;
+  std::vector<BlastEvent> blasts;
+  std::vector<MoveEvent> moves;
+  std::vector<EditEvent> edits;
+  std::vector<DoorEvent> doors;
+};
+
+/// Calls visit(type, member) for each kind of event: its `type` in timeline files, and a pointer to its list.
+/// The one place that enumerates the kinds.
+template <typename Visitor>
+void for_each_event_kind(Visitor&& visit) {
+  visit("smoke", &EventLists::smokes);
+  visit("shot", &EventLists::shots);
+  visit("text", &EventLists::texts);
+  visit("blast", &EventLists::blasts);
+  visit("move", &EventLists::moves);
+  visit("edit", &EventLists::edits);
+  visit("door", &EventLists::doors);
+}
+
+/// Calls visit(type, list) for each list of events of a timeline; a const timeline gives const lists.
+template <typename AnyTimeline, typename Visitor>
+void for_each_event_list(AnyTimeline& timeline, Visitor&& visit) {
+  for_each_event_kind([&](const char* type, auto member) { visit(type, timeline.*member); });
+}
 
 }  // namespace brume::scene

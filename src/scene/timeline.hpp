@@ -39,7 +39,7 @@ struct RoleOptions {
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 
-struct Timeline {
+struct Timeline : EventLists {
   std::filesystem::path scene;  ///< Resolved against the timeline's own folder.
   float duration = 4.0f;
   float exposure = 0.0f;
@@ -58,35 +58,7 @@ struct Timeline {
   std::vector<TankOptions> tanks;
   std::vector<RoleOptions> roles;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
-  // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
-  // in for_each_event_kind.
-  std::vector<SmokeEvent> smokes;
-  std::vector<ShotEvent> shots;
-  std::vector<TextEvent> texts;
-  std::vector<BlastEvent> blasts;
-  std::vector<MoveEvent> moves;
-  std::vector<EditEvent> edits;
-  std::vector<DoorEvent> doors;
 };
-
-/// Calls visit(type, member) for each kind of event: its `type` in timeline files, and a pointer to its list
-/// in Timeline. The one place that enumerates the kinds.
-template <typename Visitor>
-void for_each_event_kind(Visitor&& visit) {
-  visit("smoke", &Timeline::smokes);
-  visit("shot", &Timeline::shots);
-  visit("text", &Timeline::texts);
-  visit("blast", &Timeline::blasts);
-  visit("move", &Timeline::moves);
-  visit("edit", &Timeline::edits);
-  visit("door", &Timeline::doors);
-}
-
-/// Calls visit(type, list) for each list of events of a timeline; a const timeline gives const lists.
-template <typename AnyTimeline, typename Visitor>
-void for_each_event_list(AnyTimeline& timeline, Visitor&& visit) {
-  for_each_event_kind([&](const char* type, auto member) { visit(type, timeline.*member); });
-}
 
 /// Sorts each list of events by time. Stable: events of the same time keep their order.
 void sort_events(Timeline& timeline);

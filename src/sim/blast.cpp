@@ -8,6 +8,7 @@
 
 #include "core/hash.hpp"
 #include "core/tasks.hpp"
+#include "sim/event_fields.hpp"
 #include "sim/fixed_point.hpp"
 
 namespace brume::sim {

@@ -1,5 +1,6 @@
-// A set of voxels as 64-bit masks of 4^3 blocks: the representation of clouds, blasts and edits in memory and
-// on the wire. Each voxel of the set has a rank, so that per-voxel data are plain arrays beside the set.
+// A set of voxels as 64-bit masks of 4^3 blocks, in memory and on the wire: what a cloud fills, an explosion
+// reaches or an edit changes. Each voxel of the set has a rank, so that per-voxel data are plain arrays
+// beside the set.
 //
 //   blocks  sorted by (z, y, x):  | at | mask | first |     mask bit x + 4 y + 16 z of the voxel in its block
 //   rank of a voxel = first of its block + set bits below its own

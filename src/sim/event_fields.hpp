@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/error.hpp"
 #include "sim/events.hpp"
 
 namespace brume::sim {
@@ -119,5 +120,9 @@ void visit_fields(Event& e, Visitor&& visit) {
 /// Its blocks are no numbers.
 template <EventOf<LevelEdit> Event, typename Visitor>
 void visit_fields(Event&, Visitor&&) {}
+
+/// Fails with bad_input, in one line, when a number of the event is outside its range, a position is
+/// outside the world, or the blocks of an edit lie outside the grid or are out of order.
+Result<void> check_event(const Event& event, const voxel::GridLayout& layout);
 
 }  // namespace brume::sim

@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 #include <variant>
 
-#include "core/error.hpp"
 #include "shared/hole.h"
 #include "sim/fill.hpp"
 #include "sim/level_edit.hpp"
@@ -104,9 +103,5 @@ using Event = std::variant<ThrowSmoke, Shot, Blast, MoveBody, LevelEdit>;
 inline std::uint32_t tick_of(const Event& event) {
   return std::visit([](const auto& e) { return e.tick; }, event);
 }
-
-/// Fails with bad_input, in one line, when a number of the event is outside its range above, a position is
-/// outside the world, or the blocks of an edit lie outside the grid or are out of order.
-Result<void> check_event(const Event& event, const voxel::GridLayout& layout);
 
 }  // namespace brume::sim

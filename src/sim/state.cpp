@@ -26,7 +26,26 @@ class Words {
   std::vector<std::uint64_t> words_;
 };
 
-void add_hole(Words& words, const BulletHole& hole) {
+void add_item(Words& words, const Flight& f, std::uint32_t) {
+  words.add(f.id, f.throw_tick, f.detonation_tick);
+  words.add(f.from);
+  words.add(f.landing);
+  words.add(f.smoke);
+}
+
+void add_item(Words& words, const LiveCloud& live, std::uint32_t tick) {
+  const CloudPhase phase = live.cloud->phase(tick);
+  words.add(live.id, phase.dissolved, phase.flowed);
+  words.add(live.cloud->hash());
+  words.add(phase.front);
+}
+
+void add_item(Words& words, const LiveBlast& live, std::uint32_t) {
+  words.add(live.id);
+  words.add(live.field->hash());
+}
+
+void add_item(Words& words, const BulletHole& hole, std::uint32_t) {
   const Shot& s = hole.shot;
   words.add(hole.id, s.tick, s.radius);
   words.add(s.origin);
@@ -34,6 +53,12 @@ void add_hole(Words& words, const BulletHole& hole) {
   words.add(s.timing.reach_far, s.timing.expand, s.timing.stay_open, s.timing.fade);
   words.add(static_cast<std::uint32_t>(s.shape), s.mask, s.roll);
   words.add(hole.distance);
+}
+
+void add_item(Words& words, const Body& b, std::uint32_t) {
+  words.add(b.body, b.tick, b.previous_tick);
+  words.add(b.position);
+  words.add(b.previous);
 }
 
 }  // namespace
@@ -70,36 +95,12 @@ std::uint64_t State::hash() const {
       words.add(edit.make_free);
     }
 
-  // Flights, clouds and blasts.
-  words.add(std::uint64_t{flights.size()});
-  for (const Flight& f : flights) {
-    words.add(f.id, f.throw_tick, f.detonation_tick);
-    words.add(f.from);
-    words.add(f.landing);
-    words.add(f.smoke);
-  }
-  words.add(std::uint64_t{clouds.size()});
-  for (const LiveCloud& live : clouds) {
-    const CloudPhase phase = live.cloud->phase(tick);
-    words.add(live.id, phase.dissolved, phase.flowed);
-    words.add(live.cloud->hash());
-    words.add(phase.front);
-  }
-  words.add(std::uint64_t{blasts.size()});
-  for (const LiveBlast& live : blasts) {
-    words.add(live.id);
-    words.add(live.field->hash());
-  }
-
-  // Holes and bodies.
-  words.add(std::uint64_t{holes.size()});
-  for (const BulletHole& hole : holes) add_hole(words, hole);
-  words.add(std::uint64_t{bodies.size()});
-  for (const Body& b : bodies) {
-    words.add(b.body, b.tick, b.previous_tick);
-    words.add(b.position);
-    words.add(b.previous);
-  }
+  // What the lists hold.
+  for_each_state_list([&](const char*, auto list) {
+    const auto& items = this->*list;
+    words.add(std::uint64_t{items.size()});
+    for (const auto& item : items) add_item(words, item, tick);
+  });
 
   // Edits of other roles than wall: nothing without them.
   if (edits)

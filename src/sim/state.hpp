@@ -76,6 +76,17 @@ struct State {
   std::uint64_t hash() const;
 };
 
+/// Calls visit(what, member) for each list of a state: what it lists, and a pointer to it. The one place that
+/// enumerates them, in the order in which they are hashed and coded.
+template <typename Visitor>
+void for_each_state_list(Visitor&& visit) {
+  visit("grenades", &State::flights);
+  visit("clouds", &State::clouds);
+  visit("explosions", &State::blasts);
+  visit("holes", &State::holes);
+  visit("bodies", &State::bodies);
+}
+
 /// density * remaining / 255, rounded to the nearest.
 constexpr std::uint8_t scaled_density(std::uint8_t density, std::uint8_t remaining) {
   return static_cast<std::uint8_t>((unsigned{density} * remaining + 127) / 255);

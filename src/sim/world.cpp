@@ -8,6 +8,7 @@
 
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
+#include "sim/event_fields.hpp"
 
 namespace brume::sim {
 namespace {
@@ -192,33 +193,6 @@ void World::go_forward_to(std::uint32_t tick) {
   adopt(*std::prev(after), false);
 }
 
-void World::play_tick(std::uint32_t tick) {
-  // Events, detonations, ends.
-  previous_ = state_;
-  state_.tick = changed_at_ = tick;
-  for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
-    std::visit([&](const auto& event) { apply(event); }, log_[next_event_]);
-    ++state_.events;
-  }
-  detonate();
-  remove_ended(state_);
-  next_end_ = next_end(state_);
-
-  // A checkpoint every kCheckpointTicks at most, and where a large cloud was made, which takes long.
-  const std::uint32_t last = checkpoints_.empty() ? 0 : checkpoints_.back().tick;
-  const bool is_due = checkpoints_.empty() || tick >= last + kCheckpointTicks;
-  const bool is_costly = tick > last && made_large_cloud(state_);
-  if (!is_due && !is_costly) return;
-  checkpoints_.push_back(state_);
-  if (checkpoints_.size() <= kMaxCheckpoints) return;
-
-  // When there are too many, drop every second one of the older half.
-  std::size_t retained = 0;
-  for (std::size_t i = 0; i < checkpoints_.size(); ++i)
-    if (i >= kMaxCheckpoints / 2 || i % 2 == 0) checkpoints_[retained++] = std::move(checkpoints_[i]);
-  checkpoints_.resize(retained);
-}
-
 /// Rolls back to the last retained state before a tick; keeps the present one where nothing has changed
 /// since.
 void World::go_back_before(std::uint32_t tick) {
@@ -287,6 +261,7 @@ void World::forget_before(std::uint32_t tick) {
   log_.erase(log_.begin(), past);
 }
 
+template <>
 void World::apply(const ThrowSmoke& event) {
   const auto landing = landing_voxel(solids().bodies, ruler_, event.from, event.at);
   if (!landing) return;
@@ -356,16 +331,19 @@ std::uint64_t World::hole_distance(const Shot& shot) const {
   return static_cast<std::uint64_t>(far);
 }
 
+template <>
 void World::apply(const Shot& event) {
   BulletHole hole{state_.events, event, hole_distance(event)};
   if (hole.distance > 0) state_.holes.push_back(std::move(hole));
 }
 
+template <>
 void World::apply(const Blast& event) {
   auto field = std::make_shared<const BlastField>(grid(), event, settings_.ticks_per_second);
   if (!field->reached().empty()) state_.blasts.push_back({state_.events, std::move(field)});
 }
 
+template <>
 void World::apply(const MoveBody& event) {
   auto place = std::lower_bound(state_.bodies.begin(), state_.bodies.end(), event.body,
                                 [](const Body& b, std::uint32_t body) { return b.body < body; });
@@ -375,6 +353,7 @@ void World::apply(const MoveBody& event) {
     *place = {event.body, event.to, place->position, event.tick, place->tick};
 }
 
+template <>
 void World::apply(const LevelEdit& event) {
   const EditBlocks changes = effective_edits(solids(), event.blocks);
   if (changes.empty()) return;
@@ -391,6 +370,33 @@ void World::apply(const LevelEdit& event) {
         cloud = std::make_shared<const Cloud>(cloud->flowed(grid(), event.tick));
     }
   });
+}
+
+void World::play_tick(std::uint32_t tick) {
+  // Events, detonations, ends.
+  previous_ = state_;
+  state_.tick = changed_at_ = tick;
+  for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
+    std::visit([&](const auto& event) { apply(event); }, log_[next_event_]);
+    ++state_.events;
+  }
+  detonate();
+  remove_ended(state_);
+  next_end_ = next_end(state_);
+
+  // A checkpoint every kCheckpointTicks at most, and where a large cloud was made, which takes long.
+  const std::uint32_t last = checkpoints_.empty() ? 0 : checkpoints_.back().tick;
+  const bool is_due = checkpoints_.empty() || tick >= last + kCheckpointTicks;
+  const bool is_costly = tick > last && made_large_cloud(state_);
+  if (!is_due && !is_costly) return;
+  checkpoints_.push_back(state_);
+  if (checkpoints_.size() <= kMaxCheckpoints) return;
+
+  // When there are too many, drop every second one of the older half.
+  std::size_t retained = 0;
+  for (std::size_t i = 0; i < checkpoints_.size(); ++i)
+    if (i >= kMaxCheckpoints / 2 || i % 2 == 0) checkpoints_[retained++] = std::move(checkpoints_[i]);
+  checkpoints_.resize(retained);
 }
 
 }  // namespace brume::sim

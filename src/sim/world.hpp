@@ -23,10 +23,10 @@ struct WorldSettings {
 
 constexpr std::uint32_t kGrenadeMetresPerSecond = 20;
 
-/// The next tick at which a grenade detonates, or a cloud, blast or hole settles or ends; 2^32 - 1 when none
-/// will.
+/// The next tick at which a grenade detonates, or anything else in the state settles or ends; 2^32 - 1 when
+/// nothing will.
 std::uint32_t next_end(const State& state);
-/// Removes clouds, blasts and holes that have ended by the state's tick, as World does. Does not detonate
+/// Removes all but grenades and bodies that has ended by the state's tick, as World does. Does not detonate
 /// grenades.
 void remove_ended(State& state);
 
@@ -89,11 +89,9 @@ class World {
   void adopt(State target, bool is_first);
   std::uint64_t events_until(std::uint32_t tick) const;
   void play_tick(std::uint32_t tick);
-  void apply(const ThrowSmoke& event);
-  void apply(const Shot& event);
-  void apply(const Blast& event);
-  void apply(const MoveBody& event);
-  void apply(const LevelEdit& event);
+  /// For each kind of event.
+  template <typename Kind>
+  void apply(const Kind& event);
   void detonate();
   std::uint64_t hole_distance(const Shot& shot) const;
 

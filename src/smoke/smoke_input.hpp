@@ -12,7 +12,7 @@ namespace brume::smoke {
 
 struct SmokeInput {
   const SmokeVolume* volume = nullptr;  ///< null: no smoke.
-  /// The clouds, shots, bodies and blasts that advect the noise; null: it only rises.
+  /// The state whose events advect the noise; null: it only rises.
   const sim::State* state = nullptr;
   std::span<const shared::Hole> holes;  ///< At most shared::kMaxHoles are cut, the last ones.
   shared::SmokeLook look{};

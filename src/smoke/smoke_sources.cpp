@@ -122,7 +122,7 @@ void add_cloud_part(const CloudPart& part, BrickDensities& sums) {
   }
 }
 
-void apply_blast_part(const BlastPart& part, BrickDensities& densities) {
+void apply_sink_part(const SinkPart& part, BrickDensities& densities) {
   const sim::BlastField& field = *part.sink->field;
   for (std::size_t i = 0; i < 8; ++i) {
     if (part.blocks[i] == kNoBlock) continue;
@@ -153,19 +153,19 @@ BrickBits voxels_of(std::span<const CloudPart> clouds) {
   return bits;
 }
 
-BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const BlastPart> blasts) {
+BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const SinkPart> sinks) {
   BrickDensities densities{};
   for (const CloudPart& part : clouds) add_cloud_part(part, densities);
-  for (const BlastPart& part : blasts) apply_blast_part(part, densities);
+  for (const SinkPart& part : sinks) apply_sink_part(part, densities);
   return densities;
 }
 
-void add_blast_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<BlastPart>& parts) {
+void add_sink_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<SinkPart>& parts) {
   if (!reaches(sink.field->reached(), brick)) return;
-  const BlastPart part{&sink, blocks_in(sink.field->reached(), brick)};
+  const SinkPart part{&sink, blocks_in(sink.field->reached(), brick)};
   if (part.blocks == no_blocks()) return;
   const auto after = std::find_if(parts.begin(), parts.end(),
-                                  [&](const BlastPart& other) { return other.sink->id > sink.id; });
+                                  [&](const SinkPart& other) { return other.sink->id > sink.id; });
   parts.insert(after, part);
 }
 
@@ -201,13 +201,13 @@ SmokeSources::Exchange<SmokeSource> SmokeSources::take_clouds(const sim::State& 
   return result;
 }
 
-SmokeSources::Exchange<SmokeSink> SmokeSources::take_blasts(const sim::State& state) {
+SmokeSources::Exchange<SmokeSink> SmokeSources::take_sinks(const sim::State& state) {
   const auto same = [](const std::unique_ptr<SmokeSink>& held, const sim::LiveBlast& live) {
     return held->id == live.id && held->field == live.field;
   };
-  if (std::equal(blasts_.begin(), blasts_.end(), state.blasts.begin(), state.blasts.end(), same)) return {};
+  if (std::equal(sinks_.begin(), sinks_.end(), state.blasts.begin(), state.blasts.end(), same)) return {};
   return exchange(
-      blasts_, state.blasts,
+      sinks_, state.blasts,
       [](SmokeSink& held, const sim::LiveBlast& live) {
         if (held.field != live.field && held.field->hash() != live.field->hash()) return false;
         held.field = live.field;
@@ -232,7 +232,7 @@ void SmokeSources::advance_to(std::uint32_t tick, std::vector<std::uint32_t>& sl
     advance_cloud(*clouds_[i], tick, slots);
     steady_[i] = clouds_[i]->steady;
   }
-  for (const auto& sink : blasts_) {
+  for (const auto& sink : sinks_) {
     const sim::BlastProfile profile = sink->field->profile(tick);
     if (profile == sink->profile) continue;
     sink->profile = profile;

@@ -1,4 +1,4 @@
-// Where the smoke of a state comes from and what takes it away: its clouds and blasts, and which of them
+// Where the smoke of a state comes from and what takes it away, its clouds and its sinks, and which of them
 // came, went or changed since the state before.
 #pragma once
 
@@ -29,7 +29,7 @@ struct SmokeSource {
   TickSpan steady;                           ///< When its phase is known not to change.
 };
 
-/// A blast, as the last update saw it.
+/// A cavity in the smoke, as the last update saw it.
 struct SmokeSink {
   std::uint32_t id = 0;
   std::shared_ptr<const sim::BlastField> field;
@@ -42,8 +42,8 @@ struct CloudPart {
   const SmokeSource* source;
   BrickBlocks blocks;
 };
-/// A blast's blocks in one brick.
-struct BlastPart {
+/// A sink's blocks in one brick.
+struct SinkPart {
   const SmokeSink* sink;
   BrickBlocks blocks;
 };
@@ -52,10 +52,10 @@ struct BlastPart {
 BrickBlocks no_blocks();
 /// The voxels that a cloud has at some tick.
 BrickBits voxels_of(std::span<const CloudPart> clouds);
-/// What the clouds add up to, at most 255, and the blasts leave of it one after the other.
-BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const BlastPart> blasts);
-/// Inserts the part of the brick that the blast reaches, if any, by rising id.
-void add_blast_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<BlastPart>& parts);
+/// What the clouds add up to, at most 255, and the sinks leave of it one after the other.
+BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const SinkPart> sinks);
+/// Inserts the part of the brick that the sink reaches, if any, by rising id.
+void add_sink_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<SinkPart>& parts);
 
 /// The bricks, sorted, that hold a voxel of the cloud or are within two voxels of one: a surface may run that
 /// far beyond the smoke.
@@ -71,15 +71,15 @@ class SmokeSources {
   };
   /// Takes over the clouds of a state. Clouds with the same id and content stay the same source.
   Exchange<SmokeSource> take_clouds(const sim::State& state);
-  /// Takes over the blasts of a state, likewise.
-  Exchange<SmokeSink> take_blasts(const sim::State& state);
+  /// Takes over the sinks of a state, likewise.
+  Exchange<SmokeSink> take_sinks(const sim::State& state);
 
-  /// Brings clouds and blasts to a tick. Appends the slots and bricks in which they changed, with repeats.
+  /// Brings clouds and sinks to a tick. Appends the slots and bricks in which they changed, with repeats.
   void advance_to(std::uint32_t tick, std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks);
 
   /// By id.
   std::span<const std::unique_ptr<SmokeSource>> clouds() const { return clouds_; }
-  std::span<const std::unique_ptr<SmokeSink>> blasts() const { return blasts_; }
+  std::span<const std::unique_ptr<SmokeSink>> sinks() const { return sinks_; }
 
   /// Bytes of memory held.
   std::uint64_t bytes() const;
@@ -88,7 +88,7 @@ class SmokeSources {
   void advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots);
 
   std::vector<std::unique_ptr<SmokeSource>> clouds_;  // by id
-  std::vector<std::unique_ptr<SmokeSink>> blasts_;    // by id
+  std::vector<std::unique_ptr<SmokeSink>> sinks_;     // by id
   // What each tick reads of all clouds, in one piece: what the state had, and whether anything can be new.
   std::vector<sim::LiveCloud> live_clouds_;
   std::vector<TickSpan> steady_;

@@ -50,7 +50,7 @@ void SmokeVolume::update(const sim::State& state, const voxel::BitGrid& grid) {
   // What came, went or changed in the state.
   update_edits(state);
   update_clouds(state);
-  update_blasts(state);
+  update_sinks(state);
 
   // Bricks and boundary cells, then the densities in them.
   update_structure();
@@ -109,24 +109,24 @@ void SmokeVolume::remove_cloud(const SmokeSource& source) {
   }
 }
 
-void SmokeVolume::update_blasts(const sim::State& state) {
-  const auto changes = sources_.take_blasts(state);
-  for (const SmokeSink* sink : changes.added) add_blast(*sink);
-  for (const auto& sink : changes.removed) remove_blast(*sink);
+void SmokeVolume::update_sinks(const sim::State& state) {
+  const auto changes = sources_.take_sinks(state);
+  for (const SmokeSink* sink : changes.added) add_sink(*sink);
+  for (const auto& sink : changes.removed) remove_sink(*sink);
 }
 
-void SmokeVolume::add_blast(const SmokeSink& sink) {
+void SmokeVolume::add_sink(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
-      add_blast_part(at, sink, bricks_[slot].blasts);
+      add_sink_part(at, sink, bricks_[slot].sinks);
       mark(slot, &Brick::densities_stale);
     }
 }
 
-void SmokeVolume::remove_blast(const SmokeSink& sink) {
+void SmokeVolume::remove_sink(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
-      std::erase_if(bricks_[slot].blasts, [&](const BlastPart& part) { return part.sink == &sink; });
+      std::erase_if(bricks_[slot].sinks, [&](const SinkPart& part) { return part.sink == &sink; });
       mark(slot, &Brick::densities_stale);
     }
 }
@@ -188,7 +188,7 @@ std::uint32_t SmokeVolume::take_brick(glm::ivec3 at) {
     if (slot >= bricks_.size()) bricks_.resize(slot + 1);
     densities_.add(slot);
     walls_.add(slot);
-    for (const auto& sink : sources_.blasts()) add_blast_part(at, *sink, bricks_[slot].blasts);
+    for (const auto& sink : sources_.sinks()) add_sink_part(at, *sink, bricks_[slot].sinks);
     mark(slot, &Brick::walls_stale);
     mark(slot, &Brick::cells_stale);
   }
@@ -292,7 +292,7 @@ void SmokeVolume::update_bounds() {
 }
 
 void SmokeVolume::update_densities(std::uint32_t tick) {
-  // Where clouds and blasts changed since the last tick.
+  // Where clouds and sinks changed since the last tick.
   changed_slots_.clear();
   changed_bricks_.clear();
   sources_.advance_to(tick, changed_slots_, changed_bricks_);
@@ -305,7 +305,7 @@ void SmokeVolume::update_densities(std::uint32_t tick) {
   for (const std::uint32_t slot : touched_) {
     const Brick& brick = bricks_[slot];
     if (!brick.densities_stale) continue;
-    const BrickBits changed = densities_.set_densities(slot, densities_of(brick.clouds, brick.blasts));
+    const BrickBits changed = densities_.set_densities(slot, densities_of(brick.clouds, brick.sinks));
     if (changed != BrickBits{}) walls_.densities_changed(brick_of(slot), changed);
   }
   densities_.fill_new();
@@ -316,7 +316,7 @@ std::uint64_t SmokeVolume::bytes() const {
   std::uint64_t sum = volume_.bytes() + densities_.bytes() + walls_.bytes() + sources_.bytes();
   for (const Brick& brick : bricks_)
     sum += sizeof(Brick) + brick.clouds.capacity() * sizeof(CloudPart) +
-           brick.blasts.capacity() * sizeof(BlastPart);
+           brick.sinks.capacity() * sizeof(SinkPart);
   return sum;
 }
 

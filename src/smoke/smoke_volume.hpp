@@ -28,11 +28,12 @@
 
 namespace brume::smoke {
 
-/// Writes clouds and blasts into a volume::SparseVolume (kDensityChannel) and its WallCells. Bricks and
-/// boundary cells are built where a cloud comes or goes or the level changes, and nowhere else; from tick to
-/// tick only densities change, and corner sets that take from them. After `update` the content at each place
-/// depends on the state, the grid and the planes alone, not on what was there before; slots and the numbers
-/// of boundary cells and corner sets do depend on it, and atlas_bricks never shrinks.
+/// Writes the smoke of clouds, less what sinks take away, into a volume::SparseVolume (kDensityChannel) and
+/// its WallCells. Bricks and boundary cells are built where a cloud comes or goes or the level changes, and
+/// nowhere else; from tick to tick only densities change, and corner sets that take from them. After `update`
+/// the content at each place depends on the state, the grid and the planes alone, not on what was there
+/// before; slots and the numbers of boundary cells and corner sets do depend on it, and atlas_bricks never
+/// shrinks.
 class SmokeVolume final : public SmokeBricks {
  public:
   /// `grid` gives the layout. What `planes` returns must outlive the volume, or until planes_changed.
@@ -43,7 +44,7 @@ class SmokeVolume final : public SmokeBricks {
   SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes& planes);
 
   /// Takes over a state; `grid` is the level with the state's edits, of the constructor's layout. Differences
-  /// to the last update are found from the state: clouds, blasts and edits that stayed cost almost nothing.
+  /// to the last update are found from the state: clouds, sinks and edits that stayed cost almost nothing.
   /// Throws Error(resource_limit) when the smoke fills more bricks than a 3D texture holds; the volume is
   /// then of no further use.
   void update(const sim::State& state, const voxel::BitGrid& grid);
@@ -76,20 +77,20 @@ class SmokeVolume final : public SmokeBricks {
   struct Brick {
     std::uint32_t cloud_count = 0;  // clouds that have a voxel within two of the brick
     std::vector<CloudPart> clouds;
-    std::vector<BlastPart> blasts;  // by id
-    BrickBits smoke{};              // voxels that a cloud has at some tick
+    std::vector<SinkPart> sinks;  // by id
+    BrickBits smoke{};            // voxels that a cloud has at some tick
     bool touched = false;
     bool masks_stale = false, walls_stale = false, cells_stale = false, densities_stale = false;
   };
 
   // What came, went or changed in the state.
   void update_clouds(const sim::State& state);
-  void update_blasts(const sim::State& state);
+  void update_sinks(const sim::State& state);
   void update_edits(const sim::State& state);
   void add_cloud(SmokeSource& source);
   void remove_cloud(const SmokeSource& source);
-  void add_blast(const SmokeSink& sink);
-  void remove_blast(const SmokeSink& sink);
+  void add_sink(const SmokeSink& sink);
+  void remove_sink(const SmokeSink& sink);
   void voxels_changed(glm::ivec3 block, std::uint64_t mask);
   void mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel);
   void mark(std::uint32_t slot, bool Brick::*what);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/error.hpp"
 #include "grids/glow.hpp"
+#include "volumes/stray_note.hpp"
 #include "volumes/volume_frame.hpp"
 
 namespace brume::volumes {
@@ -25,9 +25,9 @@ struct VolumeExtent {
 
 VolumeExtent extent_of(const VolumeFrame& frame);
 
-/// What lies far outside of the picture, a sentence; empty: nothing.
-std::string stray_note(const VolumeExtent& extent);
-/// The same of a grid of density.
-Result<std::string> stray_note(const grids::Grid& density);
+/// What of it lies far outside of the picture, a sentence; empty: nothing.
+inline std::string stray_note(const VolumeExtent& extent) {
+  return stray_note(extent.stray_part, extent.stray_reach);
+}
 
 }  // namespace brume::volumes

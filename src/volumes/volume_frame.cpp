@@ -10,7 +10,7 @@
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
-#include "volumes/volume_extent.hpp"
+#include "volumes/stray_note.hpp"
 #include "volumes/volume_grids.hpp"
 
 namespace brume::volumes {

@@ -52,9 +52,6 @@ struct VolumeFrame {
   std::vector<std::string> number_grids, color_grids;
 };
 
-/// In the place of a name: of a heat, nothing glows; of colours, the volume has none.
-inline constexpr const char* kNoGrid = "none";
-
 /// The largest heat that counts as a factor of a temperature.
 inline constexpr float kMostFactor = 100;
 

@@ -5,7 +5,6 @@
 
 #include "core/similar.hpp"
 #include "grids/color_bricks.hpp"
-#include "volumes/volume_frame.hpp"
 
 namespace brume::volumes {
 namespace {

@@ -12,6 +12,9 @@
 
 namespace brume::volumes {
 
+/// In the place of a name: of a heat, nothing glows; of colours, the volume has none.
+inline constexpr const char* kNoGrid = "none";
+
 using GridList = std::span<const grids::Grid* const>;
 
 /// Red, green and blue as a grid of numbers each.

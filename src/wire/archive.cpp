@@ -4,17 +4,28 @@
 #include <iterator>
 
 namespace brume::wire {
+namespace {
+
+/// Predicts an event of each kind with its defaults.
+template <typename... Kinds>
+void predict_events(DeltaContext& context, std::uint32_t tick, const std::variant<Kinds...>*) {
+  const auto predict = [&]<typename Kind>(Kind event) {
+    event.tick = tick;
+    serialize_event(context, event);
+  };
+  (predict(Kinds{}), ...);
+}
+
+}  // namespace
 
 DeltaContext::DeltaContext(std::uint32_t tick) {
-  for (const Field field : {Field::throw_tick, Field::detonation_tick, Field::shot_tick, Field::blast_tick,
-                            Field::body_tick, Field::body_tick_before, Field::edit_tick})
+  for (const Field field : {Field::throw_tick, Field::detonation_tick, Field::shot_tick, Field::body_tick,
+                            Field::body_tick_before, Field::edit_tick})
     at(field) = tick;
   sim::Shot shot;
   shot.tick = tick;
   serialize(*this, shot);
-  sim::Blast blast;
-  blast.tick = tick;
-  serialize(*this, blast);
+  predict_events(*this, tick, static_cast<const sim::Event*>(nullptr));
   sim::SmokeSettings smoke;
   serialize(*this, smoke);
 }

@@ -7,9 +7,12 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
+#include "sim/event_fields.hpp"
 #include "sim/events.hpp"
 #include "sim/state.hpp"
 #include "wire/block_coding.hpp"
@@ -32,7 +35,6 @@ enum class Field : std::uint8_t {
   detonation_tick,
   flow_tick,
   shot_tick,
-  blast_tick,
   body_tick,
   body_tick_before,
   edit_tick,
@@ -50,14 +52,15 @@ enum class Field : std::uint8_t {
   mask,
   roll,
   distance,
-  blast_radius,
-  blast_speed,
-  blast_remaining,
-  refill_rim,
-  refill_middle,
   body,
   count
 };
+
+/// Kinds of the numbers of events behind them: by the event's place in sim::Event, then by its tick and the
+/// numbers of sim/event_fields.hpp.
+constexpr std::size_t kMostEventNumbers = 16;
+constexpr std::size_t kFields =
+    static_cast<std::size_t>(Field::count) + std::variant_size_v<sim::Event> * kMostEventNumbers;
 
 /// Kinds of yes-or-no decisions.
 enum class Flag : std::uint8_t { list, retained, replaced, settled, flows, edits, count };
@@ -77,7 +80,7 @@ class DeltaContext {
   }
 
  private:
-  std::array<std::int64_t, static_cast<std::size_t>(Field::count)> last_{};
+  std::array<std::int64_t, kFields> last_{};
 };
 
 template <typename Coder>
@@ -134,7 +137,7 @@ class Archive {
     return ok() ? coded : 0;
   }
 
-  /// The voxels of a cloud or blast: all must lie in the grid.
+  /// The voxels of an item of the state: all must lie in the grid.
   void set(glm::ivec3 near_voxel, const Prediction& like, sim::BlockSet& set) {
     std::vector<sim::VoxelBlock> coded =
         blocks({set.blocks().begin(), set.blocks().end()}, near_voxel, like, false);
@@ -170,7 +173,7 @@ class Archive {
   Limits limits_;
   std::uint64_t voxels_remaining_;
   std::string reason_;
-  std::array<NumberModel, static_cast<std::size_t>(Field::count)> numbers_;
+  std::array<NumberModel, kFields> numbers_;
   std::array<BitModel, static_cast<std::size_t>(Flag::count)> flags_;
   NumberModel counts_;
   BlockModels block_models_;
@@ -207,15 +210,39 @@ void serialize(F& archive, sim::Shot& shot) {
   archive.field(Field::roll, shot.roll);
 }
 
-template <typename F>
-void serialize(F& archive, sim::Blast& blast) {
-  archive.field(Field::blast_tick, blast.tick);
-  serialize_position(archive, Field::centre, blast.at);
-  archive.field(Field::blast_radius, blast.radius);
-  archive.field(Field::blast_speed, blast.speed);
-  archive.field(Field::blast_remaining, blast.remaining);
-  archive.field(Field::refill_rim, blast.refill_rim_ms);
-  archive.field(Field::refill_middle, blast.refill_middle_ms);
+/// Codes the fields of an event: the visitor of sim/event_fields.hpp.
+template <typename F, typename Event>
+class EventCoder {
+ public:
+  explicit EventCoder(F& archive) : archive_(archive) {}
+
+  void operator()(const sim::PositionField& field, sim::Position& position) {
+    const std::string_view key = field.key;
+    serialize_position(archive_,
+                       key == "from"     ? Field::from
+                       : key == "toward" ? Field::toward
+                       : key == "to"     ? Field::body_at
+                                         : Field::centre,
+                       position);
+  }
+  void operator()(const sim::NumberField&, std::uint32_t& number) { add(number); }
+  void add(std::uint32_t& number) {
+    const std::size_t first = sim::Event(Event{}).index() * kMostEventNumbers;
+    BRUME_ASSERT(count_ < kMostEventNumbers, "an event with more numbers than kinds");
+    archive_.field(static_cast<Field>(static_cast<std::size_t>(Field::count) + first + count_++), number);
+  }
+
+ private:
+  F& archive_;
+  std::size_t count_ = 0;
+};
+
+/// The tick and the fields of an event, as sim/event_fields.hpp lists them.
+template <typename F, typename Event>
+void serialize_event(F& archive, Event& event) {
+  EventCoder<F, Event> coder(archive);
+  coder.add(event.tick);
+  sim::visit_fields(event, coder);
 }
 
 // Edits are coded as lists of blocks: the voxels that they make solid, those that they make free, and where a

@@ -51,7 +51,14 @@ void code_event(Archive<Coder>& archive, sim::Event& event) {
   if (kind >= kKinds) archive.fail("an event of an unknown kind");
   if (!archive.ok()) return;
   if constexpr (Coder::kReads) event = event_of_kind(kind, std::make_index_sequence<kKinds>());
-  std::visit([&](auto& e) { serialize(archive, e); }, event);
+  std::visit(
+      [&](auto& e) {
+        if constexpr (requires { serialize(archive, e); })
+          serialize(archive, e);
+        else
+          serialize_event(archive, e);
+      },
+      event);
   if constexpr (Coder::kReads) {
     const Result<void> checked = sim::check_event(event, archive.layout());
     if (!checked) archive.fail(checked.failure().message);

@@ -18,17 +18,9 @@ using sim::LiveBlast;
 using sim::LiveCloud;
 using sim::State;
 
-std::uint32_t key_of(const Flight& flight) {
-  return flight.id;
-}
-std::uint32_t key_of(const LiveCloud& cloud) {
-  return cloud.id;
-}
-std::uint32_t key_of(const LiveBlast& blast) {
-  return blast.id;
-}
-std::uint32_t key_of(const BulletHole& hole) {
-  return hole.id;
+template <typename Item>
+std::uint32_t key_of(const Item& item) {
+  return item.id;
 }
 std::uint32_t key_of(const Body& body) {
   return body.body;
@@ -83,11 +75,7 @@ class StateCoder {
     // Unchanged items are not validated again: they stem from earlier events.
     if (now_.events < base_.events) archive_.fail("fewer events than in the base state");
     code_edits();
-    code_list(base_.flights, now_.flights);
-    code_list(base_.clouds, now_.clouds);
-    code_list(base_.blasts, now_.blasts);
-    code_list(base_.holes, now_.holes);
-    code_list(base_.bodies, now_.bodies);
+    sim::for_each_state_list([&](const char*, auto list) { code_list(base_.*list, now_.*list); });
   }
 
  private:
@@ -258,9 +246,9 @@ class StateCoder {
     }
     if (before) {
       sim::Blast expected = before->field->blast();
-      serialize(archive_.context, expected);
+      serialize_event(archive_.context, expected);
     }
-    serialize(archive_, blast);
+    serialize_event(archive_, blast);
     serialize_position(archive_, Field::centre, centre);
     if (!archive_.ok()) return;
     const sim::VoxelRuler ruler(archive_.layout());

@@ -16,10 +16,10 @@ namespace brume::wire {
 /// ticks_per_second and masks, or is a default State.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now);
 
-/// Applies the differences to `base`; returns the state of `tick`, which shares unchanged clouds and blasts.
-/// Fails with bad_input for bytes that are truncated, too many or beyond the limits, and for states that no
-/// simulation produces: ids out of order, numbers out of range, clouds with inconsistent parts. Does not
-/// verify checksums.
+/// Applies the differences to `base`; returns the state of `tick`, which shares the unchanged items of the
+/// base. Fails with bad_input for bytes that are truncated, too many or beyond the limits, and for states
+/// that no simulation produces: ids out of order, numbers out of range, clouds with inconsistent parts. Does
+/// not verify checksums.
 Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& base, std::uint32_t tick,
                              const Limits& limits);
 

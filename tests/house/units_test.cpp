@@ -17,15 +17,8 @@ constexpr std::size_t kMostUnitLines = 700, kMostInterfaceLines = 1000, kMostSha
 
 // Groups of units that still need each other. A line may only be removed.
 const Groups kKnownCircles{
-    {"apps/viewer/document", "apps/viewer/ui", "apps/viewer/ui_parts", "apps/viewer/viewer"},
     {"python/density", "python/smoke"},
-    {"python/wire", "python/world"},
-    {"src/reference/emission_cells", "src/reference/medium"},
-    {"src/scenario/events", "src/scenario/level_events"},
-    {"src/scenario/scenario", "src/scenario/smoke_report"},
-    {"src/volumes/volume_extent", "src/volumes/volume_frame", "src/volumes/volume_grids"},
     {"src/scene/timeline", "src/scene/timeline_parts"},
-    {"src/sim/event_fields", "src/sim/events"},
 };
 
 Units units_of(std::initializer_list<std::pair<const char*, const char*>> files) {

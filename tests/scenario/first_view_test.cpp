@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "scenario/free_place.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/event_fields.hpp"
+
 namespace brume::scenario {
 namespace {
 
@@ -26,19 +28,19 @@ TEST(Flashes, StartAtTheTickOfTheirEventAndFade) {
   EXPECT_TRUE(flashes_of(events, 0.99).empty());
   const auto first = flashes_of(events, 1);
   ASSERT_EQ(first.size(), 1u) << "a flash of 0 is none";
-  EXPECT_EQ(first[0].position_world, glm::vec3(1, 2, 3 - kMuzzleAhead));
+  EXPECT_EQ(first[0].position_world, glm::vec3(1, 2, 3 - scene::kMuzzleAhead));
   EXPECT_EQ(first[0].intensity.r, 40);
   EXPECT_GT(first[0].intensity.r, first[0].intensity.b);
   EXPECT_EQ(first[0].range, shared::light_range(40));
   EXPECT_EQ(first[0].kind, shared::kLightPoint);
   EXPECT_EQ(first[0].shadow_layer, shared::kShadowByVoxels);
 
-  const double tick_65 = 65.0 / 64, halfway = 1 + kMuzzleSeconds / 2;
+  const double tick_65 = 65.0 / 64, muzzle_seconds = scene::flash_of(events.shots[0]).seconds;
   EXPECT_EQ(flashes_of(events, tick_65 - 1e-3).size(), 1u);
   EXPECT_EQ(flashes_of(events, tick_65).size(), 2u);
-  EXPECT_NEAR(flashes_of(events, halfway)[0].intensity.r, 10, 1e-4);
-  EXPECT_EQ(flashes_of(events, 1 + kMuzzleSeconds).size(), 1u) << "the explosion alone";
-  EXPECT_TRUE(flashes_of(events, tick_65 + kBlastSeconds).empty());
+  EXPECT_NEAR(flashes_of(events, 1 + muzzle_seconds / 2)[0].intensity.r, 10, 1e-4);
+  EXPECT_EQ(flashes_of(events, 1 + muzzle_seconds).size(), 1u) << "the explosion alone";
+  EXPECT_TRUE(flashes_of(events, tick_65 + scene::flash_of(events.blasts[0]).seconds).empty());
 }
 
 TEST(Flashes, AnExplosionTurnsRedAboveItsPosition) {
@@ -46,7 +48,7 @@ TEST(Flashes, AnExplosionTurnsRedAboveItsPosition) {
   const auto early = flashes_of(events, 1.1), late = flashes_of(events, 1.25);
   ASSERT_EQ(early.size(), 1u);
   ASSERT_EQ(late.size(), 1u);
-  EXPECT_EQ(early[0].position_world, glm::vec3(0, 1 + kBlastAbove, 0));
+  EXPECT_EQ(early[0].position_world, glm::vec3(0, 1 + scene::kFireballAbove, 0));
   EXPECT_LT(late[0].intensity.r, early[0].intensity.r);
   EXPECT_LT(late[0].intensity.g / late[0].intensity.r, early[0].intensity.g / early[0].intensity.r);
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/box.hpp"
+#include "sim/event_fields.hpp"
 #include "sim/level_edit.hpp"
 #include "sim/world.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "sim/event_fields.hpp"
 #include "tests/wire/busy_world.hpp"
 #include "wire/event_log.hpp"
 #include "wire/packet.hpp"

@@ -6,6 +6,8 @@ import numpy as np
 from mathutils import Vector
 
 from . import conversion, look_checks, timeline
+from .kinds import KINDS
+from .settings import EVENT_FIELDS
 
 _SMALLEST_LEVEL = 1.0  # [m]
 _GRENADE_SPEED = 20.0  # [m/s], docs/guides/timelines.md.
@@ -49,8 +51,8 @@ class _EventCheck:
     def run(self):
         ends.clear()
         for thing in timeline.events(self._scene, self._level):
-            check = getattr(self, "_check_" + thing.brume_event.type.lower())
-            check(thing, self._clock.seconds(thing.brume_event.frame))
+            points = EVENT_FIELDS[KINDS[thing.brume_event.type].name].points
+            self._checks[points](self, thing, self._clock.seconds(thing.brume_event.frame))
 
     def _point(self, thing, time):
         place = self._clock.matrix_at(thing, time).translation
@@ -157,25 +159,27 @@ class _EventCheck:
         else:
             self._warnings.note(f'"{thing.name}" {end}', thing.name)
 
-    _check_word = _check_shot
-
     def _reach(self, start):
         """A distance beyond the far side of the level [m]."""
         far = np.maximum(np.abs(self._solids.low - start), np.abs(self._solids.high - start))
         return float(np.linalg.norm(far)) + self._margin()
 
-    def _check_blast(self, thing, time):
+    def _check_ball(self, thing, time):
+        """Of what clears the smoke in a ball around it."""
         at = self._point(thing, time)
         self._set_end(thing, at)
         if not self._is_placed_well(thing, at):
             return
-        reach = thing.brume_event.blast_radius
+        reach = getattr(thing.brume_event, KINDS[thing.brume_event.type].ball)
         out = [smoke for smoke in self._smokes if smoke.begin <= time <= smoke.end]
         gaps = [(smoke.point - at).length - smoke.radius - reach for smoke in out]
         if not gaps:
             self._warnings.add(f'"{thing.name}" clears nothing: no smoke is out at that time', thing.name)
         elif min(gaps) > 0:
             self._warnings.add(f'"{thing.name}" is {_metres(min(gaps))} short of the nearest smoke', thing.name)
+
+    # By the points that an event has.
+    _checks = {("from", "at"): _check_smoke, ("from", "toward"): _check_shot, ("at",): _check_ball, (): _check_door}
 
 
 def _gap(start, along, length, smoke):
@@ -185,5 +189,5 @@ def _gap(start, along, length, smoke):
 
 
 def check_events(scene, level, solids, clock, warnings):
-    """Warns of grenades inside walls or beside the level, and of shots and blasts that reach no smoke."""
+    """Warns of grenades inside walls or beside the level, and of events that reach no smoke."""
     _EventCheck(scene, level, solids, clock, warnings).run()

@@ -1,9 +1,7 @@
-#include "sim/events.hpp"
+#include "sim/event_fields.hpp"
 
 #include <bit>
 #include <string>
-
-#include "sim/event_fields.hpp"
 
 namespace brume::sim {
 namespace {
