@@ -21,7 +21,7 @@ class StillFrame {
   explicit StillFrame(const Game& game);
   std::uint32_t samples() const { return samples_->count(); }
   render::FrameInput sample(std::uint32_t i) const { return (*samples_)[i]; }
-  /// The last one that is asked for.
+  /// The same without a copy of the frame: call it last.
   render::FrameInput last_sample(std::uint32_t i) { return std::move(*samples_)[i]; }
 
  private:

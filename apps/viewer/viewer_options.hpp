@@ -1,4 +1,4 @@
-// What a run of the viewer is asked for, and what it reports.
+// Options of a run of the viewer, and what it reports.
 #pragma once
 
 #include <filesystem>

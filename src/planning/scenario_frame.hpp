@@ -31,7 +31,7 @@ class FrameSamples {
                FrameInput frame, std::optional<std::uint32_t> count);
   std::uint32_t count() const { return static_cast<std::uint32_t>(samples_.size()); }
   FrameInput operator[](std::uint32_t i) const& { return seen(i, frame_); }
-  /// Without a copy of the frame: the last one that is asked for.
+  /// The same without a copy of the frame: call it last.
   FrameInput operator[](std::uint32_t i) && { return seen(i, std::move(frame_)); }
 
  private:

@@ -54,7 +54,7 @@ class VolumePartRenderer {
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
   Renderer renderer_;
-  FrameInput input_;  ///< Of the frame in progress: what the plan refers to.
+  FrameInput input_;  ///< The plan refers to it.
   std::optional<FramePlan> plan_;
   std::uint64_t volume_bytes_ = 0;
 };
