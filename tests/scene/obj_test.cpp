@@ -103,19 +103,14 @@ TEST(Obj, LinesMayBeContinued) {
 TEST(Obj, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(obj_error("v 1 2\n"),
             "a.obj:1:6: expected a number for the third component of a position, found the end of the line");
-  EXPECT_EQ(obj_error("v 1 x 3\n"),
-            "a.obj:1:5: expected a number for the second component of a position, found \"x\"");
-  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 0\n"),
-            "a.obj:2:7: \"0\" names no position: there are 1 above this line, and they count from 1");
-  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 -2\n"),
-            "a.obj:2:7: \"-2\" names no position: there are 1 above this line, and they count from 1");
-  EXPECT_EQ(obj_error("f 1 2 3\n\nv 1 2 3\nv 1 2 3\n"),
-            "a.obj:1:7: \"3\" names no position: there are 2, and they count from 1");
-  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1x 1\n"),
-            "a.obj:2:5: expected a face corner like 1, 1/2, 1//3 or 1/2/3, found \"1x\"");
-  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1\n"),
-            "a.obj:2:6: expected at least 3 corners of a face, found the end of the line");
-  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 99999999999999999999\n").substr(0, 9), "a.obj:2:7");
+  expect_mistakes(obj_error, "a.obj",
+                  {{"v 1 x 3\n", "1:5", {"the second component of a position", "\"x\""}},
+                   {"v 1 2 3\nf 1 1 0\n", "2:7", {"\"0\" names no position: there are 1 above this line"}},
+                   {"v 1 2 3\nf 1 1 -2\n", "2:7", {"\"-2\" names no position: there are 1 above this line"}},
+                   {"f 1 2 3\n\nv 1 2 3\nv 1 2 3\n", "1:7", {"\"3\" names no position: there are 2"}},
+                   {"v 1 2 3\nf 1 1x 1\n", "2:5", {"a face corner like", "\"1x\""}},
+                   {"v 1 2 3\nf 1 1\n", "2:6", {"at least 3 corners", "the end of the line"}},
+                   {"v 1 2 3\nf 1 1 99999999999999999999\n", "2:7", {}}});
 }
 
 // Exporters write indices of attributes that they leave out.

@@ -35,6 +35,22 @@ class Warnings {
   std::vector<std::string> lines;
 };
 
+/// A text with a mistake: where its message says that it is, and what else the message names.
+struct Mistake {
+  std::string text, place;
+  std::vector<std::string> parts;
+};
+/// `error_of` returns the message of a text.
+template <typename ErrorOf>
+void expect_mistakes(ErrorOf error_of, const std::string& file, const std::vector<Mistake>& mistakes) {
+  for (const Mistake& mistake : mistakes) {
+    const std::string message = error_of(mistake.text);
+    EXPECT_TRUE(message.starts_with(file + ':' + mistake.place + ": ")) << mistake.text << '\n' << message;
+    for (const std::string& part : mistake.parts)
+      EXPECT_NE(message.find(part), std::string::npos) << mistake.text << '\n' << message;
+  }
+}
+
 /// An image as the bytes of a PNG file.
 inline std::vector<std::byte> png_of(const image::Image8& image) {
   const cli::WorkFolder folder;

@@ -162,29 +162,18 @@ TEST(SceneTxt, RejectsNamesOutsideOfTheFolder) {
 TEST(SceneTxt, BadLinesNameFileLineColumnAndWhatWasExpected) {
   EXPECT_EQ(error_of("\nBox 0 abc 0 0 0 0 1 1 1\n"),
             "Scene.txt:2:7: expected a number for the y position, found \"abc\"");
-  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1\n"),
-            "Scene.txt:1:20: expected a number for the z scale, found the end of the line");
-  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 inf\n"),
-            "Scene.txt:1:21: expected a finite number for the z scale, found \"inf\"");
-  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1e99\n"),
-            "Scene.txt:1:21: expected a finite number for the z scale, found \"1e99\"");
-  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1 Wood 0.5 more\n"),
-            "Scene.txt:1:32: expected the end of the line, found \"more\"");
-  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1 Wood rough\n"),
-            "Scene.txt:1:28: expected a number for the roughness, found \"rough\"");
-  EXPECT_EQ(error_of("LIGHT_SOURCE 0 0 0 1 1 1\n"),
-            "Scene.txt:1:25: expected a number for the light's power, found the end of the line");
-  EXPECT_EQ(error_of("LIGHT_SOURCE 0 0 0 1 1 1 -5\n"),
-            "Scene.txt:1: a light's colour and power must not be negative");
-}
-
-TEST(SceneTxt, BadMeshesNameBothFiles) {
-  EXPECT_EQ(error_of("Broken 0 0 0 0 0 0 1 1 1\n"),
-            "Scene.txt:1: Meshes/Broken.obj:2:7: expected a finite number for the third component of a "
-            "position, found \"nan\"");
-  EXPECT_EQ(error_of("OutOfRange 0 0 0 0 0 0 1 1 1\n"),
-            "Scene.txt:1: Meshes/OutOfRange.obj:4:7: \"4\" names no position: there are 3, and they "
-            "count from 1");
+  const std::string box = "Box 0 0 0 0 0 0 1 1";
+  expect_mistakes(
+      error_of, "Scene.txt",
+      {{box, "1:20", {"the z scale", "the end of the line"}},
+       {box + " inf", "1:21", {"a finite number for the z scale", "\"inf\""}},
+       {box + " 1e99", "1:21", {"a finite number for the z scale", "\"1e99\""}},
+       {box + " 1 Wood 0.5 more", "1:32", {"expected the end of the line", "\"more\""}},
+       {box + " 1 Wood rough", "1:28", {"the roughness", "\"rough\""}},
+       {"LIGHT_SOURCE 0 0 0 1 1 1", "1:25", {"the light's power", "the end of the line"}},
+       {"LIGHT_SOURCE 0 0 0 1 1 1 -5", "1", {"colour and power must not be negative"}},
+       {"Broken 0 0 0 0 0 0 1 1 1", "1", {" Meshes/Broken.obj:2:7: ", "finite", "\"nan\""}},
+       {"OutOfRange 0 0 0 0 0 0 1 1 1", "1", {" Meshes/OutOfRange.obj:4:7: ", "\"4\" names no"}}});
 }
 
 TEST(SceneTxt, RejectsDistantScenes) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "scene/timeline.hpp"
+#include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {
 namespace {
@@ -115,36 +116,24 @@ glow = 0.75
 TEST(TransferFunction, FaultsNameThePlaceAndTheRemedy) {
   std::string many = "opacity = [";
   for (int i = 0; i < 65; ++i) many += "[0.5, 0.5], ";
-  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
-           {"opacity = [[0, 0]]",
-            "t.toml:5:11: \"opacity\": expected 2 to 64 points [position, opacity], found 1"},
-           {"opacity = []", "t.toml:5:11: \"opacity\": expected 2 to 64 points [position, opacity], found 0"},
-           {many + "]", "t.toml:5:11: \"opacity\": expected 2 to 64 points [position, opacity], found 65"},
-           {"opacity = [[0.5, 0], [0.25, 1]]",
-            "t.toml:5:22: \"opacity\" point 2: expected a position from 0.5 on, that of the point before, "
-            "found "
-            "0.25; sort the points by position"},
-           {"opacity = [[0, 0], [1, nan]]",
-            "t.toml:5:24: \"opacity\": expected a number from 0 to 1, found nan"},
-           {"opacity = [[0, 0], [1, 1.5]]",
-            "t.toml:5:24: \"opacity\": expected a number from 0 to 1, found 1.5"},
-           {"opacity = [[0, 0, 0], [1, 1]]",
-            "t.toml:5:12: \"opacity\": expected points of 2 numbers, like [[0.0, 0.0], [1.0, 1.0]]"},
-           {"opacity = 1",
-            "t.toml:5:11: \"opacity\": expected points of 2 numbers, like [[0.0, 0.0], [1.0, 1.0]]"},
-           {"color_map = [[0, 1], [1, 1]]",
-            "t.toml:5:14: \"color_map\": expected points of 4 numbers, like [[0.0, 0.2, 0.3, 0.8], [1.0, "
-            "0.7, 0.0, "
-            "0.1]]"},
-           {"color_map = \"virdis\"",
-            "t.toml:5:13: \"color_map\": no colour map \"virdis\"; did you mean \"viridis\"?"},
-           {"color_map = \"\"", "t.toml:5:13: \"color_map\": expected a name or points"},
-           {"range = [1, 1]",
-            "t.toml:5:9: \"range\": expected the lower value first, such as [0.0, 1.0], found [1, 1]"},
-           {"range = [0]", "t.toml:5:9: \"range\": expected two numbers, like [0.0, 1.0]"},
-           {"range = [0, inf]", "t.toml:5:13: \"range\": expected a number from -1e+30 to 1e+30, found inf"},
-           {"glow = 2", "t.toml:5:8: \"glow\": expected a number from 0 to 1, found 2"}})
-    EXPECT_EQ(error_of(text), message);
+  const std::string colours = "like [[0.0, 0.2, 0.3, 0.8], [1.0, 0.7, 0.0, 0.1]]";
+  expect_mistakes(
+      error_of, "t.toml",
+      {{"opacity = [[0, 0]]", "5:11", {"\"opacity\": expected 2 to 64 points", "found 1"}},
+       {"opacity = []", "5:11", {"\"opacity\": expected 2 to 64 points", "found 0"}},
+       {many + "]", "5:11", {"\"opacity\": expected 2 to 64 points", "found 65"}},
+       {"opacity = [[0.5, 0], [0.25, 1]]", "5:22", {"point 2", "from 0.5 on", "0.25; sort the points"}},
+       {"opacity = [[0, 0], [1, nan]]", "5:24", {"\"opacity\": expected a number from", "nan"}},
+       {"opacity = [[0, 0], [1, 1.5]]", "5:24", {"\"opacity\": expected a number from", "1.5"}},
+       {"opacity = [[0, 0, 0], [1, 1]]", "5:12", {"points of 2 numbers, like [[0.0, 0.0], [1.0, 1.0]]"}},
+       {"opacity = 1", "5:11", {"\"opacity\": expected points of 2 numbers"}},
+       {"color_map = [[0, 1], [1, 1]]", "5:14", {"\"color_map\"", "points of 4 numbers", colours}},
+       {"color_map = \"virdis\"", "5:13", {"no colour map \"virdis\"", "\"viridis\"?"}},
+       {"color_map = \"\"", "5:13", {"\"color_map\": expected a name or points"}},
+       {"range = [1, 1]", "5:9", {"\"range\": expected the lower value first", "found [1, 1]"}},
+       {"range = [0]", "5:9", {"\"range\": expected two numbers"}},
+       {"range = [0, inf]", "5:13", {"\"range\": expected a number from", "found inf"}},
+       {"glow = 2", "5:8", {"\"glow\": expected a number from", "found 2"}}});
 }
 
 }  // namespace
