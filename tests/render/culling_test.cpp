@@ -3,36 +3,22 @@
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
 
 /// A floor of 80 m with walls, two lights by the camera and many elsewhere, a sun; a smoke before the camera.
 scenario::Scenario wide_stage(bool more_smoke, bool more_lights) {
-  scene::Scene scene;
-  scene::Mesh ground, ball;
-  add_box(ground, {-40, -0.3f, -40}, {40, -0.1f, 40});
-  add_box(ground, {-3, -0.1f, -4.2f}, {3, 3, -4});
-  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
-  scene.meshes = {ground, ball};
-  scene.materials.resize(1);
-  scene.objects.push_back({"ground", 0, 0, glm::mat4(1)});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-  const auto add_light = [&](glm::vec3 place, scene::LightKind kind) {
-    scene::Light light;
-    light.kind = kind;
-    light.position_world = place;
-    light.direction_world = glm::normalize(glm::vec3(0.4f, -1, -0.5f));
-    light.intensity = glm::vec3(kind == scene::LightKind::directional ? 0.3f : 0.8f);
-    scene.lights.push_back(light);
-  };
-  add_light({-2, 2, 2}, scene::LightKind::point);
-  add_light({0, 0, 0}, scene::LightKind::directional);
+  constexpr glm::vec3 kDim(0.8f);
+  std::vector<scene::Light> lights{scene_light({-2, 2, 2}, kDim), scene_sun({0.4f, -1, -0.5f}, 0.3f)};
   if (more_lights)
     for (int i = 0; i < 12; ++i)
-      add_light({-35.0f + 6.0f * static_cast<float>(i), 2, 35}, scene::LightKind::point);
-  add_light({2.5f, 1, 1}, scene::LightKind::point);
+      lights.push_back(scene_light({-35.0f + 6.0f * static_cast<float>(i), 2, 35}, kDim));
+  lights.push_back(scene_light({2.5f, 1, 1}, kDim));
+  scene::Scene scene =
+      scene_of({{{-40, -0.3f, -40}, {40, -0.1f, 40}}, {{-3, -0.1f, -4.2f}, {3, 3, -4}}}, std::move(lights));
+  scene.camera = {{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f};
 
   scene::Timeline timeline;
   timeline.smoke.voxels = 400;
@@ -44,9 +30,7 @@ scenario::Scenario wide_stage(bool more_smoke, bool more_lights) {
       const glm::vec3 place{-30.0f + 12.0f * static_cast<float>(i), 0.2f, 33};
       timeline.smokes.push_back({0, place + glm::vec3(0, 2, 0), place});
     }
-  const voxel::GridLayout frame{{162, 20, 162}, 0.5f, {-40.3f, -0.6f, -40.3f}};
-  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
-  return {std::move(timeline), std::move(scene), {{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f}, std::move(voxels)};
+  return scenario_of(std::move(scene), std::move(timeline), {{162, 20, 162}, 0.5f, {-40.3f, -0.6f, -40.3f}});
 }
 
 class CullingTest : public gpu::GpuTest {

@@ -4,7 +4,7 @@
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -15,7 +15,8 @@ class CutoutTest : public gpu::GpuTest {
 
   /// A floor seen from above, and over its right half, out of view, a plate in the light: of a texture whose
   /// texels have alternately an alpha of 0 and of 255 along x, in squares of 1 m.
-  static scenario::Scenario floor(bool sun, float alpha_cutoff, scene::Wraps wraps = {}, float first_u = 0) {
+  static scenario::Scenario floor(bool is_sunny, float alpha_cutoff, scene::Wraps wraps = {},
+                                  float first_u = 0) {
     scene::Scene scene;
     add_box(scene.meshes.emplace_back(), {-4, -0.1f, -4}, {4, 0, 4});
     scene::Mesh& plate = scene.meshes.emplace_back();
@@ -27,7 +28,6 @@ class CutoutTest : public gpu::GpuTest {
       plate.vertices.push_back(vertex);
     }
     plate.indices = {0, 2, 1, 0, 3, 2};
-    add_box(scene.meshes.emplace_back(), glm::vec3(-0.01f), glm::vec3(0.01f));
     // Of 16 x 16 texels, so that filtering blurs an eighth of each square.
     image::Image8 image{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 255)};
     for (std::size_t i = 0; i < 16 * 16; ++i) image.rgba[4 * i + 3] = (i % 16 / 4) % 2 == 0 ? 255 : 0;
@@ -38,20 +38,13 @@ class CutoutTest : public gpu::GpuTest {
     scene.materials[1].base_color_image = 0;
     scene.materials[1].alpha_cutoff = alpha_cutoff;
     scene.objects = {{"floor", 0, 0, glm::mat4(1)}, {"plate", 1, 1, glm::mat4(1), Role::ghost}};
-    scene.grenade = {"grenade", 2, 0, glm::mat4(1), Role::ghost};
-    scene::Light light;
-    light.kind = sun ? scene::LightKind::directional : scene::LightKind::point;
-    light.direction_world = {0, -1, 0};
-    light.position_world = {2, 3.9f, 0};
-    light.intensity = glm::vec3(sun ? 1.0f : 30.0f);
-    scene.lights = {light};
+    set_grenade(scene, 0.02f);
+    scene.lights = {is_sunny ? scene_sun({0, -1, 0}, 1) : scene_light({2, 3.9f, 0}, glm::vec3(30))};
     // Below the plate.
     scene.camera = scene::Camera{{2, 1.8f, 0.01f}, {2, 0, 0}, 1.6f};
     scene::Timeline timeline;
-    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
-    auto voxels = scenario::load_or_voxelize(scene, {{20, 12, 20}, 0.5f, {-5, -1, -5}}, {}).value_or_throw();
-    const scene::Camera camera = *scene.camera;
-    return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
+    timeline.sky = plain_sky(0);
+    return scenario_of(std::move(scene), std::move(timeline), {{20, 12, 20}, 0.5f, {-5, -1, -5}});
   }
 
   /// Brightness of the floor at a place along x.

@@ -5,7 +5,7 @@
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/truth_scenes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -16,35 +16,18 @@ constexpr glm::uvec2 kViewImage{97, 55};
 
 /// A yard with a wall and a box that breaks at 2 s; smoke, two shots through it.
 scenario::Scenario yard() {
-  scene::Scene scene;
-  scene::Mesh mesh, ball;
-  add_box(mesh, {-5, -0.3f, -5}, {5, -0.05f, 5});
-  add_box(mesh, {-3, -0.05f, -3.2f}, {3, 2.5f, -3});
-  add_box(mesh, {1.5f, -0.05f, -1}, {1.8f, 1.5f, 1});
-  add_box(ball, glm::vec3(-0.05f), glm::vec3(0.05f));
-  scene.meshes = {mesh, ball};
-  scene.materials.resize(1);
+  scene::Scene scene = scene_of({{{-5, -0.3f, -5}, {5, -0.05f, 5}},
+                                 {{-3, -0.05f, -3.2f}, {3, 2.5f, -3}},
+                                 {{1.5f, -0.05f, -1}, {1.8f, 1.5f, 1}}},
+                                {scene_light({-2, 2.2f, 2}, glm::vec3(6))}, 0.1f);
   scene.materials[0].base_color = {0.6f, 0.45f, 0.3f};
-  scene.objects.push_back({"yard", 0, 0, glm::mat4(1)});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-  scene::Light light;
-  light.position_world = {-2, 2.2f, 2};
-  light.intensity = glm::vec3(6);
-  scene.lights.push_back(light);
   scene.camera = scene::Camera{{0.5f, 1.7f, 5.5f}, {0, 1, 0}, 0.9f};
   scene::Timeline timeline;
   timeline.smoke.voxels = 700;
   timeline.smoke.erosion = 0.7f;
   timeline.smokes = {{0.1, {0, 2, 0}, {0, 0.4f, 0}}};
-  for (const float x : {-0.4f, 0.5f}) {
-    scene::ShotEvent shot;
-    shot.time = 1;
-    shot.from_world = {x, 1.2f, 5};
-    shot.toward_world = {x, 0.8f, -2};
-    shot.radius = 0.25f;
-    shot.times.stay = 5;
-    timeline.shots.push_back(shot);
-  }
+  for (const float x : {-0.4f, 0.5f})
+    timeline.shots.push_back({1, {x, 1.2f, 5}, {x, 0.8f, -2}, 0.25f, {.stay = 5}});
   timeline.edits.push_back({2, {1.3f, -0.02f, -1.2f}, {2.1f, 1.8f, 1.2f}, false});
   return scenario_of(std::move(scene), std::move(timeline), {{45, 16, 45}, 0.25f, {-5.6f, -0.6f, -5.6f}});
 }

@@ -15,21 +15,16 @@ class DecalFramesTest : public VolumeFixture {
 
   static scene::Scene plates(bool with_cube) {
     scene::Scene scene;
-    scene.meshes.resize(3);
-    add_box(scene.meshes[0], {-6, -0.3f, -6}, {0, 0, 6});
-    add_box(scene.meshes[1], {0, -0.3f, -6}, {6, 0, 6});
-    add_box(scene.meshes[2], glm::vec3(-0.5f), glm::vec3(0.5f));
     scene.materials.resize(2);
+    add_boxes(scene, "left", {{{-6, -0.3f, -6}, {0, 0, 6}}});
+    add_boxes(scene, "right", {{{0, -0.3f, -6}, {6, 0, 6}}}, 1);
+    if (with_cube)
+      add_boxes(scene, "cube", {{glm::vec3(-0.5f), glm::vec3(0.5f)}}).world_from_mesh =
+          glm::translate(glm::mat4(1), glm::vec3(-2.5f, 1.2f, 0.5f));
     for (scene::Material& material : scene.materials) material.base_color = glm::vec3(0.5f);
     scene.materials[1].emission = glm::vec3(kEmission);
-    scene.objects.push_back({"left", 0, 0, glm::mat4(1)});
-    scene.objects.push_back({"right", 1, 1, glm::mat4(1)});
-    if (with_cube)
-      scene.objects.push_back({"cube", 2, 0, glm::translate(glm::mat4(1), glm::vec3(-2.5f, 1.2f, 0.5f))});
-    scene::Light light;
-    light.position_world = {0.3f, 4.5f, 0.2f};
-    light.intensity = glm::vec3(20);
-    scene.lights.push_back(light);
+    scene.lights = {scene_light({0.3f, 4.5f, 0.2f}, glm::vec3(20))};
+    scene.camera = {{0, 4, 8}, {0, 0.4f, 0}, 0.8f};
     return scene;
   }
   static scenario::Scenario make_scenario(scene::Scene scene, bool with_carrier) {
@@ -40,9 +35,7 @@ class DecalFramesTest : public VolumeFixture {
       timeline.carriers = {
           {"drone", "cube", {{0, {1.5f, 1, 0}, {20, 40, 10}}, {2, {1.5f, 1, 2}, {0, 0, 90}}}}};
     scenario::exclude_moved_objects(timeline.carriers, scene);
-    const voxel::GridLayout layout{{48, 20, 48}, 0.25f, {-6, -0.6f, -6}};
-    auto voxels = scenario::load_or_voxelize(scene, layout, {}).value_or_throw();
-    return {std::move(timeline), std::move(scene), {{0, 4, 8}, {0, 0.4f, 0}, 0.8f}, std::move(voxels)};
+    return scenario_of(std::move(scene), std::move(timeline), {{48, 20, 48}, 0.25f, {-6, -0.6f, -6}});
   }
   /// A decal of one value in a box of 4 x 2 x 4 m around its carrier.
   static void add_decal(scenario::Scenario& scenario, float value) {
@@ -74,10 +67,7 @@ class DecalFramesTest : public VolumeFixture {
     }
   };
   static std::vector<glm::vec4> texels_of(const gpu::Image& image) {
-    std::vector<glm::vec4> values;
-    for (const passes::Half4& texel : read_back<passes::Half4>(image))
-      values.push_back(passes::from_half(texel));
-    return values;
+    return passes::from_half(read_back<passes::Half4>(image));
   }
   /// A frame of the scenario, with one volume more where there is one.
   Frame draw(const scenario::Scenario& scenario, double seconds,

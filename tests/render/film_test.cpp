@@ -3,7 +3,7 @@
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/truth_scenes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -14,34 +14,16 @@ class FilmTest : public gpu::GpuTest {
  protected:
   /// A bright wall behind dense smoke, and a shot that opens it from 1 s to about 2 s.
   static scenario::Scenario scenario() {
-    scene::Scene scene;
-    scene.meshes.resize(2);
-    add_box(scene.meshes[0], {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
-    add_box(scene.meshes[0], {-6, -0.1f, -3.2f}, {6, 4, -3});
-    add_box(scene.meshes[1], glm::vec3(-0.2f), glm::vec3(0.2f));
-    scene.materials.resize(1);
+    scene::Scene scene = room_of({scene_light({-2, 3, 3}, glm::vec3(10))});
     scene.materials[0].emission = glm::vec3(0.6f);
-    scene.objects = {{"room", 0, 0, glm::mat4(1)}};
-    scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-    scene::Light light;
-    light.position_world = {-2, 3, 3};
-    light.intensity = glm::vec3(10);
-    scene.lights = {light};
-    scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
     scene::Timeline timeline;
-    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
+    timeline.sky = plain_sky(0, 0.001f);
     timeline.smoke.voxels = 2000;
     timeline.smoke.extinction = 4;
     timeline.smokes = {{0, {0, 0.4f, 0}, {0, 0.4f, 0}}};
-    scene::ShotEvent shot;
-    shot.time = 3;
-    shot.from_world = {0, 1.5f, 5.4f};
-    shot.toward_world = {0, 1.5f, 0};
-    shot.radius = 0.5f;
-    shot.times = {0.05f, 0.05f, 0.3f, 0.1f};
-    shot.flash = 0;
-    timeline.shots = {shot};
-    return scenario_of(std::move(scene), std::move(timeline), {{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}});
+    timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, {0.05f, 0.05f, 0.3f, 0.1f}}};
+    timeline.shots[0].flash = 0;
+    return scenario_of(std::move(scene), std::move(timeline), kRoomLayout);
   }
   static RendererOptions options(std::uint32_t scale, bool temporal) {
     RendererOptions options;

@@ -15,7 +15,7 @@
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/image/image_test_tools.hpp"
 #include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -62,11 +62,8 @@ class FrameLayersTest : public gpu::GpuTest {
     return instance;
   }
   static scene::Scene grey_floor() {
-    scene::Scene scene;
-    add_box(scene.meshes.emplace_back(), {-40, kFloor - 1, -40}, {40, kFloor, 40});
-    scene.materials.resize(1);
+    scene::Scene scene = scene_of({{{-40, kFloor - 1, -40}, {40, kFloor, 40}}}, {}, 0);
     scene.materials[0].base_color = glm::vec3(0.5f, 0.25f, 0.125f);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
     return scene;
   }
 
@@ -272,25 +269,14 @@ double srgb_of(double linear) {
 
 /// Smoke in front of a wall in sunlight, under the sky.
 scenario::Scenario small_scenario() {
-  scene::Scene scene = {};
-  add_box(scene.meshes.emplace_back(), {-4, -0.4f, -3}, {4, -0.1f, 3});
-  add_box(scene.meshes.back(), {-3, -0.1f, -2.2f}, {1, 2, -2});
-  scene.materials.resize(1);
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
-  scene::Light sun;
-  sun.kind = scene::LightKind::directional;
-  sun.direction_world = glm::normalize(glm::vec3(0.4f, -1, -0.5f));
-  sun.intensity = glm::vec3(2);
-  scene.lights.push_back(sun);
-  const scene::Camera camera{{0, 1.4f, 4.5f}, {0, 1, 0}, 0.9f};
-  scene.camera = camera;
+  scene::Scene scene = scene_of({{{-4, -0.4f, -3}, {4, -0.1f, 3}}, {{-3, -0.1f, -2.2f}, {1, 2, -2}}},
+                                {scene_sun({0.4f, -1, -0.5f}, 2)}, 0);
+  scene.camera = {{0, 1.4f, 4.5f}, {0, 1, 0}, 0.9f};
   scene::Timeline timeline;
   timeline.exposure = 0.5f;
   timeline.smoke.voxels = 600;
   timeline.smokes = {{0, {0, 0.3f, 0}, {0, 0.3f, 0}}};
-  const voxel::GridLayout layout{{36, 16, 28}, 0.25f, {-4.5f, -0.6f, -3.5f}};
-  auto voxels = scenario::load_or_voxelize(scene, layout, {}).value_or_throw();
-  return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
+  return scenario_of(std::move(scene), std::move(timeline), {{36, 16, 28}, 0.25f, {-4.5f, -0.6f, -3.5f}});
 }
 
 TEST_F(FrameLayersTest, ExposureAndToneCurveGiveTheShownImage) {

@@ -1,8 +1,7 @@
 // A hall full of smoke, for tests of what can be seen through it.
 #pragma once
 
-#include "tests/render/boxes.hpp"
-#include "tests/render/truth_scenes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 
@@ -38,30 +37,19 @@ inline scenario::Scenario hall(const HallSmoke& smoke = {}) {
   scene.materials[1].emission = glm::vec3(4);
   scene.objects = {{"hall", 0, 0, glm::mat4(1)}, {"bars", 1, 0, glm::mat4(1), Role::ghost}};
   scene.grenade = {"sign", 2, 1, glm::mat4(1), Role::ghost};
-  for (const glm::vec3 at : {glm::vec3(-4, 3, 4), glm::vec3(3, 2, -4), glm::vec3(0, 3.5f, 0)}) {
-    scene::Light light;
-    light.position_world = at;
-    light.intensity = {12, 10, 7};
-    scene.lights.push_back(light);
-  }
+  for (const glm::vec3 at : {glm::vec3(-4, 3, 4), glm::vec3(3, 2, -4), glm::vec3(0, 3.5f, 0)})
+    scene.lights.push_back(scene_light(at, {12, 10, 7}));
   scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
 
   scene::Timeline timeline;
-  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.01f), 0};
+  timeline.sky = plain_sky(0, 0.01f);
   const int fine = smoke.voxels_per_metre;
   timeline.smoke.voxels = static_cast<std::uint32_t>(9000 * fine * fine * fine / 64);
   timeline.smoke.extinction = smoke.extinction;
   timeline.smoke.erosion = smoke.erosion;
   timeline.smokes = {{0, {0.5f, 1, 0.5f}, {0.5f, 0.2f, 0.5f}}};
-  for (const float x : {-4.0f, -1.0f, 1.5f, 4.0f}) {
-    scene::ShotEvent shot;
-    shot.time = 2;
-    shot.from_world = {x, 1.5f, 5.5f};
-    shot.toward_world = {-0.6f * x, 1.2f, -5};
-    shot.radius = 0.3f;
-    shot.times.stay = 20;
-    timeline.shots.push_back(shot);
-  }
+  for (const float x : {-4.0f, -1.0f, 1.5f, 4.0f})
+    timeline.shots.push_back({2, {x, 1.5f, 5.5f}, {-0.6f * x, 1.2f, -5}, 0.3f, {.stay = 20}});
   return scenario_of(
       std::move(scene), std::move(timeline),
       {{13 * fine, 9 * fine / 2, 13 * fine}, 1.0f / static_cast<float>(fine), {-6.5f, -0.35f, -6.5f}});

@@ -4,8 +4,9 @@
 
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
+#include "tests/render/rooms.hpp"
 #include "tests/render/studio.hpp"
-#include "tests/render/truth_scenes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::render {
 namespace {
@@ -25,21 +26,17 @@ constexpr float kFurnaceError = 0.004f + 10 * 2 * 0.5f / 2048;
 
 /// A room that is closed on all sides.
 scene::Scene closed_room(float emission, float albedo, float wall = 0.3f) {
-  scene::Scene scene;
-  scene::Mesh& walls = scene.meshes.emplace_back();
+  Boxes walls;
   constexpr float kHalf = 2;
   for (int axis = 0; axis < 3; ++axis)
     for (const float side : {-1.0f, 1.0f}) {
       glm::vec3 low(-kHalf - wall), high(kHalf + wall);
       (side < 0 ? high : low)[axis] = side * kHalf;
-      add_box(walls, low, high);
+      walls.push_back({low, high});
     }
-  add_box(scene.meshes.emplace_back(), glm::vec3(-0.01f), glm::vec3(0.01f));
-  scene.materials.resize(1);
+  scene::Scene scene = scene_of(walls, {}, 0.02f);
   scene.materials[0].base_color = glm::vec3(albedo);
   scene.materials[0].emission = glm::vec3(emission);
-  scene.objects = {{"walls", 0, 0, glm::mat4(1)}};
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{{1.6f, 0.9f, 1.5f}, {-1.4f, -0.3f, -1}, 1.2f};
   return scene;
 }
@@ -50,7 +47,7 @@ class IndirectLightTest : public gpu::GpuTest {
                                         float sky = 0) {
     scene::Timeline timeline;
     timeline.bounces = bounces;
-    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(sky), 0};
+    timeline.sky = plain_sky(0, sky);
     timeline.smoke.voxels = 900;
     timeline.smoke.extinction = 1.5f;
     timeline.smoke.albedo = glm::vec3(1);
@@ -63,10 +60,7 @@ class IndirectLightTest : public gpu::GpuTest {
 
   static std::vector<glm::vec4> radiance(Studio& studio) {
     studio.renderer->draw(studio.input);
-    std::vector<glm::vec4> out;
-    for (const passes::Half4& texel : read_back<passes::Half4>(studio.renderer->targets().radiance))
-      out.push_back(passes::from_half(texel));
-    return out;
+    return passes::from_half(read_back<passes::Half4>(studio.renderer->targets().radiance));
   }
 };
 
@@ -112,12 +106,7 @@ TEST_F(IndirectLightTest, SlicedLightArrivesWhereLightAtOnceIs) {
   light.intensity = {3, 2, 1};
   const auto sliced = studio(scene, true), whole = studio(scene, true);
   const std::vector<glm::vec4> before = radiance(*sliced);
-  shared::Light flash{};
-  flash.kind = shared::kLightPoint;
-  flash.position_world = {-1, 0.5f, 1};
-  flash.intensity = glm::vec3(4);
-  flash.range = shared::light_range(4);
-  flash.shadow_layer = shared::kNoShadow;
+  const shared::Light flash = point_light({-1, 0.5f, 1}, glm::vec3(4));
   for (Studio* const each : {sliced.get(), whole.get()}) each->input.environment.flashes = {flash};
   const std::vector<glm::vec4> after = radiance(*whole);
   EXPECT_NE(before, after);

@@ -5,7 +5,7 @@
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -36,10 +36,8 @@ scene::Scene glowing(glm::vec3 low, glm::vec3 high) {
 
 scenario::Scenario dark(scene::Scene scene) {
   scene::Timeline timeline;
-  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
-  auto voxels = scenario::load_or_voxelize(scene, {{8, 8, 8}, 1, glm::vec3(-4)}, {}).value_or_throw();
-  const scene::Camera first = *scene.camera;
-  return {std::move(timeline), std::move(scene), first, std::move(voxels)};
+  timeline.sky = plain_sky(0);
+  return scenario_of(std::move(scene), std::move(timeline), {{8, 8, 8}, 1, glm::vec3(-4)});
 }
 
 class LensTest : public gpu::GpuTest {

@@ -6,6 +6,7 @@
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/two_smokes.hpp"
+#include "tests/worlds.hpp"
 
 namespace brume::render {
 namespace {
@@ -33,15 +34,8 @@ class LightCacheTest : public gpu::GpuTest {
     simulation_->advance_to(seconds);
     FrameInput input = frame_input(*scenario_, *simulation_, seconds, holes_);
     input.view.camera = camera_;
-    if (flash_ > 0) {
-      shared::Light light{};
-      light.kind = shared::kLightPoint;
-      light.position_world = {9, 1.5f, 1};
-      light.intensity = glm::vec3(flash_);
-      light.range = shared::light_range(flash_);
-      light.shadow_layer = shared::kShadowByVoxels;
-      input.environment.flashes = {light};
-    }
+    if (flash_ > 0)
+      input.environment.flashes = {point_light({9, 1.5f, 1}, glm::vec3(flash_), shared::kShadowByVoxels)};
     return input;
   }
   static std::vector<std::uint64_t> smoke_of(Renderer& renderer, const FrameInput& input) {

@@ -128,12 +128,7 @@ scenario::Scenario scenario_of_wall(const Wall& wall, bool has_light) {
   scene.objects = {{"wall", 0, 0, glm::mat4(1)}};
   scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
   scene.camera = scene::Camera{};
-  if (has_light) {
-    scene::Light light;
-    light.position_world = {3, 14, 2};
-    light.intensity = glm::vec3(400);
-    scene.lights = {light};
-  }
+  if (has_light) scene.lights = {scene_light({3, 14, 2}, glm::vec3(400))};
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(has_light ? 0.0f : 1.0f), 0, 1};
   timeline.smoke.voxels = 200000;

@@ -4,8 +4,7 @@
 #include "scenario/simulation.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
-#include "tests/render/truth_scenes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -57,12 +56,7 @@ class PanesTest : public gpu::GpuTest {
     }
     scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
     scene.camera = scene::Camera{{3, 3, 11}, {3, 3, 0}, 0.3f};
-    if (hall.light_z) {
-      scene::Light light;
-      light.position_world = {3, 5.5f, *hall.light_z};
-      light.intensity = glm::vec3(4);
-      scene.lights = {light};
-    }
+    if (hall.light_z) scene.lights = {scene_light({3, 5.5f, *hall.light_z}, glm::vec3(4))};
     scene::Timeline timeline;
     timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0, 0};
     timeline.smoke.voxels = 3000;
@@ -82,10 +76,7 @@ class PanesTest : public gpu::GpuTest {
     simulation->advance_to(kSeconds);
     std::vector<shared::Hole> holes;
     renderer.draw(frame_input(scenario, *simulation, kSeconds, holes));
-    std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer.radiance()))
-      pixels.push_back(passes::from_half(texel));
-    return pixels;
+    return passes::from_half(read_back<passes::Half4>(renderer.radiance()));
   }
   static glm::vec4 middle(const std::vector<glm::vec4>& pixels) {
     return pixels[kSize.x * (kSize.y / 2) + kSize.x / 2];

@@ -6,15 +6,11 @@
 namespace brume::render {
 namespace {
 
-class ParticleFramesTest : public VolumeFixture {
- protected:
+class ParticleFramesTest : public VolumePictures<ParticleFramesTest> {
+ public:
   static constexpr glm::uvec2 kSize{61, 37};
 
-  /// One for all tests: compiling its pipelines takes longer than most of them.
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   ParticleFramesTest() {
     input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.9f};
     grids::DenseGrid mask;
@@ -38,8 +34,7 @@ class ParticleFramesTest : public VolumeFixture {
   Image draw() {
     renderer().draw(input_);
     Image image;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().targets().radiance))
-      image.radiance.push_back(passes::from_half(texel));
+    image.radiance = passes::from_half(read_back<passes::Half4>(renderer().targets().radiance));
     image.display = read_back<glm::u8vec4>(renderer().targets().display);
     return image;
   }

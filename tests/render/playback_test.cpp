@@ -8,44 +8,25 @@
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
 
-/// A white floor, a white wall across it at z = -3, a light, a camera that looks at the wall along -z.
+/// The room, a light, and a wall from there to the camera.
 scene::Scene small_scene(bool with_screen) {
-  scene::Scene scene;
-  scene::Mesh mesh;
-  add_box(mesh, {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
-  add_box(mesh, {-6, -0.1f, -3.2f}, {6, 4, -3});
-  if (with_screen) add_box(mesh, {-0.1f, -0.1f, -3}, {0.1f, 4, 3});
-  scene.meshes.push_back(mesh);
-  scene::Mesh ball;
-  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
-  scene.meshes.push_back(ball);
-  scene.materials.push_back({});
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-  scene::Light light;
-  light.position_world = {-2, 2, 0};
-  light.intensity = glm::vec3(20);
-  scene.lights.push_back(light);
-  scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
-  return scene;
+  return room_of({scene_light({-2, 2, 0}, glm::vec3(20))},
+                 with_screen ? Boxes{{{-0.1f, -0.1f, -3}, {0.1f, 4, 3}}} : Boxes());
 }
 
 scenario::Scenario small_stage(scene::Scene scene) {
   scene::Timeline timeline;
-  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
+  timeline.sky = plain_sky(0, 0.001f);
   timeline.smoke.voxels = 3000;
   timeline.smoke.extinction = 4;
   timeline.smoke.erosion = 0;
   timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the image
-  const voxel::GridLayout frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
-  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
-  const scene::Camera camera = *scene.camera;
-  return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
+  return scenario_of(std::move(scene), std::move(timeline), kRoomLayout);
 }
 
 class PlaybackTest : public gpu::GpuTest {

@@ -23,14 +23,8 @@ constexpr float kVoxel = 0.05f, kRadius = 11;
 constexpr glm::vec3 kMiddle{0, 1, 0};
 constexpr double kSeconds = 2;
 
-scene::Light point_light(glm::vec3 position, glm::vec3 intensity) {
-  scene::Light light;
-  light.position_world = position;
-  light.intensity = intensity;
-  return light;
-}
-const scene::Light kWarm = point_light({-3, 2.5f, 2}, {40, 20, 5}),
-                   kCold = point_light({3, 2, 2.5f}, {4, 16, 30});
+const scene::Light kWarm = scene_light({-3, 2.5f, 2}, {40, 20, 5}),
+                   kCold = scene_light({3, 2, 2.5f}, {4, 16, 30});
 
 /// A ball of 32^3 voxels.
 spheres::Tank ball(spheres::Color color) {
@@ -267,7 +261,7 @@ class TankShadowTest : public TankInLevelTest {
   static constexpr glm::vec3 kLight{-2, 4, 0};
 
   std::vector<ShadowPixel> shadow_of(spheres::Color color) const {
-    const auto one = studio({.lights = {point_light(kLight, glm::vec3(60))}, .color = color, .floor = 0.5f});
+    const auto one = studio({.lights = {scene_light(kLight, glm::vec3(60))}, .color = color, .floor = 0.5f});
     one->input.view.camera = {{1.5f, 3, 4}, {0.7f, 0, 0}, 0.6f};
     const std::vector<glm::dvec4> tank = media(*one), with = texels(one->renderer->targets().radiance);
     one->input.volumes.clear();
@@ -334,7 +328,7 @@ class TankInSmokeTest : public TankInLevelTest {
     studio.input.volumes[0].look.extinction = extinction;
     return drawn;
   }
-  static scene::Light side_light() { return point_light({-3, 3, 0}, glm::vec3(40)); }
+  static scene::Light side_light() { return scene_light({-3, 3, 0}, glm::vec3(40)); }
 };
 
 TEST_F(TankInSmokeTest, SmokeBeforeItHidesItAndThatBehindDoesNot) {
@@ -360,7 +354,7 @@ TEST_F(TankInSmokeTest, SmokeBeforeItHidesItAndThatBehindDoesNot) {
 }
 
 TEST_F(TankInSmokeTest, SmokeBeforeALightDimsItAsInThePathTracer) {
-  const auto one = studio({.lights = {point_light({-4, 1.2f, 1.5f}, glm::vec3(40))},
+  const auto one = studio({.lights = {scene_light({-4, 1.2f, 1.5f}, glm::vec3(40))},
                            .multiple_scattering = 0,
                            .smoke = glm::vec3(-2.2f, 0.9f, 0.8f)});
   const auto clear = draw(*one, false, true);

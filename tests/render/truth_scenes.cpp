@@ -3,17 +3,8 @@
 namespace brume::render {
 namespace {
 
-const voxel::GridLayout kFrame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
-
-scene::Light point_light(glm::vec3 position, glm::vec3 intensity) {
-  scene::Light light;
-  light.position_world = position;
-  light.intensity = intensity;
-  return light;
-}
-
 scene::Light spot(glm::vec3 position, glm::vec3 at, glm::vec3 intensity) {
-  scene::Light light = point_light(position, intensity);
+  scene::Light light = scene_light(position, intensity);
   light.kind = scene::LightKind::spot;
   light.direction_world = glm::normalize(at - position);
   light.cos_inner = 0.95f;
@@ -21,30 +12,16 @@ scene::Light spot(glm::vec3 position, glm::vec3 at, glm::vec3 intensity) {
   return light;
 }
 
-/// A dark floor and a dark wall across it at z = -3, more boxes, a camera that looks at the wall along -z.
-scene::Scene room(const std::vector<std::pair<glm::vec3, glm::vec3>>& boxes,
-                  std::vector<scene::Light> lights) {
-  scene::Scene scene;
-  scene::Mesh mesh;
-  add_box(mesh, {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
-  add_box(mesh, {-6, -0.1f, -3.2f}, {6, 4, -3});
-  for (const auto& [low, high] : boxes) add_box(mesh, low, high);
-  scene.meshes.push_back(mesh);
-  scene::Mesh ball;
-  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
-  scene.meshes.push_back(ball);
-  scene.materials.push_back({});
+/// The room in a dark material.
+scene::Scene room(const Boxes& boxes, std::vector<scene::Light> lights) {
+  scene::Scene scene = room_of(std::move(lights), boxes);
   scene.materials[0].base_color = glm::vec3(0.2f);
-  scene.objects.push_back({"room", 0, 0, glm::mat4(1)});
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-  scene.lights = std::move(lights);
-  scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
   return scene;
 }
 
 scene::Timeline smoke_at(glm::vec3 place, std::uint32_t voxels) {
   scene::Timeline timeline;
-  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
+  timeline.sky = plain_sky(0);
   timeline.smoke.voxels = voxels;
   timeline.smoke.extinction = 2;
   timeline.smoke.erosion = 0;
@@ -53,53 +30,42 @@ scene::Timeline smoke_at(glm::vec3 place, std::uint32_t voxels) {
 }
 
 scene::ShotEvent shot(glm::vec3 from, glm::vec3 toward, float radius) {
-  scene::ShotEvent event;
-  event.time = 1.5;
-  event.from_world = from;
-  event.toward_world = toward;
-  event.radius = radius;
-  event.times.stay = 5;
+  scene::ShotEvent event{1.5, from, toward, radius, {.stay = 5}};
   event.flash = 0;
   return event;
 }
 
 }  // namespace
 
-scenario::Scenario scenario_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridLayout& frame) {
-  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
-  const scene::Camera camera = *scene.camera;
-  return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
-}
-
 std::vector<TruthCase> truth_cases() {
   const glm::vec3 white(60), red(40, 8, 5), blue(6, 12, 40), green(10, 40, 10);
-  const scene::Light side = point_light({-2.2f, 2.6f, 2.2f}, white);
+  const scene::Light side = scene_light({-2.2f, 2.6f, 2.2f}, white);
   std::vector<TruthCase> cases;
   const auto add = [&](const char* name, scene::Scene scene, scene::Timeline timeline) -> TruthCase& {
-    cases.push_back({name, scenario_of(std::move(scene), std::move(timeline), kFrame)});
+    cases.push_back({name, scenario_of(std::move(scene), std::move(timeline), kRoomLayout)});
     return cases.back();
   };
   add("one light", room({}, {side}), smoke_at({0, 0.2f, 0}, 1500));
   add("many lights",
-      room({}, {point_light({-2.5f, 1, 1}, red), point_light({2.6f, 1, 1.4f}, blue),
-                point_light({0, 3.5f, -1}, green), spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white),
-                point_light({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
+      room({}, {scene_light({-2.5f, 1, 1}, red), scene_light({2.6f, 1, 1.4f}, blue),
+                scene_light({0, 3.5f, -1}, green), spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white),
+                scene_light({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
       smoke_at({0, 0.2f, 0}, 1500));
   auto pierced = smoke_at({0, 0.2f, 0}, 1800);
   pierced.shots = {shot({-3, 1.2f, 1}, {3, 1, 0.7f}, 0.4f)};
-  add("hole", room({}, {point_light({-3, 1.25f, 1}, 0.7f * white)}), pierced);
+  add("hole", room({}, {scene_light({-3, 1.25f, 1}, 0.7f * white)}), pierced);
   auto riddled = smoke_at({0, 0.2f, 0}, 1800);
   riddled.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
-  add("two holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
+  add("two holes", room({}, {side, scene_light({3, 1.5f, 1}, blue)}), riddled);
   add("wall edge",
       room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}},
-           {point_light({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
+           {scene_light({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
       smoke_at({0.4f, 0.2f, 0.6f}, 1500));
   add("doorway",
       room({{{-6, -0.1f, -0.6f}, {-0.6f, 4, -0.45f}},
             {{0.6f, -0.1f, -0.6f}, {6, 4, -0.45f}},
             {{-0.6f, 2.1f, -0.6f}, {0.6f, 4, -0.45f}}},
-           {point_light({0.7f, 1.5f, -2.2f}, 2.0f * white), point_light({2.5f, 3, 3}, red)}),
+           {scene_light({0.7f, 1.5f, -2.2f}, 2.0f * white), scene_light({2.5f, 3, 3}, red)}),
       smoke_at({0, 0.2f, 0.6f}, 1500));
   auto blasted = smoke_at({0, 0.2f, 0}, 2400);
   blasted.blasts = {{1.5, {0.6f, 0.8f, 0.9f}}};
@@ -108,10 +74,10 @@ std::vector<TruthCase> truth_cases() {
   add("blast", room({}, {side}), blasted);
   add("wall along the view",
       room({{{-0.05f, -0.1f, -1}, {0.05f, 2.4f, 1.5f}}},
-           {point_light({-2, 2, 2}, blue), point_light({2.2f, 1.2f, 2}, red)}),
+           {scene_light({-2, 2, 2}, blue), scene_light({2.2f, 1.2f, 2}, red)}),
       smoke_at({0.5f, 0.2f, 0}, 1800));
   riddled.smoke.erosion = 0.5f;
-  TruthCase& noisy = add("noise and holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
+  TruthCase& noisy = add("noise and holes", room({}, {side, scene_light({3, 1.5f, 1}, blue)}), riddled);
   noisy.noisy = true;
   return cases;
 }

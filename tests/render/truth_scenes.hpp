@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenario/simulation.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 
@@ -21,8 +21,5 @@ struct TruthCase {
 /// One light, many lights, a shot through the smoke, two shots, the edge of a wall, a doorway, a blast, a
 /// wall along the view; and noise. Quarter-metre voxels, black sky, no ambient light.
 std::vector<TruthCase> truth_cases();
-
-/// Voxels of a scene with its timeline and camera. The scene has a camera.
-scenario::Scenario scenario_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridLayout& frame);
 
 }  // namespace brume::render

@@ -1,7 +1,7 @@
 // Vertex colours reach the image.
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 namespace {
@@ -12,20 +12,12 @@ class VertexColorTest : public gpu::GpuTest {
 
   /// A wall that fills the view, with one colour at all its vertices.
   static scenario::Scenario wall(glm::vec4 color, float alpha_cutoff) {
-    scene::Scene scene;
-    scene::Mesh mesh, ball;
-    add_box(mesh, {-9, -9, -1}, {9, 9, 0});
-    for (scene::Vertex& vertex : mesh.vertices) vertex.color = color;
-    add_box(ball, glm::vec3(-0.05f), glm::vec3(0.05f));
-    scene.meshes = {mesh, ball};
-    scene.materials.resize(1);
+    scene::Scene scene = scene_of({{{-9, -9, -1}, {9, 9, 0}}}, {}, 0.1f);
+    for (scene::Vertex& vertex : scene.meshes[0].vertices) vertex.color = color;
     scene.materials[0].base_color = {1, 0.5f, 1};
     scene.materials[0].alpha_cutoff = alpha_cutoff;
-    scene.objects.push_back({"wall", 0, 0, glm::mat4(1)});
-    scene.grenade = {"grenade", 1, 0, glm::mat4(1), Role::ghost};
-    auto voxels =
-        scenario::load_or_voxelize(scene, {{40, 40, 12}, 0.5f, {-10, -10, -3}}, {}).value_or_throw();
-    return {{}, std::move(scene), {{0.1f, 0.2f, 4}, {0, 0, 0}, 0.9f}, std::move(voxels)};
+    scene.camera = {{0.1f, 0.2f, 4}, {0, 0, 0}, 0.9f};
+    return scenario_of(std::move(scene), {}, {{40, 40, 12}, 0.5f, {-10, -10, -3}});
   }
 
   static glm::ivec3 albedo_of(const scenario::Scenario& scenario) {

@@ -7,15 +7,12 @@
 namespace brume::render {
 namespace {
 
-class VolumeDetailTest : public VolumeFixture {
- protected:
+class VolumeDetailTest : public VolumePictures<VolumeDetailTest> {
+ public:
   static constexpr glm::uvec2 kSize{256, 256};  // pixels of 0.7 cm
   static constexpr float kExtinction = 0.5f;    // [1/m]
 
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   VolumeDetailTest() { input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.2f}; }
 
   /// A block of 4 m around the origin, which all of the view's rays cross along z.
@@ -31,9 +28,8 @@ class VolumeDetailTest : public VolumeFixture {
     return volume;
   }
   std::vector<float> depths() {
-    renderer().draw(input_);
     std::vector<float> depths;
-    for (const glm::vec4& pixel : media_of(renderer())) depths.push_back(-std::log(std::max(pixel.a, 1e-6f)));
+    for (const glm::vec4& pixel : draw()) depths.push_back(-std::log(std::max(pixel.a, 1e-6f)));
     return depths;
   }
 };

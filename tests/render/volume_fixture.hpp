@@ -4,9 +4,10 @@
 #include <glm/gtc/packing.hpp>
 
 #include "render/playback.hpp"
+#include "tests/frame_builder.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/rooms.hpp"
 
 namespace brume::render {
 
@@ -41,19 +42,10 @@ inline volume::SparseVolume block(glm::ivec3 bricks, float value = 1) {
 
 class VolumeFixture : public gpu::GpuTest {
  protected:
-  static scene::Scene far_floor() {
-    scene::Scene scene;
-    add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
-    scene.materials.resize(1);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
-    return scene;
-  }
+  static scene::Scene far_floor() { return scene_of({{{-40, -31, -40}, {40, -30, 40}}}, {}, 0); }
   /// Premultiplied radiance and transmittance of each pixel that a renderer drew.
   std::vector<glm::vec4> media_of(const Renderer& renderer) const {
-    std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer.media()))
-      pixels.push_back(passes::from_half(texel));
-    return pixels;
+    return passes::from_half(read_back<passes::Half4>(renderer.media()));
   }
 
   VolumeFixture() {
@@ -63,18 +55,29 @@ class VolumeFixture : public gpu::GpuTest {
   FrameInput input_;
 };
 
+/// Frames of one renderer for all tests of `Own`, which has kSize: compiling its pipelines takes longer than
+/// most tests.
+template <typename Own>
+class VolumePictures : public VolumeFixture {
+ protected:
+  static Renderer& renderer() {
+    static Renderer instance(context(), runner(), Own::scene(), RendererOptions{Own::kSize});
+    return instance;
+  }
+  static scene::Scene scene() { return far_floor(); }
+  std::vector<glm::vec4> draw() {
+    renderer().draw(input_);
+    return media_of(renderer());
+  }
+};
+
 /// A cloud that has come to rest in a level, and a frame that shows it.
-struct RestingSmoke {
+struct RestingSmoke : SmokeWorld {
   RestingSmoke(const voxel::BitGrid& level, const std::vector<voxel::Triangle>& triangles,
-               glm::dvec3 position, int voxels)
-      : grid(level), planes(voxel::SurfacePlanes::build(triangles, grid)), world(grid), volume(grid, planes) {
-    sim::ThrowSmoke event;
-    event.from = event.at = sim::position_from_metres(position);
-    event.smoke.voxels = voxels;
-    event.smoke.hold_ticks = 10000;
-    world.append(event).value_or_throw();
-    world.advance_to(300);
-    volume.update(world);
+               glm::dvec3 position, std::uint32_t voxels)
+      : SmokeWorld(level, triangles) {
+    append(lasting_smoke_at(position, voxels));
+    advance_to(300);
   }
   void show_in(FrameInput& input) const {
     input.smoke.volume = &volume;
@@ -82,11 +85,6 @@ struct RestingSmoke {
     input.smoke.look.step_length = 0.2f;
     input.level.voxels.grid = &grid;
   }
-
-  const voxel::BitGrid grid;
-  const voxel::SurfacePlanes planes;
-  sim::World world;
-  smoke::SmokeVolume volume;
 };
 
 }  // namespace brume::render

@@ -17,20 +17,12 @@ volume::SparseVolume pair(glm::ivec3 bricks, glm::vec4 (*value_at)(glm::vec3)) {
   return field<std::uint32_t>(bricks, [&](glm::vec3 p) { return glm::packHalf2x16(glm::vec2(value_at(p))); });
 }
 
-class VolumeMasksTest : public VolumeFixture {
- protected:
+class VolumeMasksTest : public VolumePictures<VolumeMasksTest> {
+ public:
   static constexpr glm::uvec2 kSize{61, 37};
 
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   VolumeMasksTest() { input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.9f}; }
-
-  std::vector<glm::vec4> draw() {
-    renderer().draw(input_);
-    return media_of(renderer());
-  }
   /// A block of 2 m around the origin that only glows.
   planning::VolumeInput glowing(const volume::SparseVolume& presence, const volume::SparseVolume& colors,
                                 std::vector<glm::vec3> tints) const {

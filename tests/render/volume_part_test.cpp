@@ -17,12 +17,7 @@ class VolumePartTest : public VolumeFixture {
     settings.edge = 64;
     settings.octaves = 4;
     cloud_ = grids::make_brick_volume(grids::generate_cloud(settings)).value_or_throw();
-    shared::Light sun{};
-    sun.kind = shared::kLightDirectional;
-    sun.direction = glm::normalize(glm::vec3(-1, -1.5f, -0.4f));
-    sun.intensity = glm::vec3(6);
-    sun.shadow_layer = shared::kNoShadow;
-    input_.environment.flashes = {sun};
+    input_.environment.flashes = {sun_light({-1, -1.5f, -0.4f}, 6)};
     input_.environment.sky.ambient = glm::vec3(0.4f, 0.5f, 0.7f);
     planning::VolumeInput& volume = input_.volumes.emplace_back();
     volume.volume = cloud_.volume.get();

@@ -15,27 +15,15 @@
 namespace brume::render {
 namespace {
 
-shared::Light sun_from_the_side() {
-  shared::Light sun{};
-  sun.kind = shared::kLightDirectional;
-  sun.direction = glm::normalize(glm::vec3(-1, -1.5f, -0.4f));
-  sun.intensity = glm::vec3(6);
-  sun.shadow_layer = shared::kNoShadow;
-  return sun;
-}
-
-class VolumeResolutionTest : public VolumeFixture {
- protected:
+class VolumeResolutionTest : public VolumePictures<VolumeResolutionTest> {
+ public:
   static constexpr glm::uvec2 kSize{81, 61};
 
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   VolumeResolutionTest() {
     input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.7f};
     input_.environment.sky.ambient = glm::vec3(0.4f, 0.5f, 0.7f);
-    input_.environment.flashes = {sun_from_the_side()};
+    input_.environment.flashes = {sun_light({-1, -1.5f, -0.4f}, 6)};
   }
   std::vector<std::uint32_t> draw() {
     renderer().draw(input_);

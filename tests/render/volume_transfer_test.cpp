@@ -7,23 +7,15 @@
 namespace brume::render {
 namespace {
 
-class VolumeTransferTest : public VolumeFixture {
- protected:
+class VolumeTransferTest : public VolumePictures<VolumeTransferTest> {
+ public:
   static constexpr glm::uvec2 kSize{41, 41};
 
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), floor(), RendererOptions{kSize});
-    return instance;
+  static scene::Scene scene() {
+    return scene_of({{{-40, -31, -40}, {40, -4, 40}}}, {scene_sun({0.3f, -1, -0.4f}, 4)}, 0);
   }
-  static scene::Scene floor() {
-    scene::Scene scene;
-    add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -4, 40});
-    scene.materials.resize(1);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1)});
-    scene.lights.push_back(
-        {scene::LightKind::directional, {}, glm::normalize(glm::vec3(0.3f, -1, -0.4f)), glm::vec3(4)});
-    return scene;
-  }
+
+ protected:
   /// Nearly parallel rays along -z that see a square of 5 m around the origin.
   VolumeTransferTest() { input_.view.camera = {{0, 0, 400}, {0, 0, 0}, 2 * std::atan(2.5f / 400)}; }
 
@@ -34,10 +26,6 @@ class VolumeTransferTest : public VolumeFixture {
   planning::VolumeInput& add(const volume::SparseVolume& volume, float extinction, float edge = kEdge) {
     input_.volumes.push_back({&volume, placed(volume, edge), {glm::vec3(0), extinction, glm::vec3(0), 0, 1}});
     return input_.volumes.back();
-  }
-  std::vector<glm::vec4> draw() {
-    renderer().draw(input_);
-    return media_of(renderer());
   }
   /// Where the ray of a pixel meets the plane z = 0 [m].
   static glm::dvec2 place_of(std::size_t pixel) {
@@ -54,16 +42,11 @@ class VolumeTransferTest : public VolumeFixture {
 
 /// A light and a sky, beside the sun of the scene.
 planning::Environment daylight() {
-  planning::Environment environment;
-  shared::Light near{};
-  near.kind = shared::kLightPoint;
-  near.position_world = {3, 2, 2};
-  near.intensity = {20, 30, 40};
-  near.range = 50;
-  near.shadow_layer = shared::kNoShadow;
-  environment.flashes = {near};
-  environment.sky.ambient = glm::vec3(0.4f, 0.5f, 0.6f);
-  return environment;
+  return planning::FrameBuilder()
+      .light(point_light({3, 2, 2}, {20, 30, 40}))
+      .ambient({0.4f, 0.5f, 0.6f})
+      .input()
+      .environment;
 }
 
 TEST_F(VolumeTransferTest, TheDepthOfASlabIsCurveTimesExtinctionTimesLength) {

@@ -19,14 +19,11 @@ std::vector<voxel::Triangle> table() {
   return triangles;
 }
 
-class VolumesOnWallsTest : public VolumeFixture {
- protected:
+class VolumesOnWallsTest : public VolumePictures<VolumesOnWallsTest> {
+ public:
   static constexpr glm::uvec2 kSize{61, 37};
 
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   VolumesOnWallsTest() {
     smoke_.show_in(input_);
     input_.smoke.look.albedo = glm::vec3(0);
@@ -36,8 +33,7 @@ class VolumesOnWallsTest : public VolumeFixture {
   std::vector<glm::vec4> draw(float smoke, const std::vector<planning::VolumeInput>& volumes) {
     input_.smoke.look.extinction = smoke;
     input_.volumes = volumes;
-    renderer().draw(input_);
-    return media_of(renderer());
+    return VolumePictures::draw();
   }
   /// 4 m around the table's middle.
   planning::VolumeInput placed(const volume::SparseVolume& cube, float extinction) const {

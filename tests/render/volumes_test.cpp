@@ -25,23 +25,14 @@ shared::VolumeLook glowing(float extinction, glm::vec3 emission) {
   return {glm::vec3(0), extinction, emission, 0, 0};
 }
 
-class VolumesTest : public VolumeFixture {
- protected:
+class VolumesTest : public VolumePictures<VolumesTest> {
+ public:
   static constexpr glm::uvec2 kSize{61, 37};
 
-  /// One for all tests: compiling its pipelines takes longer than most of them.
-  static Renderer& renderer() {
-    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
-    return instance;
-  }
+ protected:
   VolumesTest() {
     renderer().set_march_scale(1);
     input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.9f};
-  }
-
-  std::vector<glm::vec4> draw() {
-    renderer().draw(input_);
-    return media_of(renderer());
   }
 
   /// Length of each pixel's ray inside a block, in double precision [m].
@@ -245,16 +236,6 @@ TEST_F(VolumesTest, PartsFarFromEachOtherLookAsInVolumesOfTheirOwn) {
   EXPECT_LT(std::abs(sum / seen), most / std::sqrt(seen)) << "the samples' jitter has no bias";
 }
 
-/// A sun straight above.
-shared::Light sun_above(float irradiance) {
-  shared::Light sun{};
-  sun.kind = shared::kLightDirectional;
-  sun.direction = {0, -1, 0};
-  sun.intensity = glm::vec3(irradiance);
-  sun.shadow_layer = shared::kNoShadow;
-  return sun;
-}
-
 // Single scattering in a block below the sun: at depth d below its top the sun's light is E exp(-sigma d),
 // and a level ray of length L gathers albedo E / (4 pi) exp(-sigma d) (1 - exp(-sigma L)).
 TEST_F(VolumesTest, SunlightInABlockIsThatOfSingleScattering) {
@@ -263,7 +244,7 @@ TEST_F(VolumesTest, SunlightInABlockIsThatOfSingleScattering) {
   const glm::mat4 placed =
       glm::scale(glm::translate(glm::mat4(1), glm::vec3(-kEdge / 2)), kEdge / cube.layout().bounds_max);
   input_.volumes = {{&cube, placed, {glm::vec3(0.5f), kSigma, glm::vec3(0), 0, 0}, {}}};
-  input_.environment.flashes = {sun_above(kIrradiance)};
+  input_.environment.flashes = {sun_light({0, -1, 0}, kIrradiance)};
   input_.view.camera = {{0, 0, 400}, {0, 0, 0}, 0.011f};  // nearly parallel rays
   const std::vector<glm::vec4> pixels = draw();
   int compared = 0;
@@ -411,7 +392,7 @@ class SlabAboveTest : public VolumesWithSmokeTest {
  protected:
   SlabAboveTest() {
     input_.smoke.look.multiple_scattering = 0;
-    input_.environment.flashes = {sun_above(5)};
+    input_.environment.flashes = {sun_light({0, -1, 0}, 5)};
   }
   /// 2 m thick.
   planning::VolumeInput slab(float depth) const {
