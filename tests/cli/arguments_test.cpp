@@ -2,22 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
-class CommandLineTest : public testing::Test {
+class CommandLineTest : public RoomTest {
  protected:
-  CommandLineTest() { folder_.write("room.obj", room_obj()); }
-  Outcome run(const Arguments& arguments) const { return run_brume(folder_.path(), arguments); }
   // The one line of a wrong command line, without what every one of them ends in.
   std::string refusal(const Arguments& arguments) const {
     SCOPED_TRACE(testing::PrintToString(arguments));
@@ -26,7 +19,6 @@ class CommandLineTest : public testing::Test {
     const std::string message = line.substr(7, line.size() - 8);
     return message.substr(0, message.find("; see brume "));
   }
-  WorkFolder folder_;
 };
 
 TEST_F(CommandLineTest, HelpVersionAndOverview) {

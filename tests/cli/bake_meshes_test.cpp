@@ -1,19 +1,13 @@
 // brume bake slices and brume bake occlusion.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "core/file.hpp"
 #include "grids/files.hpp"
 #include "grids/slice_atlas.hpp"
 #include "image/png.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
 using grids::SliceAtlas;
 
 /// A closed box as an object, its faces outwards.
@@ -33,18 +27,12 @@ std::string box_obj(const std::string& name, glm::vec3 low, glm::vec3 high, int 
   return text;
 }
 
-class BakeMeshes : public testing::Test {
+class BakeMeshes : public CommandTest {
  protected:
   BakeMeshes() {
     folder_.write("two.obj",
                   box_obj("ring", {-1, 0, -1}, {1, 2, 1}) + box_obj("beam", {2, 0, 0}, {3, 1, 4}, 9));
     folder_.write("open.obj", box_obj("cup", {-1, 0, -1}, {1, 2, 1}, 1, false));
-  }
-  Outcome run(const Arguments& arguments) const { return run_brume(folder_.path(), arguments); }
-  Json json_of(const Arguments& arguments) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-    return Json::parse(outcome.out, nullptr, false);
   }
   SliceAtlas load(const std::string& json) const {
     return grids::load_slice_atlas(folder_.path() / json).value_or_throw();
@@ -56,12 +44,11 @@ class BakeMeshes : public testing::Test {
     for (const float value : grid.values) sum += double{value} * voxel.x * voxel.y * voxel.z;
     return sum;
   }
-  WorkFolder folder_;
 };
 
 TEST_F(BakeMeshes, ObjectsGoToChannelsByName) {
-  const Json json = json_of({"bake", "slices", "two.obj", "-o", "a.png", "--channels", "ring:r,beam:g",
-                             "--bits", "16", "--json", "-"});
+  const Json json =
+      json_of({"bake", "slices", "two.obj", "-o", "a.png", "--channels", "ring:r,beam:g", "--bits", "16"});
   EXPECT_EQ(json["image_size"], (Json{2048, 64}));
   EXPECT_EQ(json["tiles"], 32);
   EXPECT_EQ(json["channels"], (Json{"ring", "beam"}));
@@ -92,8 +79,8 @@ TEST_F(BakeMeshes, ImagesThatAreNotUsedAreNotMissed) {
 }
 
 TEST_F(BakeMeshes, ABoxChoosesWhatIsBaked) {
-  const Json json = json_of({"bake", "slices", "two.obj", "-o", "a.png", "--box", "-2,-1,-2 0,1,2", "--size",
-                             "16x8x24", "--json", "-"});
+  const Json json =
+      json_of({"bake", "slices", "two.obj", "-o", "a.png", "--box", "-2,-1,-2 0,1,2", "--size", "16x8x24"});
   EXPECT_EQ(json["box"]["low"], (Json{-2.0, -1.0, -2.0}));
   EXPECT_EQ(json["tiles"], 24);
   const SliceAtlas atlas = load("a.json");
@@ -162,7 +149,7 @@ TEST_F(BakeMeshes, VolumesKeepTheirVoxels) {
 TEST_F(BakeMeshes, AnAtlasIsAVolume) {
   EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "a.png", "--size", "12x8x20"}).exit_code, 0);
   for (const char* file : {"a.png", "a.json"}) {
-    const Json info = json_of({"info", file, "--json", "-"});
+    const Json info = json_of({"info", file});
     EXPECT_EQ(info["kind"], "volumes");
     EXPECT_EQ(info["axes"], "+x -y +z");
     EXPECT_EQ(info["grids"][0]["active_voxels"], 12 * 8 * 20);
@@ -240,7 +227,7 @@ TEST_F(BakeMeshes, ScenesHaveTheirAtlases) {
 
 TEST_F(BakeMeshes, OcclusionIsAroundTheMesh) {
   const Json json = json_of({"bake", "occlusion", "two.obj", "--object", "ring", "-o", "ao.png", "--size",
-                             "12x10x14", "--rays", "64", "--json", "-"});
+                             "12x10x14", "--rays", "64"});
   EXPECT_EQ(json["tiles"], 10) << "a tile is a plane";
   EXPECT_EQ(json["triangles"], 12);
   const SliceAtlas atlas = load("ao.json");

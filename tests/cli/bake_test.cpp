@@ -1,68 +1,39 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/box.hpp"
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
 #include "grids/slice_atlas.hpp"
-#include "image/decode.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
+class Bake : public CommandTest {};
 
-TEST(Bake, WritesTheGridOfItsOptions) {
-  const WorkFolder folder;
-  const Outcome run = run_brume(folder.path(), {"bake",
-                                                "pyroclastic",
-                                                "-o",
-                                                "a.brv",
-                                                "--edge",
-                                                "33",
-                                                "--voxel",
-                                                "0.25",
-                                                "--seed",
-                                                "7",
-                                                "--octaves",
-                                                "3",
-                                                "--radius",
-                                                "2",
-                                                "--edge-softness",
-                                                "0.5",
-                                                "--amplitude",
-                                                "0.4",
-                                                "--gain",
-                                                "0.6",
-                                                "--lacunarity",
-                                                "2.5",
-                                                "--frequency",
-                                                "1",
-                                                "--json",
-                                                "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
+TEST_F(Bake, WritesTheGridOfItsOptions) {
+  const Outcome done =
+      run(words("bake pyroclastic -o a.brv --edge 33 --voxel 0.25 --seed 7 --octaves 3 --radius 2 "
+                "--edge-softness 0.5 --amplitude 0.4 --gain 0.6 --lacunarity 2.5 --frequency 1 --json -"));
+  ASSERT_EQ(done.exit_code, 0) << done.error;
   const grids::Grid expected =
       grids::generate_cloud({grids::CloudKind::pyroclastic, 33, 0.25, 2, 0.5, 0.4, 1, 0.6, 2.5, 3, 7});
-  const grids::GridFile file = grids::load_grid_file(folder.path() / "a.brv").value_or_throw();
+  const grids::GridFile file = grids::load_grid_file(folder_.path() / "a.brv").value_or_throw();
   ASSERT_EQ(file.grids.size(), 1u);
   EXPECT_EQ(file.grids[0].values, expected.values);
   EXPECT_EQ(file.grids[0].world_from_index, expected.world_from_index);
   EXPECT_EQ(file.grids[0].grid_class, grids::GridClass::fog_volume);
-  const Json json = Json::parse(run.out);
+  const Json json = Json::parse(done.out);
   EXPECT_EQ(json["active_voxels"], grids::count_active(expected));
   EXPECT_EQ(json["bricks"], expected.bricks.size());
   EXPECT_EQ(json["radius"], 2);
 }
 
-TEST(Bake, LaysSlicesOutInRows) {
-  const WorkFolder folder;
-  const Outcome run = run_brume(folder.path(), {"bake", "sphere", "-o", "a.png", "--edge", "40", "--voxel",
-                                                "1", "--radius", "12.5", "--binary"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const image::Image8 image = image::load_image(folder.path() / "a.png").value_or_throw();
+TEST_F(Bake, LaysSlicesOutInRows) {
+  const Outcome done =
+      run({"bake", "sphere", "-o", "a.png", "--edge", "40", "--voxel", "1", "--radius", "12.5", "--binary"});
+  ASSERT_EQ(done.exit_code, 0) << done.error;
+  const image::Image8 image = png("a.png");
   // As near to a square as 40 tiles can be.
   ASSERT_EQ(image.width, 6u * 40);
   ASSERT_EQ(image.height, 7u * 40);
@@ -80,17 +51,15 @@ TEST(Bake, LaysSlicesOutInRows) {
   }
 }
 
-TEST(Bake, SlicesComeBackAsTheVolume) {
-  const WorkFolder folder;
+TEST_F(Bake, SlicesComeBackAsTheVolume) {
   grids::CloudSettings settings;
   settings.edge = 7;
   settings.radius = 0.28 * 7 * settings.voxel_size;
   settings.edge_width = 0;
   const shared::CloudParams params = grids::cloud_params(settings);
-  const Outcome run =
-      run_brume(folder.path(), {"bake", "pyroclastic", "-o", "a.png", "--edge", "7", "--binary", "-q"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const grids::SliceAtlas atlas = grids::load_slice_atlas(folder.path() / "a.json").value_or_throw();
+  const Outcome done = run({"bake", "pyroclastic", "-o", "a.png", "--edge", "7", "--binary", "-q"});
+  ASSERT_EQ(done.exit_code, 0) << done.error;
+  const grids::SliceAtlas atlas = grids::load_slice_atlas(folder_.path() / "a.json").value_or_throw();
   ASSERT_EQ(atlas.layout.size, glm::uvec3(7)) << "what is empty included";
   for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(7)}, [&](glm::ivec3 at) {
     EXPECT_EQ(atlas.channels[0].values[atlas.channels[0].index(glm::uvec3(at))],
@@ -99,29 +68,21 @@ TEST(Bake, SlicesComeBackAsTheVolume) {
   EXPECT_NEAR(atlas.channels[0].box.low.x, -3.5 * settings.voxel_size, 1e-9) << "around the origin";
 }
 
-TEST(Bake, WarnsOfACutAndOfAnEmptyShape) {
-  const WorkFolder folder;
-  const auto warning = [&](const Arguments& more) {
-    Arguments arguments{"bake"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    arguments.insert(arguments.end(), {"-o", "a.brv", "--edge", "16"});
-    const Outcome run = run_brume(folder.path(), arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return run.error;
+TEST_F(Bake, WarnsOfACutAndOfAnEmptyShape) {
+  const auto warning = [&](Arguments more) {
+    more.insert(more.end(), {"-o", "a.brv", "--edge", "16"});
+    return run_well({"bake"}, more).error;
   };
   EXPECT_EQ(warning({"sphere"}), "");
   EXPECT_NE(warning({"sphere", "--radius", "2"}).find("may be cut"), std::string::npos);
   EXPECT_NE(warning({"torus", "--radius", "0.0001"}).find("no voxel has density"), std::string::npos);
 }
 
-TEST(Bake, RefusesOptionsThatWouldDoNothing) {
-  const WorkFolder folder;
+TEST_F(Bake, RefusesOptionsThatWouldDoNothing) {
   const auto refusal = [&](const Arguments& more) {
-    Arguments arguments{"bake"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome run = run_brume(folder.path(), arguments);
-    EXPECT_EQ(run.exit_code, 2);
-    return run.error;
+    const Outcome done = run({"bake"}, more);
+    EXPECT_EQ(done.exit_code, 2);
+    return done.error;
   };
   EXPECT_EQ(refusal({"sphere", "-o", "a.brv", "--seed", "1"}),
             "brume: --seed is for the shape pyroclastic\n");
@@ -129,19 +90,15 @@ TEST(Bake, RefusesOptionsThatWouldDoNothing) {
             "brume: --edge-softness would do nothing with --binary\n");
   EXPECT_EQ(refusal({"sphere", "-o", "a.brv", "--device", "1"}), "brume: --device requires --gpu\n");
   EXPECT_NE(refusal({"sphere", "-o", "a.vxl"}).find("expected .brv, .vdb, .nvdb or .png"), std::string::npos);
-  EXPECT_EQ(folder.files(), Arguments{});
+  EXPECT_EQ(folder_.files(), Arguments{});
 }
 
-TEST(Bake, TheDeviceGivesTheSameVoxelsUpToRounding) {
-  const WorkFolder folder;
+TEST_F(Bake, TheDeviceGivesTheSameVoxelsUpToRounding) {
   for (const Arguments& where : {Arguments{}, Arguments{"--gpu"}}) {
-    Arguments arguments{"bake", "pyroclastic", "--edge", "24", "-o", where.empty() ? "cpu.brv" : "gpu.brv"};
-    arguments.insert(arguments.end(), where.begin(), where.end());
-    const Outcome run = run_brume(folder.path(), arguments);
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    run_well({"bake", "pyroclastic", "--edge", "24", "-o", where.empty() ? "cpu.brv" : "gpu.brv"}, where);
   }
   const auto count = [&](const char* file) {
-    return grids::count_active(grids::load_grid_file(folder.path() / file).value_or_throw().grids[0]);
+    return grids::count_active(grids::load_grid_file(folder_.path() / file).value_or_throw().grids[0]);
   };
   const auto cpu = static_cast<double>(count("cpu.brv"));
   EXPECT_NEAR(static_cast<double>(count("gpu.brv")), cpu, 0.01 * cpu);

@@ -3,18 +3,15 @@
 
 #include <glm/glm.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-class CameraOptions : public testing::Test {
+class CameraOptions : public RoomTest {
  protected:
-  CameraOptions() { folder_.write("room.obj", room_obj()); }
   /// A timeline with a camera that moves, with further keys.
   void write(const std::string& name, const std::string& keys) const {
     std::string text =
@@ -33,10 +30,8 @@ class CameraOptions : public testing::Test {
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
     image::save_png(folder_.path() / name, picture).value_or_throw();
   }
-  Outcome render(const std::string& timeline, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"render", timeline, "--size", "40x24"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments);
+  Outcome render(const std::string& timeline, const Arguments& more) const {
+    return run({"render", timeline, "--size", "40x24"}, more);
   }
   /// The picture at half a second.
   std::vector<std::uint8_t> picture(const std::string& timeline, std::vector<std::string> more) const {
@@ -44,9 +39,8 @@ class CameraOptions : public testing::Test {
     const Outcome run = render(timeline, more);
     EXPECT_EQ(run.exit_code, 0) << run.error;
     EXPECT_EQ(run.error, "");
-    return image::load_image(folder_.path() / "a.png").value_or_throw().rgba;
+    return png("a.png").rgba;
   }
-  WorkFolder folder_;
 };
 
 TEST_F(CameraOptions, LensesBlurWhateverTheMode) {
@@ -82,9 +76,7 @@ TEST_F(CameraOptions, ShuttersBlurWhatMoves) {
                                 "90", "--mode", mode, "--samples", "4", "--shutter", shutter})
               .exit_code,
           0);
-    EXPECT_NE(image::load_image(folder_.path() / "o0_1.png").value_or_throw().rgba,
-              image::load_image(folder_.path() / "o0.1_1.png").value_or_throw().rgba)
-        << mode;
+    EXPECT_NE(png("o0_1.png").rgba, png("o0.1_1.png").rgba) << mode;
   }
 }
 
@@ -120,8 +112,8 @@ TEST_F(CameraOptions, FramesAsNumbersAreMeans) {
   const auto image =
       image::decode_exr(read_file(folder_.path() / "a.exr").value_or_throw(), "a.exr").value_or_throw();
   for (const image::Layer& layer : image.layers) {
-    const bool is_radiance = layer.name == "R" || layer.name == "G" || layer.name == "B" ||
-                             layer.name.starts_with("background.");
+    const bool is_radiance =
+        layer.name == "R" || layer.name == "G" || layer.name == "B" || layer.name.starts_with("background.");
     EXPECT_EQ(std::holds_alternative<std::vector<float>>(layer.values), !is_radiance) << layer.name;
     if (layer.name != "A") continue;
     for (const float alpha : std::get<std::vector<float>>(layer.values)) {

@@ -1,30 +1,20 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "core/file.hpp"
 #include "grids/files.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 #include "tests/grids/sample_grids.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
-class Convert : public testing::Test {
+class Convert : public CommandTest {
  protected:
   Convert() {
     grids::Grid density = grids::smoke_grid("density", 11), flame = grids::smoke_grid("flame", 5);
     grids::save_grid_file(folder_.path() / "smoke.brv", {{density, flame}, {}}).value_or_throw();
   }
-  Outcome run(const Arguments& arguments) const { return run_brume(folder_.path(), arguments); }
-  void convert(const std::string& from, const std::string& to, Arguments more = {}) const {
-    more.insert(more.begin(), {"convert", from, to});
-    const Outcome done = run(more);
-    EXPECT_EQ(done.exit_code, 0) << done.error;
-    EXPECT_EQ(done.error, "");
+  void convert(const std::string& from, const std::string& to, const Arguments& more = {}) const {
+    EXPECT_EQ(run_well({"convert", from, to}, more).error, "");
   }
   Json info(const std::string& file) const {
     return Json::parse(run({"info", file, "--json", "-"}).out, nullptr, false);
@@ -32,7 +22,6 @@ class Convert : public testing::Test {
   grids::GridFile load(const std::string& name) const {
     return grids::load_grid_file(folder_.path() / name).value_or_throw();
   }
-  WorkFolder folder_;
 };
 
 TEST_F(Convert, KeepsGridsAmongAllFormats) {

@@ -3,20 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "image/decode.hpp"
 #include "image/png.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
 // A grey image, one with a texel 20 brighter in green, one of another size.
-class Diff : public testing::Test {
+class Diff : public CommandTest {
  protected:
   Diff() {
     image::Image8 image{33, 17, std::vector<std::uint8_t>(33 * 17 * 4, 100)};
@@ -30,12 +25,7 @@ class Diff : public testing::Test {
     const image::Image8 small{16, 17, std::vector<std::uint8_t>(16 * 17 * 4, 255)};
     image::save_png(folder_.path() / "small.png", small).value_or_throw();
   }
-  Outcome diff(const Arguments& more) const {
-    Arguments arguments{"diff"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments);
-  }
-  WorkFolder folder_;
+  Outcome diff(const Arguments& more) const { return run({"diff"}, more); }
 };
 
 TEST_F(Diff, OneTexel) {
@@ -52,7 +42,7 @@ TEST_F(Diff, OneTexel) {
   EXPECT_LT(json["ssim"], 1);
   EXPECT_GT(json["flip"], 0);
   // Brightest where they differ.
-  const auto map = image::load_image(folder_.path() / "map.png").value_or_throw();
+  const auto map = png("map.png");
   ASSERT_EQ(map.width, 33u);
   EXPECT_EQ(map.rgba[0], 0);
   EXPECT_GT(map.rgba[4 * (8 * 33 + 16)], 0);

@@ -2,45 +2,30 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
 #include "image/exr.hpp"
 #include "image/flipbook.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Arguments = std::vector<std::string>;
 using image::LightSide;
 using image::Texels;
 
 constexpr const char* kCamera = "0.4,0.4,3 0.4,0.4,0.4 30";
 
-class Flipbook : public testing::Test {
+class Flipbook : public CommandTest {
  protected:
-  Outcome run(Arguments arguments) const { return run_brume(folder_.path(), arguments); }
-  void expect_runs(const Arguments& arguments) const {
-    const Outcome outcome = run(arguments);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  }
+  void expect_runs(const Arguments& arguments) const { run_well(arguments); }
   void bake(const std::string& name, const std::string& seed) const {
     expect_runs({"bake", "pyroclastic", "--edge", "16", "--seed", seed, "-o", name});
-  }
-  image::Image8 png(const std::string& name) const {
-    return image::load_image(folder_.path() / name).value_or_throw();
   }
   Texels exr(const std::string& name) const {
     const auto bytes = read_file(folder_.path() / name).value_or_throw();
     return image::to_texels(image::decode_exr(bytes, name).value_or_throw());
   }
-  nlohmann::json json(const std::string& name) const {
-    return nlohmann::json::parse(read_text_file(folder_.path() / name).value_or_throw());
-  }
-  WorkFolder folder_;
+  Json json(const std::string& name) const { return Json::parse(bytes(name)); }
 };
 
 TEST_F(Flipbook, TilesAreTheFramesWithoutTheirBackground) {
@@ -54,10 +39,10 @@ TEST_F(Flipbook, TilesAreTheFramesWithoutTheirBackground) {
   const Texels sheet = exr("sheet.exr");
   EXPECT_EQ(glm::uvec2(sheet.width, sheet.height), glm::uvec2(48, 40));
   const image::FlipbookLayout layout{2, 2, {24, 20}, 2};
-  const nlohmann::json description = json("sheet.json");
-  EXPECT_EQ(description["frames"], (nlohmann::json{0, 1, 1, 2}));
+  const Json description = json("sheet.json");
+  EXPECT_EQ(description["frames"], (Json{0, 1, 1, 2}));
   EXPECT_EQ(description["alpha"], "premultiplied");
-  EXPECT_EQ(description["tile"], (nlohmann::json{24, 20}));
+  EXPECT_EQ(description["tile"], (Json{24, 20}));
   for (std::uint32_t tile = 0; tile < 4; ++tile) {
     const std::string frame = std::to_string(description["frames"][tile].get<int>());
     EXPECT_EQ(image::tile_of(layout, tile, sheet).rgba,

@@ -1,30 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "core/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
-class Info : public testing::Test {
+class Info : public RoomTest {
  protected:
-  Info() { folder_.write("room.obj", room_obj()); }
-  Json info(const std::string& file) const {
-    const Outcome run = run_brume(folder_.path(), {"info", file, "--json", "-"});
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return Json::parse(run.out, nullptr, false);
-  }
-  std::string text(const std::string& file) const {
-    const Outcome run = run_brume(folder_.path(), {"info", file});
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return run.out;
-  }
-  WorkFolder folder_;
+  Json info(const std::string& file) const { return json_of({"info", file}); }
+  std::string text(const std::string& file) const { return run_well({"info", file}).out; }
 };
 
 TEST_F(Info, SizeAndPlaceOfAScene) {

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "image/png.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
 /// A room, and a timeline whose one event begins on line 4 and ends, from line 9 on, with lines from the
 /// test.
-class MaskErrors : public testing::Test {
+class MaskErrors : public RoomTest {
  protected:
-  MaskErrors() { folder_.write("room.obj", room_obj()); }
   void expect_event_fails(const std::string& type, const std::string& lines, int exit_code,
                           const std::vector<std::string>& parts) const {
     folder_.write("a.toml", "version = 1\nscene = \"room.obj\"\nduration = 1.0\n[[event]]\ntype = \"" + type +
@@ -35,7 +34,6 @@ class MaskErrors : public testing::Test {
     using namespace std::string_literals;
     folder_.write(name, "\x89PNG\r\n\x1a\n\0\0\0\rIHDR"s + size + "\x08\0\0\0\0"s + sum);
   }
-  WorkFolder folder_;
 };
 
 TEST_F(MaskErrors, InvalidImages) {

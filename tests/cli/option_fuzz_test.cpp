@@ -13,6 +13,7 @@
 #include <random>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "core/file.hpp"
 #include "image/png.hpp"
@@ -115,99 +116,19 @@ class Dice {
 };
 
 /// Values of every kind that some option takes, and of some that none does.
-const std::string kValues[] = {"0",
-                               "1",
-                               "2",
-                               "3",
-                               "-1",
-                               "0.5",
-                               "0.25",
-                               "1e9",
-                               "1e-9",
-                               "nan",
-                               "inf",
-                               "-inf",
-                               "24000/1001",
-                               "1/0",
-                               "23.976",
-                               "",
-                               "0,1,0",
-                               "0.5,1,-0.5",
-                               "1e9,0,0",
-                               "nan,0,0",
-                               "0, 1, 0",
-                               "1,2",
-                               "0,1,1.5 0,1,0 60",
-                               "0,1,1.5 0,1,0",
-                               "0,0,0 0,0,0 60",
-                               "16x16",
-                               "32x18",
-                               "1x1",
-                               "0x0",
-                               "33x17",
-                               "4x4x4",
-                               "16x12x16",
-                               "0x1x1",
-                               "-1x1x1",
-                               "0-1",
-                               "1-2",
-                               "2-1",
-                               "0-0",
-                               "9-",
-                               "full",
-                               "half",
-                               "quarter",
-                               "neutral",
-                               "standard",
-                               "visible",
-                               "hidden",
-                               "density",
-                               "depth",
-                               "solid",
-                               "none",
-                               "y=1",
-                               "x=nan",
-                               "60,40",
-                               "60,0",
-                               "room.obj",
-                               "room.toml",
-                               "palette.json",
-                               "tank.toml",
-                               "room.vxl",
-                               "room.brp",
-                               "a.png",
-                               "b.png",
-                               "notes.txt",
-                               "empty.obj",
-                               "missing.glb",
-                               ".",
-                               "..",
-                               "none/x.png",
-                               "-",
-                               "--",
-                               "new.png",
-                               "new_%d.png",
-                               "new.mp4",
-                               "new.vxl",
-                               "new.brp",
-                               "new.json",
-                               "new.spheres",
-                               "0.5-2",
-                               "coral",
-                               "noise",
-                               "new.obj",
-                               "NEW.PNG",
-                               "%s.png",
-                               "100%.png",
-                               "\xff\xfe",
-                               "room.toml/x",
-                               "/dev/null",
-                               "--json",
-                               "\xc3\xa9",
-                               "18446744073709551616",
-                               "-0",
-                               "+1",
-                               "0x10"};
+const std::vector<std::string> kValues = [] {
+  std::istringstream all(
+      "0|1|2|3|-1|0.5|0.25|1e9|1e-9|nan|inf|-inf|24000/1001|1/0|23.976||0,1,0|0.5,1,-0.5|1e9,0,0|"
+      "nan,0,0|0, 1, 0|1,2|0,1,1.5 0,1,0 60|0,1,1.5 0,1,0|0,0,0 0,0,0 60|16x16|32x18|1x1|0x0|33x17|"
+      "4x4x4|16x12x16|0x1x1|-1x1x1|0-1|1-2|2-1|0-0|9-|full|half|quarter|neutral|standard|visible|"
+      "hidden|density|depth|solid|none|y=1|x=nan|60,40|60,0|room.obj|room.toml|palette.json|tank.toml|"
+      "room.vxl|room.brp|a.png|b.png|notes.txt|empty.obj|missing.glb|.|..|none/x.png|-|--|new.png|"
+      "new_%d.png|new.mp4|new.vxl|new.brp|new.json|new.spheres|0.5-2|coral|noise|new.obj|NEW.PNG|"
+      "%s.png|100%.png|\xff\xfe|room.toml/x|/dev/null|--json|\xc3\xa9|18446744073709551616|-0|+1|0x10");
+  std::vector<std::string> values;
+  for (std::string value; std::getline(all, value, '|');) values.push_back(value);
+  return values;
+}();
 
 Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option>>& options) {
   static const std::string inputs[] = {"room.obj", "room.toml", "room.vxl", "room.brp", "a.png"};

@@ -5,34 +5,20 @@
 #include <cstdio>
 #include <numbers>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-class RenderOrbit : public testing::Test {
+class RenderOrbit : public CommandTest {
  protected:
   void bake(const std::string& name, const std::string& seed = "1") const {
-    const Outcome run =
-        run_brume(folder_.path(), {"bake", "pyroclastic", "--edge", "24", "--seed", seed, "-o", name});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
-  }
-  Outcome render(const std::string& input, Arguments more) const {
-    more.insert(more.begin(), {"render", input, "--size", "48x36"});
-    return run_brume(folder_.path(), more);
+    run_well({"bake", "pyroclastic", "--edge", "24", "--seed", seed, "-o", name});
   }
   void expect_renders(const std::string& input, const Arguments& more) const {
-    const Outcome run = render(input, more);
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    run_well({"render", input, "--size", "48x36"}, more);
   }
-  std::vector<std::uint8_t> png(const std::string& name) const {
-    return image::load_image(folder_.path() / name).value_or_throw().rgba;
-  }
-  WorkFolder folder_;
+  std::vector<std::uint8_t> png(const std::string& name) const { return CommandTest::png(name).rgba; }
 };
 
 /// A camera as --camera, after a rotation about the vertical axis through its target.
@@ -106,7 +92,7 @@ TEST_F(RenderOrbit, ResumesOnlyFramesOfTheSameTurn) {
 TEST_F(RenderOrbit, RefusesWhatWouldTurnNothing) {
   bake("cloud.brv");
   const auto refused = [&](const Arguments& more, const std::string& part) {
-    const Outcome run = render("cloud.brv", more);
+    const Outcome run = this->run({"render", "cloud.brv", "--size", "48x36"}, more);
     EXPECT_EQ(run.exit_code, 2) << run.error;
     EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
   };

@@ -5,23 +5,20 @@
 
 #include <filesystem>
 
-#include "core/file.hpp"
 #include "image/png.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Arguments = std::vector<std::string>;
-
 constexpr const char* kTimeline =
     "version = 1\nscene = \"room.obj\"\nduration = 0.5\n"
     "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n"
     "[[event]]\ntype = \"shot\"\ntime = 0.1\nfrom = [0.0, 1.5, 1.0]\ntoward = [0.0, 0.5, -1.0]\n"
     "shape = \"mask\"\nmask = \"mask.png\"\n";
 
-class OutputFiles : public testing::Test {
+class OutputFiles : public CommandTest {
  protected:
   OutputFiles() {
     folder_.write("room.obj", "mtllib room.mtl\nusemtl wall\n" + room_obj());
@@ -33,9 +30,6 @@ class OutputFiles : public testing::Test {
   void save_picture(const std::string& name) const {
     const image::Image8 picture{8, 8, std::vector<std::uint8_t>(4 * 8 * 8, 200)};
     image::save_png(folder_.path() / name, picture).value_or_throw();
-  }
-  std::string bytes(const std::string& name) const {
-    return read_text_file(folder_.path() / name).value_or_throw();
   }
   // The command is refused, and no file changes.
   void refused(const Arguments& arguments, const std::vector<std::string>& parts, int exit_code = 2) const {
@@ -54,7 +48,6 @@ class OutputFiles : public testing::Test {
     arguments.push_back("--force");
     refused(arguments, {part, "is the input"});
   }
-  WorkFolder folder_;
 };
 
 TEST_F(OutputFiles, AreNeverAnInput) {

@@ -2,27 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
 #include "palettes/sample.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-class PalettesTest : public testing::Test {
+class PalettesTest : public CommandTest {
  protected:
-  nlohmann::json json(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "palettes");
-    arguments.insert(arguments.end(), {"--json", "-"});
-    const Outcome run = run_brume(folder_.path(), arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return nlohmann::json::parse(run.out);
-  }
-
-  WorkFolder folder_;
+  Json json(const Arguments& more) const { return json_of({"palettes"}, more); }
 };
 
 TEST_F(PalettesTest, ListsWhatTheProgramHolds) {
@@ -35,20 +24,20 @@ TEST_F(PalettesTest, ListsWhatTheProgramHolds) {
 }
 
 TEST_F(PalettesTest, Searches) {
-  const nlohmann::json found = json({"viridis", "matplotlib"});
+  const Json found = json({"viridis", "matplotlib"});
   ASSERT_EQ(found.at("found"), 1);
-  const nlohmann::json& palette = found.at("palettes").at(0);
+  const Json& palette = found.at("palettes").at(0);
   EXPECT_EQ(palette.at("name"), "viridis");
   EXPECT_EQ(palette.at("collection"), "matplotlib");
   EXPECT_EQ(palette.at("kind"), "gradient");
   EXPECT_EQ(palette.at("colors").at(0), "#440154") << "as Matplotlib has it";
   EXPECT_EQ(palette.at("colors").size(), palettes::find("viridis")->colors.size());
 
-  const nlohmann::json few = json({"--colors", "5", "--limit", "3"});
+  const Json few = json({"--colors", "5", "--limit", "3"});
   EXPECT_EQ(few.at("palettes").size(), 3u);
   EXPECT_GT(few.at("found"), 3);
-  for (const nlohmann::json& each : few.at("palettes")) EXPECT_EQ(each.at("colors").size(), 5u);
-  for (const nlohmann::json& each : json({"--hue", "0"}).at("palettes")) {
+  for (const Json& each : few.at("palettes")) EXPECT_EQ(each.at("colors").size(), 5u);
+  for (const Json& each : json({"--hue", "0"}).at("palettes")) {
     const double hue = each.at("hue");
     EXPECT_TRUE(hue <= 20 || hue >= 340) << hue;
   }
@@ -68,18 +57,17 @@ TEST_F(PalettesTest, DrawsTheColoursOfEachPalette) {
   const Outcome run = run_brume(folder_.path(), {"palettes", "two.json", "-o", "sheet.png"});
   EXPECT_EQ(run.exit_code, 0) << run.error;
   EXPECT_EQ(run.out.substr(0, 4), "two ");
-  const auto sheet = image::load_image(folder_.path() / "sheet.png");
-  ASSERT_TRUE(sheet);
+  const image::Image8 sheet = png("sheet.png");
   std::size_t red = 0, blue = 0, other = 0;
-  for (std::size_t i = 0; i < sheet->rgba.size(); i += 4) {
-    const std::uint8_t* const c = &sheet->rgba[i];
+  for (std::size_t i = 0; i < sheet.rgba.size(); i += 4) {
+    const std::uint8_t* const c = &sheet.rgba[i];
     red += c[0] == 255 && c[1] == 0 && c[2] == 0;
     blue += c[0] == 0 && c[1] == 0 && c[2] == 255;
     other += c[0] == c[1] && c[1] == c[2];
   }
   EXPECT_GT(red, 1000u);
   EXPECT_EQ(red, blue) << "halves";
-  EXPECT_EQ(red + blue + other, sheet->rgba.size() / 4) << "paper and letters are grey";
+  EXPECT_EQ(red + blue + other, sheet.rgba.size() / 4) << "paper and letters are grey";
 }
 
 TEST_F(PalettesTest, RefusesWhatIsWrong) {

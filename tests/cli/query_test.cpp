@@ -3,47 +3,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <regex>
 
-#include "core/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
 // A closed room of 4 x 3 x 4 m with a block in it, with a smoke at 0.1 s that dissolves within 2 s.
-class Query : public testing::Test {
+class Query : public RoomTest {
  protected:
   Query() {
-    folder_.write("room.obj", room_obj());
     folder_.write(
         "smoke.toml",
         "version = 1\nscene = \"room.obj\"\nduration = 3.0\n"
         "[smoke]\nvoxels = 3000\nbloom = 0.3\nhold = 1.2\ndissolve = 0.3\nextinction = 4.0\n"
         "[[event]]\ntype = \"smoke\"\ntime = 0.1\nfrom = [-1.5, 2.5, 1.5]\nat = [-1.5, 2.4, 1.5]\n");
   }
-  Outcome query(const Arguments& more) const {
-    Arguments arguments{"query", "smoke.toml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments);
-  }
-  Json answer(Arguments more) const {
-    more.insert(more.end(), {"--json", "-"});
-    const Outcome run = query(more);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return Json::parse(run.out);
-  }
+  Outcome query(const Arguments& more) const { return run({"query", "smoke.toml"}, more); }
+  Json answer(const Arguments& more) const { return json_of({"query", "smoke.toml"}, more); }
   // Through the upper half of the room, over the block.
   static Arguments across(const Arguments& more) {
     Arguments arguments{"--from", "-1.6,2.5,-1.6", "--to", "1.6,2.5,1.6"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  WorkFolder folder_;
 };
 
 TEST_F(Query, SmokeHidesWhileItLasts) {
@@ -165,15 +149,9 @@ TEST_F(Query, CountsTheShotsUntilVisible) {
 }
 
 TEST_F(Query, RejectsInvalidArguments) {
-  const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
-    SCOPED_TRACE(testing::PrintToString(more));
-    const auto before = folder_.files();
-    const Outcome run = query(more);
-    EXPECT_EQ(run.exit_code, exit_code) << run.error;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
-    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
-    EXPECT_EQ(folder_.files(), before);
+  const auto refuses = [&](Arguments more, int exit_code, const std::string& part) {
+    more.insert(more.begin(), {"query", "smoke.toml"});
+    expect_failure(folder_, more, exit_code, {part});
   };
   refuses(across({}), 2, "--time");
   refuses(across({"--time", "-1"}), 2, "--time");
@@ -190,10 +168,7 @@ TEST_F(Query, RejectsInvalidArguments) {
   refuses({"--from", "0,0,0", "--to", "1,1e6,1", "--time", "1"}, 2, "--to");
   refuses({"--from", "0,1,0", "--to", "0,1,0", "--report", "--shots", "1"}, 2, "--shots");
   refuses(across({"--time", "1", "--json", "no/such/folder/a.json"}), 2, "no/such/folder");
-  const Outcome missing =
-      run_brume(folder_.path(), {"query", "missing.toml", "--from", "0,0,0", "--to", "1,1,1", "--time", "1"});
-  EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_NE(missing.error.find("missing.toml"), std::string::npos) << missing.error;
+  expect_failure(folder_, words("query missing.toml --from 0,0,0 --to 1,1,1 --time 1"), 3, {"missing.toml"});
 }
 
 }  // namespace

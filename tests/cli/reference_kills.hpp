@@ -1,7 +1,6 @@
 // Kills of a reference rendering, which goes on from its checkpoint.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <signal.h>
 
 #include <filesystem>
@@ -9,15 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "core/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 
-class ReferenceFolder : public testing::Test {
+class ReferenceFolder : public RoomTest {
  protected:
   ReferenceFolder() {
-    folder_.write("room.obj", room_obj());
     folder_.write(
         "room.toml",
         "version = 1\nscene = \"room.obj\"\nduration = 1.0\n[sky]\nambient = [0.4, 0.4, 0.5]\n"
@@ -25,12 +22,7 @@ class ReferenceFolder : public testing::Test {
         "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n");
   }
   Outcome render(const std::vector<std::string>& more, const RunOptions& options = {}) const {
-    std::vector<std::string> arguments{"render", "room.toml", "--mode", "reference", "--size", "40x24"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments, options);
-  }
-  std::string bytes(const std::string& name) const {
-    return read_text_file(folder_.path() / name).value_or_throw();
+    return run({"render", "room.toml", "--mode", "reference", "--size", "40x24"}, more, options);
   }
 
   /// Kills the program so many times, each at one of the calls by which it writes files after a new
@@ -70,8 +62,6 @@ class ReferenceFolder : public testing::Test {
     EXPECT_EQ(bytes("resumed.exr"), bytes("whole.exr"));
     EXPECT_EQ(bytes("room.brc"), bytes("whole.brc"));
   }
-
-  WorkFolder folder_;
 };
 
 }  // namespace brume::cli

@@ -3,37 +3,23 @@
 
 #include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Arguments = std::vector<std::string>;
 
 constexpr const char* kTimeline =
     "version = 1\nscene = \"room.obj\"\nduration = 1.0\n"
     "[[camera]]\ntime = 0.0\nposition = [0.0, 1.7, 1.8]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n"
     "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n";
 
-class Render : public testing::Test {
+class Render : public RoomTest {
  protected:
-  Render() {
-    folder_.write("room.obj", room_obj());
-    folder_.write("room.toml", kTimeline);
-  }
+  Render() { folder_.write("room.toml", kTimeline); }
   Outcome render(const Arguments& more, const RunOptions& options = {}) const {
-    Arguments arguments{"render", "room.toml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments, options);
+    return run({"render", "room.toml"}, more, options);
   }
-  image::Image8 png(const std::string& name) const {
-    return image::load_image(folder_.path() / name).value_or_throw();
-  }
-  WorkFolder folder_;
 };
 
 TEST_F(Render, ImagesAreReproducibleAndDependOnTheCamera) {
@@ -72,11 +58,8 @@ TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
 
 TEST_F(Render, BouncesStandInForThoseOfTheTimeline) {
   folder_.write("lit.toml", std::string("bounces = 2\n") + kTimeline);
-  const auto draw = [&](const std::string& timeline, const std::string& name, Arguments more) {
-    Arguments arguments{"render", timeline, "-o", name, "--size", "64x36", "--time", "0.8"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome run = run_brume(folder_.path(), arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+  const auto draw = [&](const std::string& timeline, const std::string& name, const Arguments& more) {
+    run_well({"render", timeline, "-o", name, "--size", "64x36", "--time", "0.8"}, more);
     return png(name).rgba;
   };
   const auto none = draw("room.toml", "none.png", {}), two = draw("lit.toml", "two.png", {});

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "apps/cli/coverage.hpp"
@@ -15,7 +14,7 @@
 #include "scenario/world_triangles.hpp"
 #include "smoke/holes.hpp"
 #include "surfaces/surfaces.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
@@ -23,8 +22,6 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 using glm::vec3;
-using Json = nlohmann::json;
-
 // ---- Levels ----
 
 /// Boxes with their looks, as a glTF file.
@@ -399,7 +396,7 @@ TEST(Roles, AllAgreeOnFortyLevels) {
 
 // ---- The program ----
 
-class RolesOfFiles : public testing::Test {
+class RolesOfFiles : public CommandTest {
  protected:
   /// A screen between two places, with a floor below.
   RolesOfFiles() {
@@ -410,14 +407,11 @@ class RolesOfFiles : public testing::Test {
     level.write(folder_);
   }
   Outcome query(const std::string& file, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"query", file, "--from", "0,1.5,3", "--to", "0,1.5,-3", "--time", "0"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments);
+    return run({"query", file, "--from", "0,1.5,3", "--to", "0,1.5,-3", "--time", "0"}, more);
   }
   std::string timeline(const std::string& roles) const {
     return folder_.write("t.toml", "version = 1\nscene = \"level.gltf\"\n" + roles);
   }
-  WorkFolder folder_;
 };
 
 TEST_F(RolesOfFiles, APaneThatIsNotDrawnHidesNothing) {
@@ -455,20 +449,20 @@ TEST_F(RolesOfFiles, WrongNamesAreAnswered) {
 }
 
 TEST_F(RolesOfFiles, InfoAndVoxelizeCountThem) {
-  const Json scene = Json::parse(run_brume(folder_.path(), {"info", "level.gltf", "--json", "-"}).out);
+  const Json scene = json_of({"info", "level.gltf"});
   EXPECT_EQ(scene["roles"], (Json{{"wall", 12}, {"glass", 12}, {"grille", 12}, {"ghost", 0}}));
   EXPECT_EQ(scene["solid_triangles"], 24);
   timeline("[[role]]\nobject = \"bush\"\nrole = \"wall\"\n");
-  const Json of_timeline = Json::parse(run_brume(folder_.path(), {"info", "t.toml", "--json", "-"}).out);
+  const Json of_timeline = json_of({"info", "t.toml"});
   EXPECT_EQ(of_timeline["roles"], (Json{{"wall", 24}, {"glass", 12}, {"grille", 0}, {"ghost", 0}}));
-  const std::vector<std::string> voxelize{"voxelize", "level.gltf", "-o", "a.vxl", "--json", "-"};
-  const Json voxels = Json::parse(run_brume(folder_.path(), voxelize).out);
+  const Arguments voxelize{"voxelize", "level.gltf", "-o", "a.vxl"};
+  const Json voxels = json_of(voxelize);
   EXPECT_GT(voxels["glass"], 0);
   EXPECT_GT(voxels["grilles"], 0);
-  const Json again = Json::parse(run_brume(folder_.path(), voxelize).out);
+  const Json again = json_of(voxelize);
   EXPECT_TRUE(again["cached"]);
   EXPECT_EQ(again["glass"], voxels["glass"]);
-  const Json file = Json::parse(run_brume(folder_.path(), {"info", "a.vxl", "--json", "-"}).out);
+  const Json file = json_of({"info", "a.vxl"});
   EXPECT_EQ(file["glass"], voxels["glass"]);
   EXPECT_EQ(file["grilles"], voxels["grilles"]);
 }

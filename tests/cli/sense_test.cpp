@@ -2,39 +2,28 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
 #include "image/exr.hpp"
 #include "spheres/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Json = nlohmann::json;
-
 // An opaque red ball of 0.5 m at the origin, and to the right of it a white medium.
-class Tanks : public testing::Test {
+class Tanks : public CommandTest {
  protected:
   Tanks() {
     const spheres::Tank tank{
         {40, 20, 20}, 0.1f, {{{20, 10, 10}, 5}, {{32, 10, 10}, 4}}, {0xff0000ff, 0x1affffff}};
     spheres::save_tank(folder_.path() / "two.spheres", tank).value_or_throw();
   }
-  Outcome run(const std::vector<std::string>& arguments) const {
-    return run_brume(folder_.path(), arguments);
-  }
-  Outcome sense(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"query", "two.spheres", "--sense", "0,0,2 0,0,0 60"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
+  Outcome sense(const Arguments& more) const {
+    return run({"query", "two.spheres", "--sense", "0,0,2 0,0,0 60"}, more);
   }
   std::vector<std::byte> bytes(const std::string& name) const {
     return read_file(folder_.path() / name).value_or_throw();
   }
-  WorkFolder folder_;
 };
 
 TEST_F(Tanks, AreSensedAsJson) {

@@ -6,45 +6,35 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "grids/files.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Arguments = std::vector<std::string>;
 
 constexpr const char* kSmokeTimeline =
     "version = 1\nscene = \"room.obj\"\nduration = 1.0\n[smoke]\nvoxels = 300\nbloom = 0.5\nextinction = "
     "3.0\n"
     "[[event]]\ntype = \"smoke\"\ntime = 0.1\nfrom = [-1, 1.5, 0]\nat = [-1, 0.5, 0]\n";
 
-class SimVolumes : public testing::Test {
+class SimVolumes : public RoomTest {
  protected:
   SimVolumes() {
-    folder_.write("room.obj", room_obj());
     folder_.write("room.toml", kSmokeTimeline);
     // This test is not beside the program that reads .vdb files.
     const auto beside = std::filesystem::path(BRUME_PROGRAM).parent_path() / "brume-vdb";
     ::setenv("BRUME_VDB", beside.c_str(), 1);
   }
-  Outcome sim(Arguments more, const RunOptions& options = {}) const {
-    more.insert(more.begin(), {"sim", "room.toml"});
-    return run_brume(folder_.path(), more, options);
+  Outcome sim(const Arguments& more, const RunOptions& options = {}) const {
+    return run({"sim", "room.toml"}, more, options);
   }
-  Outcome sim_well(const Arguments& more) const {
-    Outcome run = sim(more);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-    return run;
-  }
+  Outcome sim_well(const Arguments& more) const { return run_well({"sim", "room.toml"}, more); }
   grids::Grid grid(const std::string& name) const {
     const grids::GridFile file = grids::load_grid_file(folder_.path() / name).value_or_throw();
     EXPECT_EQ(file.grids.size(), 1u);
     return file.grids.at(0);
   }
-  WorkFolder folder_;
 };
 
 template <typename T>

@@ -4,45 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
-
-class Spheres : public testing::Test {
+class Spheres : public CommandTest {
  protected:
-  Outcome run(Arguments arguments) const { return run_brume(folder_.path(), arguments); }
   /// The result of bake spheres of a small tank.
   Json bake(const std::string& output, const Arguments& more = {}) const {
-    Arguments arguments{"bake",    "spheres", "-o",       output,  "--size", "60x40x20",
-                        "--count", "300",     "--radius", "0.5-3", "--json", "-"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome done = run(arguments);
-    EXPECT_EQ(done.exit_code, 0) << done.error;
+    const Outcome done = run_well(
+        words("bake spheres --size 60x40x20 --count 300 --radius 0.5-3 --json - -o " + output), more);
     EXPECT_EQ(done.error, "");
     return Json::parse(done.out, nullptr, false);
   }
   spheres::Tank load(const std::string& name) const {
     return spheres::load_tank(folder_.path() / name).value_or_throw();
   }
-  std::string bytes(const std::string& name) const {
-    return read_text_file(folder_.path() / name).value_or_throw();
-  }
   void refused(const Arguments& more, const std::vector<std::string>& parts) const {
     Arguments arguments{"bake", "spheres", "-o", "new.spheres"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_failure(folder_, arguments, 2, parts);
   }
-  WorkFolder folder_;
 };
 
 TEST_F(Spheres, AreThoseOfTheOptions) {
@@ -250,12 +236,8 @@ class TankScene : public Spheres {
   std::vector<std::uint8_t> render(const std::string& scene, const Arguments& more,
                                    const std::string& output = "p.png",
                                    const std::string& file = "p.png") const {
-    Arguments arguments{"render",    scene,    "-o",    output,      "--mode",
-                        "reference", "--size", "48x32", "--samples", "4"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome done = run(arguments);
-    EXPECT_EQ(done.exit_code, 0) << done.error;
-    return image::load_image(folder_.path() / file).value_or_throw().rgba;
+    run_well(words("render --mode reference --size 48x32 --samples 4 " + scene + " -o " + output), more);
+    return png(file).rgba;
   }
   static double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     double sum = 0;
@@ -272,9 +254,7 @@ TEST_F(TankScene, TakesBouncesFromTheCommandLine) {
 
 TEST_F(TankScene, TheCameraOrbitsItsTarget) {
   render("tank.toml", {"--orbit", "360", "--frames", "0-1"}, "f_%04d.png", "f_0001.png");
-  const auto frame = [&](const char* name) {
-    return image::load_image(folder_.path() / name).value_or_throw().rgba;
-  };
+  const auto frame = [&](const char* name) { return png(name).rgba; };
   const auto front = render("tank.toml", {"--time", "0"});
   EXPECT_EQ(frame("f_0000.png"), front);
   // From behind: the same camera but for roundings, which few pixels show.

@@ -1,31 +1,21 @@
 // --color-map, --opacity and --range of a volume without a timeline.
 #include <gtest/gtest.h>
 
-#include "image/decode.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
-class TransferOptions : public testing::Test {
+class TransferOptions : public RoomTest {
  protected:
   TransferOptions() {
-    const Outcome baked =
-        run_brume(folder_.path(), {"bake", "pyroclastic", "--edge", "32", "-o", "scan.brv"});
-    EXPECT_EQ(baked.exit_code, 0) << baked.error;
+    run_well({"bake", "pyroclastic", "--edge", "32", "-o", "scan.brv"});
     folder_.write("t.toml", "version = 1\nscene = \"scan.brv\"\n");
-    folder_.write("room.obj", room_obj());
   }
-  Outcome render(const std::string& input, const std::string& output,
-                 const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"render", input, "-o", output, "--size", "48x36"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_brume(folder_.path(), arguments);
+  Outcome render(const std::string& input, const std::string& output, const Arguments& more) const {
+    return run({"render", input, "-o", output, "--size", "48x36"}, more);
   }
-  std::vector<std::uint8_t> png(const std::string& name) const {
-    return image::load_image(folder_.path() / name).value_or_throw().rgba;
-  }
-  WorkFolder folder_;
+  std::vector<std::uint8_t> png(const std::string& name) const { return CommandTest::png(name).rgba; }
 };
 
 TEST_F(TransferOptions, ChangeThePicture) {

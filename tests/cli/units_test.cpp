@@ -6,24 +6,18 @@
 #include <cstring>
 #include <map>
 
-#include "core/file.hpp"
-#include "tests/cli/run_program.hpp"
+#include "tests/cli/command_test.hpp"
 
 namespace brume::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Arguments = std::vector<std::string>;
 using Files = std::map<std::string, std::string>;
 
-class Units : public testing::Test {
+class Units : public CommandTest {
  protected:
-  Outcome run(Arguments arguments, const Arguments& more = {}) const {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_brume(folder_.path(), arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-    return outcome;
+  Outcome run(const Arguments& arguments, const Arguments& more = {}) const {
+    return run_well(arguments, more);
   }
   /// The files whose names begin so, hidden ones too.
   Files files(const std::string& start) const {
@@ -41,10 +35,9 @@ class Units : public testing::Test {
     run({"bake", "pyroclastic", "-o", "cloud_%d.brv", "--edge", "16", "--frames", "1-3"});
   }
 
-  const Arguments tanks_{"bake", "spheres",  "-o",  "tank_%02d.spheres", "--size", "20x20x20", "--count",
-                         "20",   "--radius", "1-3", "--frames",          "3-7"};
-  const Arguments slices_{"bake", "slices", "cloud_%d.brv", "-o", "s_%d.png", "--frames", "1-3"};
-  WorkFolder folder_;
+  const Arguments tanks_ =
+      words("bake spheres -o tank_%02d.spheres --size 20x20x20 --count 20 --radius 1-3 --frames 3-7");
+  const Arguments slices_ = words("bake slices cloud_%d.brv -o s_%d.png --frames 1-3");
 };
 
 // The shards cover all units, each once, and differ by at most one unit.
