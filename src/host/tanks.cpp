@@ -5,6 +5,7 @@
 
 #include "api/ranges.hpp"
 #include "host/frame.hpp"
+#include "scene/level_tank.hpp"
 #include "scene/tank_options.hpp"
 #include "spheres/file.hpp"
 
