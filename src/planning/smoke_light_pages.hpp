@@ -57,7 +57,7 @@ class SmokeLightPages {
   LitBrick& acquire(std::uint32_t slot, glm::ivec3 brick);
   /// The rays of a brick to a light, made where there are none; most likely those at index `hint`.
   static CachedRays& rays_to(LitBrick& brick, std::uint32_t light, std::size_t hint);
-  /// Gives rays `count` pages that follow each other where they have none; `fits` was asked before.
+  /// Gives rays `count` pages that follow each other where they have none. The caller checks `fits` before.
   void allocate(CachedRays& rays, std::uint32_t count);
 
   /// No ray holds; which texels have any stays known.

@@ -131,6 +131,15 @@ class FrameInputTest : public VolumeFixture {
           << (row.shows_nothing ? row.shows_nothing : "the field shows nothing");
     }
   }
+  /// The slices of the frame, and others of one value.
+  std::shared_ptr<const grids::DenseVolumes> two_slices() const {
+    grids::DenseGrid other;
+    other.size = {2, 2, 2};
+    other.values.assign(8, 0.9f);
+    other.box = {glm::dvec3(-1), glm::dvec3(1)};
+    return std::make_shared<const grids::DenseVolumes>(
+        grids::DenseVolumes{(*input_.slices)[0], std::make_shared<const grids::DenseVolume>(2, other)});
+  }
   static planning::VolumeInput& volume(FrameInput& input) { return input.volumes[0]; }
   static void add_heat(FrameInput& input) {
     volume(input).heat = {&warmth(), volume(input).world_from_voxel, 1500, 1, 1};
@@ -213,7 +222,9 @@ TEST_F(FrameInputTest, TheView) {
        {},
        "nothing is accumulated (RendererOptions::antialias, MediaOptions::temporal)"},
   });
-  // The mean of two samples is another picture than the second alone.
+}
+
+TEST_F(FrameInputTest, TheMeanOfTwoSamplesIsAnotherPictureThanTheSecond) {
   FrameInput second = input_;
   second.view.sample = {{0.4f, 0.4f}, {}, 1, 2};
   FrameInput first = input_;
@@ -360,9 +371,6 @@ TEST_F(FrameInputTest, Volumes) {
   [[maybe_unused]] const auto& [amount, size, drift, grow] = noise;
   [[maybe_unused]] const auto& [detail_from_file, detail_noise, densest, detail_time] = detail;
   [[maybe_unused]] const auto& [wear, billow, wind] = detail_noise;
-  const auto tinted = field<std::uint64_t>({2, 2, 2}, [](glm::vec3 p) {
-    return glm::packHalf4x16({p.x / 16, 0.5f, 0.2f, 0});
-  });
   expect_rows({
       {"volumes", [](FrameInput& input) { input.volumes.clear(); }},
       {"volume", [this](FrameInput& input) { volume(input).volume = &preview_; }},
@@ -375,14 +383,27 @@ TEST_F(FrameInputTest, Volumes) {
       {"look.emission", [](FrameInput& input) { volume(input).look.emission = glm::vec3(0.3f); }},
       {"look.anisotropy", [](FrameInput& input) { volume(input).look.anisotropy = -0.5f; }},
       {"look.multiple_scattering", [](FrameInput& input) { volume(input).look.multiple_scattering = 0; }},
+      // Light is found by the preview, too.
+      {"preview", [this](FrameInput& input) { volume(input).preview = &preview_; }},
+      {"index",
+       [](FrameInput& input) { volume(input).index = 3; },
+       {},
+       "it names the volume to what glows in it, and nothing does"},
+      {"voxel_depth", [](FrameInput& input) { volume(input).voxel_depth = 2 * shared::kDenseVoxelDepth; }},
+  });
+}
+
+TEST_F(FrameInputTest, WhatGlowsInVolumes) {
+  const auto tinted = field<std::uint64_t>({2, 2, 2}, [](glm::vec3 p) {
+    return glm::packHalf4x16({p.x / 16, 0.5f, 0.2f, 0});
+  });
+  expect_rows({
       {"heat", add_heat},
       {"heat.world_from_voxel", [](FrameInput& input) { volume(input).heat.world_from_voxel[3].x += 0.4f; },
        add_heat},
       {"heat.kelvin", [](FrameInput& input) { volume(input).heat.kelvin = 1900; }, add_heat},
       {"heat.high", [](FrameInput& input) { volume(input).heat.high = 4; }, add_heat},
       {"heat.emission", [](FrameInput& input) { volume(input).heat.emission = 3; }, add_heat},
-      // Light is found by the preview, too.
-      {"preview", [this](FrameInput& input) { volume(input).preview = &preview_; }},
       {"transfer", add_transfer},
       {"transfer.color_map", [](FrameInput& input) { volume(input).transfer.color_map.name = "magma"; },
        add_transfer},
@@ -399,6 +420,11 @@ TEST_F(FrameInputTest, Volumes) {
          volume(input).colors = &tinted;
          volume(input).tints = {glm::vec3(0, 0, 2)};
        }},
+  });
+}
+
+TEST_F(FrameInputTest, NoiseInVolumes) {
+  expect_rows({
       {"disturbance", add_disturbance},
       {"disturbance.voxel_from_file",
        [](FrameInput& input) { volume(input).disturbance.voxel_from_file[0][0] = 2; }, add_disturbance},
@@ -423,31 +449,16 @@ TEST_F(FrameInputTest, Volumes) {
        add_detail},
       {"detail.densest", [](FrameInput& input) { volume(input).detail.densest = 2; }, add_detail},
       {"detail.time", [](FrameInput& input) { volume(input).detail.time = 2; }, add_detail},
-      {"index",
-       [](FrameInput& input) { volume(input).index = 3; },
-       {},
-       "it names the volume to what glows in it, and nothing does"},
-      {"voxel_depth", [](FrameInput& input) { volume(input).voxel_depth = 2 * shared::kDenseVoxelDepth; }},
   });
 }
 
-TEST_F(FrameInputTest, SlicesDecalsAndParticles) {
+TEST_F(FrameInputTest, SlicesAndDecals) {
   [[maybe_unused]] const auto& [placement, volume, strength, gamma, correction, falloff, fade, scatter,
                                 middle, radius] = input_.decals[0];
-  [[maybe_unused]] const auto& [from_uvw, slices, tints, extinction, count, quad, seed, time, drift, swirl,
-                                swirl_seconds, softness, index] = input_.particles[0];
   const auto decal_row = [](const char* field, float planning::DecalInput::*member, float value) {
     return FieldChange{field, [=](FrameInput& input) { input.decals[0].*member = value; }};
   };
-  const auto particle_row = [](const char* field, auto planning::ParticleInput::*member, auto value) {
-    return FieldChange{field, [=](FrameInput& input) { input.particles[0].*member = value; }};
-  };
-  grids::DenseGrid other;
-  other.size = {2, 2, 2};
-  other.values.assign(8, 0.9f);
-  other.box = {glm::dvec3(-1), glm::dvec3(1)};
-  const auto two = std::make_shared<const grids::DenseVolumes>(
-      grids::DenseVolumes{(*input_.slices)[0], std::make_shared<const grids::DenseVolume>(2, other)});
+  const auto two = two_slices();
   const auto curved = [](FrameInput& input) { input.decals[0].gamma = 0.4f; };
   const auto with_two = [&](FrameInput& input) { input.slices = two; };
   expect_rows({
@@ -468,6 +479,18 @@ TEST_F(FrameInputTest, SlicesDecalsAndParticles) {
        },
        [](FrameInput& input) { input.decals[0].radius = 0.2f; }},
       decal_row("decals[0].radius", &planning::DecalInput::radius, 0.2f),
+  });
+}
+
+TEST_F(FrameInputTest, Particles) {
+  [[maybe_unused]] const auto& [from_uvw, slices, tints, extinction, count, quad, seed, time, drift, swirl,
+                                swirl_seconds, softness, index] = input_.particles[0];
+  const auto particle_row = [](const char* field, auto planning::ParticleInput::*member, auto value) {
+    return FieldChange{field, [=](FrameInput& input) { input.particles[0].*member = value; }};
+  };
+  const auto two = two_slices();
+  const auto with_two = [&](FrameInput& input) { input.slices = two; };
+  expect_rows({
       {"particles", [](FrameInput& input) { input.particles.clear(); }},
       {"particles[0].world_from_uvw",
        [](FrameInput& input) { input.particles[0].world_from_uvw[3].y += 0.2f; }},
