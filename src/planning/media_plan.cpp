@@ -105,7 +105,7 @@ glm::vec3 lengths_of(const glm::mat3& axes) {
 /// The tiles of a detail's noise per voxel.
 glm::vec3 detail_per_voxel(const VolumeDetailInput& detail) {
   const glm::vec3 voxels_per_unit = lengths_of(glm::mat3(detail.voxel_from_file));
-  constexpr float kVoxels = 4;  // as large as the largest billows, if the file does not say
+  constexpr float kVoxels = 4;  // size of the largest billows, if the file does not say
   const auto cells = static_cast<float>(smoke::kSmokeNoise.coarse_cells);
   const glm::vec3 size = detail.noise.size > 0 ? detail.noise.size * voxels_per_unit : glm::vec3(kVoxels);
   return 1.0f / (cells * size);
