@@ -42,7 +42,7 @@ struct TankCamera {
   uint blades;     // as lens_point
   vec3 up;         // scaled by tan(half the vertical field of view)
   uint lens_points;  // kLensRemap or kLensRejection
-  vec2 shift;        // of all rays, in units of right and up, as that of Camera
+  vec2 shift;        // of all rays, in units of right and up, as Camera::shift
 };
 SHARED_SIZE(TankCamera, 72);
 

@@ -14,7 +14,7 @@
 
 namespace brume::passes {
 
-/// The media that rays meet: those of the eye, or those of light.
+/// The media that view rays meet, or that light meets.
 struct MediaResources {
   std::uint32_t set = 0;  ///< Which there are: MediaPlan::media or MediaPlan::casters.
   const SmokeResources& smoke;

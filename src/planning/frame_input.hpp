@@ -131,7 +131,7 @@ struct TransferInput {
 
 /// Noise that moves the places at which a volume is sampled, at a time.
 struct DisturbanceInput {
-  glm::mat4 voxel_from_file{1};  ///< The file's units are those of the disturbance.
+  glm::mat4 voxel_from_file{1};  ///< The disturbance is in units of the file.
   scene::Disturbance noise = {};
   float time = 0;  ///< [s]
   bool empty() const { return noise.strength <= 0; }
@@ -139,7 +139,7 @@ struct DisturbanceInput {
 
 /// Noise below a volume's voxels, at a time.
 struct VolumeDetailInput {
-  glm::mat4 voxel_from_file{1};  ///< The file's units are those of the detail.
+  glm::mat4 voxel_from_file{1};  ///< The detail is in units of the file.
   scene::VolumeDetail noise = {};
   float densest = 1;  ///< The largest density: value, or opacity by a transfer function.
   float time = 0;     ///< [s]
@@ -194,7 +194,7 @@ struct FrameInput {
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
   std::vector<ParticleInput> particles;
-  std::vector<TankInput> tanks;  ///< Over a host's surfaces, or those of the renderer's own level.
+  std::vector<TankInput> tanks;  ///< Over a host's surfaces or the renderer's own level.
   Quality quality;
   DebugRequest debug;
 

@@ -9,7 +9,7 @@
 namespace brume::planning {
 namespace {
 
-// Lights that are known beyond those of the frame.
+// Lights that are remembered besides the frame's.
 constexpr std::size_t kExtraLights = 32;
 
 /// Whether rays to one light are those to the other, as far as both reach.

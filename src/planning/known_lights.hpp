@@ -28,7 +28,7 @@ class KnownLights {
     std::uint32_t in_frame = kNone;  ///< Its index among the lights of the frame; kNone: it is not lit.
   };
 
-  /// Begins a frame. Numbers that were those of other lights before are in `renumbered`, until the next
+  /// Begins a frame. Numbers that other lights had before are in `renumbered`, until the next
   /// frame.
   void match(std::span<const shared::Light> lights);
   std::span<const std::uint32_t> renumbered() const { return renumbered_; }

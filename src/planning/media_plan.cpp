@@ -50,7 +50,7 @@ glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {
   return glm::mat4x3(glm::mat4(inverse));
 }
 
-/// Around a volume whose axes are those of the world.
+/// The bounds of a volume along the world's axes.
 Box<float> world_box(const shared::VolumeLayout& layout) {
   return {layout.origin_world + layout.bounds_min * layout.voxel_size,
           layout.origin_world + layout.bounds_max * layout.voxel_size};
