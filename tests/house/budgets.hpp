@@ -9,7 +9,7 @@
 
 namespace brume::house {
 
-/// CPU seconds by the name of a program.
+/// CPU seconds in user mode by the name of a program.
 using Seconds = std::map<std::string, double>;
 
 /// The lines "NAME SECONDS" of a text; others are comments.
