@@ -7,7 +7,7 @@
 #include "passes/blue_noise.hpp"
 #include "planning/tank_plan.hpp"
 #include "render/parts/tanks.hpp"
-#include "render/tank_renderer.hpp"
+#include "render/tank_picture.hpp"
 #include "scenario/tank.hpp"
 #include "spheres/brick_lists.hpp"
 #include "spheres/pack.hpp"
@@ -128,18 +128,17 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
     camera.lens.blades = 6;
   }
   gpu::CommandRunner runner(bench.context());
-  render::TankRenderer renderer(bench.context(), runner, tank, size, picture.ids);
-  renderer.set_kind(picture.view);
+  render::TankPicture drawn(bench.context(), runner, tank, picture.ids);
   const planning::TankPlan plan = planning::plan_tank(scene, tank, 0, size, camera);
-  renderer.set_view(plan, planning::plan_tank_display(scene, size));
+  drawn.show(plan, planning::plan_tank_display(scene, size));
   if (picture.photons > 0) {
     spheres::LightPathOptions options;
     options.count = picture.photons;
-    renderer.set_photons(spheres::trace_light_paths(tank, spheres::list_bricks(tank),
-                                                    planning::light_path_scene(plan), options));
+    drawn.set_photons(spheres::trace_light_paths(tank, spheres::list_bricks(tank),
+                                                 planning::light_path_scene(plan), options));
   }
   Measurement m = time_pass(bench, runner, picture.name, {"tank"},
-                            [&](gpu::Recorder& recorder) { renderer.record_samples(recorder, 1); });
+                            [&](gpu::Recorder& recorder) { drawn.record(recorder, {1}); });
   m.details = {{"width", double(size.x)}, {"height", double(size.y)}};
   for (const auto& scope : runner.timings()) m.details[std::string(scope.name)] = scope.milliseconds;
   return std::vector{m};

@@ -11,7 +11,7 @@
 #include "gpu/context.hpp"
 #include "reference/picture.hpp"
 #include "reference/tank_tracer.hpp"
-#include "render/tank_pictures.hpp"
+#include "render/playback.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {
@@ -40,22 +40,22 @@ struct TankJob {
 
 Json render_on_device(const TankJob& job) {
   gpu::Context context({job.options.device, false});
-  render::TankPictures pictures(context, job.scenario, job.plan.renderer.size_px);
-  if (job.options.samples) pictures.set_samples(*job.options.samples);
+  render::TankPlayback playback(context, job.scenario, job.plan.renderer.size_px);
+  if (job.options.samples) playback.set_samples(*job.options.samples);
   const Stopwatch drawing;
   write(job.options, job.plan, job.common, job.film({context.info().name, context.info().driver}),
         [&](double seconds, std::uint32_t frame) -> Picture {
-          pictures.set_camera(job.camera_at(seconds, frame));
-          Picture picture = job.plan.has_layers ? Picture(pictures.draw_layers(seconds, is_interrupted))
-                                                : Picture(pictures.draw(seconds, is_interrupted));
+          playback.set_camera(job.camera_at(seconds, frame));
+          Picture picture = job.plan.has_layers ? Picture(playback.draw_layers(seconds, is_interrupted))
+                                                : Picture(playback.draw(seconds, is_interrupted));
           stop_if_interrupted();
           return picture;
         });
   Json passes = Json::object();
-  for (const auto& scope : pictures.timings()) passes.set(std::string(scope.name), scope.milliseconds);
+  for (const auto& scope : playback.timings()) passes.set(std::string(scope.name), scope.milliseconds);
   return {{"device", context.info().name},
           {"driver", context.info().driver},
-          {"samples_per_pixel", pictures.samples()},
+          {"samples_per_pixel", playback.samples()},
           {"seconds_drawing", drawing.seconds()},
           {"gpu_milliseconds_of_last_samples", passes}};
 }

@@ -11,6 +11,7 @@
 #include "apps/viewer/figures.hpp"
 #include "apps/viewer/frame_log.hpp"
 #include "apps/viewer/notice_list.hpp"
+#include "apps/viewer/refiner.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/viewer_options.hpp"
 #include "apps/viewer/window_choices.hpp"
@@ -109,19 +110,22 @@ class Document {
 
   // Frames.
 
-  /// Shows a frame with `ui` over it; false if there is nothing to wait for.
-  virtual bool draw(const ImDrawData& ui, double frame_seconds) = 0;
+  /// What draws it; from prepare() until release().
+  virtual Refiner& refiner() = 0;
+  /// Shows something that requires less of the device from the next frame on, if there is such a thing.
+  virtual bool fall_back(const Error&) { return false; }
   /// Takes the times of a frame, when the device has finished it.
-  virtual void finish_frame(FrameFigures figures) = 0;
-  virtual PictureKind kind() const = 0;
-  /// Whether no frame will be another one without an input.
-  virtual bool is_idle() const = 0;
+  virtual void finish_frame(FrameFigures figures, PictureKind kind) = 0;
+  /// Whether nothing moves without an input.
+  virtual bool is_at_rest() const = 0;
 
-  // Files. Each says whether it was saved.
+  // Files.
 
-  virtual Result<void> save_picture(const std::filesystem::path& path, glm::uvec2 size_px, bool complete) = 0;
+  /// Saves what reproduces the picture of now, which is saved, too.
+  virtual Result<void> save_snapshot(const std::filesystem::path& path) = 0;
   /// What F5 saves: the name of its file without number, and how.
   virtual const char* name_of_recording() const = 0;
+  /// Says whether it was saved.
   virtual Result<void> save_recording(const std::filesystem::path& path) = 0;
   /// Removes what would recover the session: the user ends it.
   virtual void discard() {}
@@ -134,7 +138,6 @@ class Document {
   void notify(const std::string& line) { notices_.add(line); }
   std::vector<std::string> recent_notices() { return notices_.recent(); }
 
- protected:
   Result<void> say_saved(const std::filesystem::path& path, Result<void> saved) {
     notify(saved ? "saved: " + path.string() : saved.failure().message);
     return saved;

@@ -3,8 +3,7 @@
 
 #include "apps/viewer/autosave.hpp"
 #include "apps/viewer/document.hpp"
-#include "apps/viewer/level_painter.hpp"
-#include "apps/viewer/screenshot.hpp"
+#include "apps/viewer/level_refiner.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "core/log.hpp"
 #include "scene/timeline_writer.hpp"
@@ -48,11 +47,11 @@ class LevelDocument final : public Document {
   }
 
   void prepare(Screen& screen, bool /*takes_made*/) override {
-    painter_.emplace(screen, window_, scenario(), options_.volume_bytes);
+    refiner_.emplace(screen, window_, scenario(), options_.volume_bytes, game_, quality_);
     masks_ = scenario().masks.key();
     if (!loaded_ || !scenario().measure_exposure) return;
     std::vector<shared::Hole> holes;
-    const float factor = painter_->measure_exposure(
+    const float factor = refiner_->measure_exposure(
         planning::frame_input(scenario(), loaded_->simulation(), loaded_->seconds(), holes));
     loaded_->set_first_exposure(std::log2(factor)).value_or_throw();
   }
@@ -72,7 +71,7 @@ class LevelDocument final : public Document {
     }
   }
   bool is_loaded() const override { return game_.has_value(); }
-  void release() override { painter_.reset(); }
+  void release() override { refiner_.reset(); }
 
   // Input.
 
@@ -106,7 +105,7 @@ class LevelDocument final : public Document {
   void update(bool new_shaders) override {
     update_autosave();
     if (const sim::MaskKey key = scenario().masks.key(); !(key == masks_)) {
-      painter_->set_masks(scenario().masks);
+      refiner_->set_masks(scenario().masks);
       masks_ = key;
     }
     if (new_shaders) game_->change_picture();
@@ -140,27 +139,23 @@ class LevelDocument final : public Document {
 
   // Frames.
 
-  bool draw(const ImDrawData& ui, double frame_seconds) override {
-    return painter_->draw(*game_, quality_.quality(), frame_seconds, ui);
-  }
-  void finish_frame(FrameFigures figures) override {
+  Refiner& refiner() override { return *refiner_; }
+  void finish_frame(FrameFigures figures, PictureKind kind) override {
     // The first frame has no duration, and paused frames are no measure of the cost of the film.
-    if (figures.frame_ms == 0 || !painter_->in_motion()) return;
+    if (figures.frame_ms == 0 || kind != PictureKind::film) return;
     double device_ms = 0;
     for (const auto& pass : figures.passes) device_ms += pass.milliseconds;
     // Excludes waiting for vertical sync.
-    figures.work_ms = device_ms + figures.tick_ms + 1e3 * painter_->record_seconds();
+    figures.work_ms = device_ms + figures.tick_ms + 1e3 * refiner_->record_seconds();
     quality_.add_frame(1e-3 * figures.work_ms, 1e-3 * figures.frame_ms);
     figures_.add(std::move(figures));
   }
-  PictureKind kind() const override { return painter_->kind(); }
-  bool is_idle() const override { return painter_->is_best() && session().paused(); }
+  bool is_at_rest() const override { return session().paused(); }
 
   // Files.
 
-  Result<void> save_picture(const std::filesystem::path& path, glm::uvec2 size_px,
-                            bool /*complete*/) override {
-    return say_saved(path, save_snapshot(path, painter_->picture(*game_, size_px), game_->snapshot()));
+  Result<void> save_snapshot(const std::filesystem::path& path) override {
+    return scene::save_timeline(path, game_->snapshot());
   }
   const char* name_of_recording() const override { return "recording"; }
   Result<void> save_recording(const std::filesystem::path& path) override {
@@ -213,9 +208,9 @@ class LevelDocument final : public Document {
   }
   Notices notices() const {
     const Refinement refinement = !session().paused()   ? Refinement::none
-                                  : painter_->is_best() ? Refinement::done
+                                  : refiner_->is_best() ? Refinement::done
                                                         : Refinement::drawing;
-    return {quality_.quality(), quality_.automatic(), refinement, pace_, painter_->picture_px()};
+    return {quality_.quality(), quality_.automatic(), refinement, pace_, refiner_->picture_px()};
   }
 
   Window& window_;
@@ -226,8 +221,8 @@ class LevelDocument final : public Document {
   QualityControl quality_;
   std::unique_ptr<Session> loaded_;  ///< Until it is the game's.
   std::optional<Game> game_;         ///< Empty while the level loads.
-  std::optional<LevelPainter> painter_;
-  sim::MaskKey masks_{};  ///< Key of the masks that the painter has.
+  std::optional<LevelRefiner> refiner_;
+  sim::MaskKey masks_{};  ///< Key of the masks that the refiner has.
   Figures figures_;
   double pace_ = 1;  ///< Session time per real time, smoothed.
 };

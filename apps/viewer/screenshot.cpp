@@ -2,9 +2,6 @@
 
 #include <cstdio>
 
-#include "image/png.hpp"
-#include "scene/timeline_writer.hpp"
-
 namespace brume::viewer {
 
 std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name,
@@ -23,12 +20,6 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
 
 std::filesystem::path snapshot_timeline(const std::filesystem::path& picture) {
   return std::filesystem::path(picture).replace_extension(".toml");
-}
-
-Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
-                           const scene::Timeline& snapshot) {
-  if (auto done = scene::save_timeline(snapshot_timeline(picture), snapshot); !done) return done;
-  return image::save_png(picture, image);
 }
 
 }  // namespace brume::viewer

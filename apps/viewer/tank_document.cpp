@@ -4,9 +4,8 @@
 #include "apps/viewer/document.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/tank_mouse.hpp"
-#include "apps/viewer/tank_painter.hpp"
+#include "apps/viewer/tank_refiner.hpp"
 #include "apps/viewer/tank_ui.hpp"
-#include "image/png.hpp"
 #include "scene/tank_writer.hpp"
 #include "spheres/file.hpp"
 
@@ -43,16 +42,16 @@ class TankDocument final : public Document {
   }
 
   void prepare(Screen& screen, bool takes_made) override {
-    if (!painter_) painter_.emplace(screen);
+    if (!refiner_) refiner_.emplace(screen, state_, tank_);
     const bool is_new = takes_made && made_;
     try {
-      painter_->load(is_new ? made_->scenario.tank : tank_, window_.size_px());
+      refiner_->load(is_new ? made_->scenario.tank : tank_, window_.size_px());
     } catch (const gpu::DeviceLost&) {
       throw;
     } catch (const Error&) {
       if (!is_new || !state_) throw;
       made_.reset();
-      painter_->load(tank_, window_.size_px());
+      refiner_->load(tank_, window_.size_px());
       throw;
     }
   }
@@ -75,7 +74,7 @@ class TankDocument final : public Document {
     if (options_.begin_at) state_->seek(*options_.begin_at);
   }
   bool is_loaded() const override { return state_.has_value(); }
-  void release() override { painter_.reset(); }
+  void release() override { refiner_.reset(); }
 
   // Input.
 
@@ -131,7 +130,7 @@ class TankDocument final : public Document {
     if (!mouse_.is_dragging()) state_->settle();
   }
   void update(bool new_shaders) override {
-    if (new_shaders) painter_->restart();
+    if (new_shaders) refiner_->restart();
   }
   double seconds() const override { return state_->seconds(); }
   double end_seconds() const override { return double{state_->scene().duration}; }
@@ -154,38 +153,27 @@ class TankDocument final : public Document {
 
   // Frames.
 
-  bool draw(const ImDrawData& ui, double /*frame_seconds*/) override {
-    try {
-      return painter_->draw(*state_, tank_, ui);
-    } catch (const gpu::DeviceLost&) {
-      throw;
-    } catch (const Error& error) {
-      // Voxels need more memory than spheres.
-      if (state_->scene().view == scene::TankView::spheres) throw;
-      notify(error.what());
-      state_->edit().view = scene::TankView::spheres;
-      painter_->restart();
-      return false;
-    }
+  Refiner& refiner() override { return *refiner_; }
+  // Voxels need more memory than spheres.
+  bool fall_back(const Error& error) override {
+    if (state_->scene().view == scene::TankView::spheres) return false;
+    notify(error.what());
+    state_->edit().view = scene::TankView::spheres;
+    refiner_->restart();
+    return true;
   }
-  void finish_frame(FrameFigures) override {
-    painter_->measure();
+  void finish_frame(FrameFigures, PictureKind) override {
+    refiner_->measure();
     ++frames_;
   }
-  PictureKind kind() const override { return painter_->kind(); }
-  bool is_idle() const override {
-    return painter_->is_best() && !state_->is_playing() && !options_.exit_after;
-  }
+  bool is_at_rest() const override { return !state_->is_playing() && !options_.exit_after; }
 
   // Files.
 
-  Result<void> save_picture(const std::filesystem::path& path, glm::uvec2 size_px, bool complete) override {
-    const image::Image8 picture = painter_->picture(
-        *state_, tank_, size_px, complete ? state_->scene().samples : 1, options_.check_signals);
-    auto saved = scene::save_tank_scene(snapshot_timeline(path), state_->snapshot(painter_->samples()));
-    if (saved) saved = image::save_png(path, picture);
-    saved = say_saved(path, std::move(saved));
-    if (saved && !state_->is_complete()) notify("its scene packs all spheres: save those of this tank, too");
+  Result<void> save_snapshot(const std::filesystem::path& path) override {
+    auto saved = scene::save_tank_scene(path, state_->snapshot(refiner_->samples()));
+    if (saved && !state_->is_complete())
+      notify("the picture's scene packs all spheres: save those of this tank, too");
     return saved;
   }
   const char* name_of_recording() const override { return "tank"; }
@@ -198,15 +186,15 @@ class TankDocument final : public Document {
     TankReport tank{tank_.spheres.size(), 0, glm::uvec2(0), packings_};
     if (state_) {
       report.seconds = options_.exit_after ? run_seconds_ : state_->seconds();
-      tank.samples = painter_->samples();
-      tank.picture_px = painter_->picture_px();
+      tank.samples = refiner_->samples();
+      tank.picture_px = refiner_->picture_px();
     }
     report.document = tank;
   }
 
  private:
   TankFigures figures() const {
-    return {painter_->samples(), painter_->seconds(), painter_->is_moving(), painter_->picture_px(),
+    return {refiner_->samples(), refiner_->seconds(), refiner_->is_moving(), refiner_->picture_px(),
             tank_.spheres.size()};
   }
 
@@ -223,7 +211,7 @@ class TankDocument final : public Document {
   std::optional<Made> made_;        ///< Until it is shown.
   std::optional<TankState> state_;  ///< Empty while the first tank is made.
   spheres::Tank tank_;
-  std::optional<TankPainter> painter_;
+  std::optional<TankRefiner> refiner_;
   TankChoices choices_;
   TankMouse mouse_;
   double run_seconds_ = 0;  ///< Time on the way to options_.exit_after.

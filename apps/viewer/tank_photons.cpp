@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "render/tank_renderer.hpp"
+#include "render/tank_picture.hpp"
 
 namespace brume::viewer {
 
@@ -39,14 +39,13 @@ spheres::LightPaths TankPhotons::trace(const spheres::Tank& tank, std::uint32_t 
 }
 
 bool TankPhotons::is_ready_for(std::uint32_t samples) const {
-  return wanted_ == 0 || !is_complete() || batch_ == render::TankRenderer::batch_of(samples);
+  return wanted_ == 0 || !is_complete() || batch_ == render::TankPicture::batch_of(samples);
 }
 
 std::optional<TankPhotons::Change> TankPhotons::update(const spheres::Tank& tank,
                                                        const spheres::LightPathScene& scene,
                                                        std::uint32_t count, std::uint32_t samples,
                                                        bool moves) {
-  if (!(scene.glass.index > 0) || scene.lights.empty()) count = 0;
   if (count != wanted_ || (count > 0 && !same_light(scene, scene_))) {
     stop();
     if (!bricks_ && count > 0) bricks_ = spheres::list_bricks(tank);
@@ -59,7 +58,7 @@ std::optional<TankPhotons::Change> TankPhotons::update(const spheres::Tank& tank
   }
   if (wanted_ == 0) return std::nullopt;
 
-  const std::uint32_t batch = is_complete() ? render::TankRenderer::batch_of(samples) : 0;
+  const std::uint32_t batch = is_complete() ? render::TankPicture::batch_of(samples) : 0;
   if (is_complete() && batch != batch_ && batch == 0) {
     batch_ = 0;
     return Change{first_, false};

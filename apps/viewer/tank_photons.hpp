@@ -27,9 +27,10 @@ class TankPhotons {
   TankPhotons(const TankPhotons&) = delete;
   TankPhotons& operator=(const TankPhotons&) = delete;
 
-  /// What is to be shown from now on: `count` light paths of a scene, for a picture that has `samples`.
+  /// What is to be shown from now on: `count` light paths of a scene (planning::light_path_count), for a
+  /// picture that has `samples`.
   /// Returns a preview for another scene; all of them are traced when nothing `moves`, and returned by a
-  /// later call, as is the next batch (render::TankRenderer::batch_of). `tank` is the same until
+  /// later call, as is the next batch (render::TankPicture::batch_of). `tank` is the same until
   /// restart().
   std::optional<Change> update(const spheres::Tank& tank, const spheres::LightPathScene& scene,
                                std::uint32_t count, std::uint32_t samples, bool moves);

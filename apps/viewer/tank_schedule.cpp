@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "render/tank_renderer.hpp"
-
 namespace brume::viewer {
 namespace {
 
@@ -16,32 +14,28 @@ double pixels(glm::uvec2 size) {
 
 }  // namespace
 
-void TankSchedule::begin_frame(bool changed) {
-  still_frames_ = changed ? 0 : std::min(still_frames_ + 1, kFramesUntilRest);
-}
-
-glm::uvec2 TankSchedule::picture_px(glm::uvec2 window_px) const {
-  if (!is_moving()) return window_px;
+glm::uvec2 TankSchedule::picture_px(glm::uvec2 window_px, bool is_moving) const {
+  if (!is_moving) return window_px;
   std::uint32_t divisor = 1;
   while (divisor < kSmallest && pixels(window_px / divisor) * seconds_per_sample_ > kMoving) ++divisor;
   return glm::max(window_px / divisor, glm::uvec2(1));
 }
 
-TankSlice TankSchedule::next(glm::uvec2 size_px, std::uint32_t samples, std::uint32_t rows,
-                             std::uint32_t limit) const {
+render::TankSlice TankSchedule::next(glm::uvec2 size_px, std::uint32_t samples, std::uint32_t rows,
+                                     std::uint32_t limit, bool is_moving) const {
   if (samples >= limit) return {};
-  const double affordable = (is_moving() ? kMoving : kResting) / seconds_per_sample_;  // samples of a pixel
+  const double affordable = (is_moving ? kMoving : kResting) / seconds_per_sample_;  // samples of a pixel
   // A picture that moves is small, and never shown in parts.
-  if (rows == 0 && (is_moving() || affordable >= pixels(size_px))) {
+  if (rows == 0 && (is_moving || affordable >= pixels(size_px))) {
     const double whole = std::clamp(affordable / pixels(size_px), 1.0, double(kMostSamples));
     return {std::min(static_cast<std::uint32_t>(whole), limit - samples), 0};
   }
-  constexpr std::uint32_t kStep = render::TankRenderer::kRows;
+  constexpr std::uint32_t kStep = render::TankSampler::kRows;
   const double steps = std::clamp(affordable / (double(size_px.x) * kStep), 1.0, 1e6);
   return {0, std::min(kStep * static_cast<std::uint32_t>(steps), size_px.y - rows)};
 }
 
-void TankSchedule::measured(double seconds, glm::uvec2 size_px, const TankSlice& slice) {
+void TankSchedule::measured(double seconds, glm::uvec2 size_px, const render::TankSlice& slice) {
   const double count = slice.samples > 0 ? pixels(size_px) * slice.samples : double(size_px.x) * slice.rows;
   if (count == 0 || seconds <= 0) return;
   const double now = seconds / count;

@@ -4,36 +4,27 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-namespace brume::viewer {
+#include "render/tank_picture.hpp"
 
-/// What the next frame adds.
-struct TankSlice {
-  std::uint32_t samples = 0;  ///< More samples of each pixel; 0: a part of one.
-  std::uint32_t rows = 0;     ///< Rows of that part, where samples is 0.
-};
+namespace brume::viewer {
 
 class TankSchedule {
  public:
   /// What a frame may take while something moves, and at rest [s].
   static constexpr double kMoving = 0.05, kResting = 0.1;
-  /// Frames without a change until the picture has the window's size again.
-  static constexpr int kFramesUntilRest = 3;
   /// Most samples in a submission: drivers take a device that works for longer to be hung.
   static constexpr std::uint32_t kMostSamples = 64;
 
-  /// To be called once a frame. `changed`: the picture is another one than before.
-  void begin_frame(bool changed);
-  bool is_moving() const { return still_frames_ < kFramesUntilRest; }
-
   /// The size of the picture for a window of this size: at most the window's, in whole fractions of it while
   /// something moves.
-  glm::uvec2 picture_px(glm::uvec2 window_px) const;
+  glm::uvec2 picture_px(glm::uvec2 window_px, bool is_moving) const;
   /// The next part of a picture of this size that has `samples`, and `rows` of one more. Nothing (0, 0) when
   /// it has `limit` samples.
-  TankSlice next(glm::uvec2 size_px, std::uint32_t samples, std::uint32_t rows, std::uint32_t limit) const;
+  render::TankSlice next(glm::uvec2 size_px, std::uint32_t samples, std::uint32_t rows, std::uint32_t limit,
+                         bool is_moving) const;
 
   /// The time that a slice took on the device [s].
-  void measured(double seconds, glm::uvec2 size_px, const TankSlice& slice);
+  void measured(double seconds, glm::uvec2 size_px, const render::TankSlice& slice);
   /// What was measured no longer holds: what is drawn has changed.
   void restart() { seconds_per_sample_ = kFirstGuess; }
 
@@ -41,7 +32,6 @@ class TankSchedule {
   /// The figure of a slow device [s]: the first frame of a fast one is merely smaller than it could be.
   static constexpr double kFirstGuess = 1e-6;
   double seconds_per_sample_ = kFirstGuess;  ///< Time of one sample of one pixel.
-  int still_frames_ = 0;
 };
 
 }  // namespace brume::viewer

@@ -8,6 +8,7 @@
 
 #include "apps/viewer/document.hpp"
 #include "apps/viewer/job.hpp"
+#include "apps/viewer/painter.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/shader_reload.hpp"
 #include "apps/viewer/ui.hpp"
@@ -65,16 +66,17 @@ class Viewer {
   // The screen.
 
   void make_screen() {
-    screen_ = std::make_unique<Screen>(
+    painter_ = std::make_unique<Painter>(
         window_, ScreenOptions{options_.device, options_.validation, options_.vertical_sync});
   }
   void release_screen() {
-    if (screen_) screen_->finish();
+    if (painter_) screen().finish();
     document_.release();
-    screen_.reset();
+    painter_.reset();
   }
+  Screen& screen() { return painter_->screen(); }
   void take_messages() {
-    for (std::string& message : screen_->context().take_validation_messages())
+    for (std::string& message : screen().context().take_validation_messages())
       messages_.push_back(std::move(message));
   }
 
@@ -93,7 +95,7 @@ class Viewer {
     const auto due = [&](const std::optional<double>& at, bool& is_lost) {
       return at && document_.seconds() >= *at && !std::exchange(is_lost, true);
     };
-    if (due(options_.lose_surface, surface_lost_)) screen_->lose_surface();
+    if (due(options_.lose_surface, surface_lost_)) screen().lose_surface();
     if (due(options_.lose_device, device_lost_))
       throw gpu::DeviceLost(ErrorCode::no_device, "lost for a test");
   }
@@ -111,8 +113,8 @@ class Viewer {
   // Prepares in another thread, which has the device for itself: the window draws nothing new, but stays
   // alive.
   void prepare(bool takes_made) {
-    screen_->wait();
-    auto done = std::async(std::launch::async, [&] { document_.prepare(*screen_, takes_made); });
+    screen().wait();
+    auto done = std::async(std::launch::async, [&] { document_.prepare(screen(), takes_made); });
     while (done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) window_.poll(0);
     done.get();
     if (takes_made) document_.adopt();
@@ -140,12 +142,12 @@ class Viewer {
   }
 
   void show_loading(const Work& work) {
-    screen_->wait();
+    screen().wait();
     ui_.begin_frame();
     if (ui_.lay_out_loading(options_.level_name, work, options_.overlay)) job_->stop();
-    if (!screen_->begin()) return;
-    screen_->show([](gpu::Recorder&) {}, nullptr, *ImGui::GetDrawData());
-    screen_->wait();
+    if (!screen().begin()) return;
+    screen().show([](gpu::Recorder&) {}, nullptr, *ImGui::GetDrawData());
+    screen().wait();
   }
 
   // One frame while there is nothing to show yet. Work that nobody can stop shows only its seconds.
@@ -194,15 +196,16 @@ class Viewer {
     Status status;
     status.lines = document_.recent_notices();
     if (job_) status.work = work();
-    status.device = screen_->context().info().name;
-    status.device_bytes = screen_->context().memory().bytes_in_use();
-    status.timings = screen_->timings();
+    status.device = screen().context().info().name;
+    status.device_bytes = screen().context().memory().bytes_in_use();
+    status.timings = screen().timings();
     for (const auto& [name, text] : shaders_.errors()) status.shader_errors += text;
     return status;
   }
 
   void frame() {
-    window_.poll(document_.is_idle() ? kIdleSeconds : 0);
+    const bool is_idle = painter_->kind() == PictureKind::best && document_.is_at_rest();
+    window_.poll(is_idle ? kIdleSeconds : 0);
     if (job_ && job_->wait(0)) adopt();
     const Clock::time_point begin = Clock::now();
     const Input input = take_input();
@@ -222,10 +225,10 @@ class Viewer {
     if (!ui_.is_editing()) document_.settle();
 
     // The picture.
-    document_.update(shaders_.update(screen_->context()));
-    screen_->set_vertical_sync(document_.choices().vertical_sync);
+    document_.update(shaders_.update(screen().context()));
+    screen().set_vertical_sync(document_.choices().vertical_sync);
     lose_for_tests();
-    if (document_.draw(*ImGui::GetDrawData(), frame_seconds)) {
+    if (painter_->draw(document_, frame_seconds, *ImGui::GetDrawData())) {
       finish_frame(begin, std::move(figures));
     } else {
       window_.poll(kIdleSeconds);
@@ -234,11 +237,11 @@ class Viewer {
   }
 
   void finish_frame(Clock::time_point begin, FrameFigures figures) {
-    screen_->wait();
+    screen().wait();
     figures.latency_ms = 1e3 * seconds_between(begin, Clock::now());
-    figures.passes = screen_->timings();
-    log_frame(figures, document_.kind());
-    document_.finish_frame(std::move(figures));
+    figures.passes = screen().timings();
+    log_frame(figures, painter_->kind());
+    document_.finish_frame(std::move(figures), painter_->kind());
   }
   void log_frame(const FrameFigures& figures, PictureKind kind) {
     if (!log_) log_.emplace(options_.frame_log);
@@ -248,7 +251,7 @@ class Viewer {
                    figures.latency_ms,
                    window_.size_px(),
                    kind};
-    line.device_bytes = screen_->context().memory().bytes_in_use();
+    line.device_bytes = screen().context().memory().bytes_in_use();
     line.shader_faults = shaders_.errors().size();
     if (options_.log_widgets) log_->add_widgets(ui_.widgets());
     log_->add(line);
@@ -257,9 +260,10 @@ class Viewer {
   // Files and the end.
 
   void save_picture(const std::filesystem::path& path) {
-    screen_->wait();
+    screen().wait();
     const glm::uvec2 size = glm::max(window_.size_px(), glm::uvec2(1));
-    const auto saved = document_.save_picture(path, size, done_);
+    const auto saved =
+        document_.say_saved(path, painter_->save(document_, path, size, done_, options_.check_signals));
     if (!saved && done_) throw Error(saved.failure());
   }
   void save_recording(const std::filesystem::path& path) {
@@ -271,12 +275,12 @@ class Viewer {
     done_ = true;
     job_.reset();
     if (document_.is_loaded() && !options_.record.empty()) save_recording(options_.record);
-    screen_->wait();
+    screen().wait();
     ViewerReport report;
-    report.device = screen_->context().info().name;
+    report.device = screen().context().info().name;
     document_.report(report);
     report.process_bytes = resident_bytes();
-    report.device_bytes = screen_->context().memory().bytes_in_use();
+    report.device_bytes = screen().context().memory().bytes_in_use();
     report.shader_reloads = shaders_.reloads();
     report.devices_lost = devices_lost_;
     take_messages();
@@ -290,7 +294,7 @@ class Viewer {
   Ui ui_;
   std::optional<FrameLog> log_;  ///< From the first frame on: an earlier file remains until then.
   ShaderReload shaders_;
-  std::unique_ptr<Screen> screen_;
+  std::unique_ptr<Painter> painter_;
 
   std::unique_ptr<Job> job_;   ///< Running, or null.
   double shown_seconds_ = -1;  ///< Age of the job as shown.

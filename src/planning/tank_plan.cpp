@@ -1,7 +1,9 @@
 #include "planning/tank_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/same_bytes.hpp"
 #include "planning/device_camera.hpp"
 
 namespace brume::planning {
@@ -46,9 +48,18 @@ TankPlan plan_tank_alone(const scene::TankScene& scene, const spheres::Tank& tan
 
 }  // namespace
 
+bool same_samples(const TankPlan& a, const TankPlan& b) {
+  return a.view == b.view && a.lighting == b.lighting && a.photons == b.photons &&
+         same_bytes(a.constants, b.constants) &&
+         std::ranges::equal(a.lights, b.lights, same_bytes<shared::TankLight>);
+}
+
 TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
                    const std::optional<scene::Camera>& camera) {
   TankPlan plan = plan_tank_alone(scene, tank, time, size_px);
+  plan.view = scene.view;
+  plan.lighting = scene.lighting;
+  plan.photons = scene.photons;
   const scene::Camera from = camera ? *camera : scene::camera_at(scene, size_of(tank), time);
   plan.constants.camera = tank_camera(device_camera(from, size_px), from, scene::TankVoxels(tank));
   plan.constants.camera.lens_points =
@@ -79,6 +90,12 @@ spheres::LightPathScene light_path_scene(const TankPlan& plan) {
   for (const shared::TankLight& light : plan.lights)
     scene.lights.push_back({light.position, light.radius, light.intensity});
   return scene;
+}
+
+std::uint32_t light_path_count(const TankPlan& plan) {
+  const bool has_paths =
+      plan.view == scene::TankView::spheres && plan.constants.glass.index > 0 && !plan.lights.empty();
+  return has_paths ? plan.photons : 0;
 }
 
 TankDisplay plan_tank_display(const scene::TankScene& scene, glm::uvec2 size_px) {

@@ -1,6 +1,7 @@
 #include "render/playback.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/progress.hpp"
@@ -14,6 +15,10 @@ namespace {
 constexpr float kStepScaleOfOneSample = 0.5f;
 /// Transmittance at which rays end in files that are graded later: five stops up show no edge there.
 constexpr float kOpaqueForGrading = 1e-4f;
+/// A submission of a tank's samples takes about this long [s], so that a stop is noticed and no device thinks
+/// that it hangs.
+constexpr double kSubmission = 0.2;
+constexpr std::uint32_t kMostSamplesOfSubmission = 64;
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
@@ -101,6 +106,69 @@ image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_in
              {[&](gpu::Recorder& recorder, bool) { layers_->record(recorder, renderer_); },
               [&] { mean.add(layers_->image()); }, true});
   return mean.mean();
+}
+
+TankPlayback::TankPlayback(gpu::Context& context, const scenario::TankScenario& scenario, glm::uvec2 size_px)
+    : context_(context),
+      scenario_(scenario),
+      runner_(context),
+      bricks_(spheres::list_bricks(scenario.tank)),
+      picture_(context, runner_, scenario.tank),
+      size_px_(size_px),
+      samples_(scenario.scene.samples) {}
+
+void TankPlayback::trace_batch(const planning::TankPlan& plan, const std::function<bool()>& stopped) {
+  const spheres::LightPathScene scene = planning::light_path_scene(plan);
+  const std::uint32_t batch = TankPicture::batch_of(picture_.samples());
+  // The light of the frame before, as long as neither the lights nor the glass move.
+  if (traced_ && spheres::same_light(*traced_, scene) && batch == batch_) return;
+  spheres::LightPathOptions options;
+  options.count = plan.photons;
+  options.seed = batch;
+  picture_.replace_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));
+  traced_ = scene;
+  batch_ = batch;
+}
+
+void TankPlayback::add_samples(double seconds, const std::function<bool()>& stopped) {
+  Progress progress("samples", samples_);
+  const planning::TankPlan plan =
+      planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_);
+  picture_.restart();
+  picture_.show(plan, planning::plan_tank_display(scenario_.scene, size_px_));
+  const bool has_batches = planning::light_path_count(plan) > 0;
+  std::uint32_t count = 1;
+  while (picture_.samples() < samples_ && !(stopped && stopped())) {
+    if (has_batches) trace_batch(plan, stopped);
+    count = std::min({count, samples_ - picture_.samples(), kMostSamplesOfSubmission});
+    if (has_batches) count = std::min(count, TankPicture::rest_of_batch(picture_.samples()));
+    const auto begin = std::chrono::steady_clock::now();
+    runner_.run([&](gpu::Recorder& recorder) { picture_.record(recorder, {count}); });
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    progress.advance(count);
+    count = taken.count() < 0.5 * kSubmission ? 2 * count
+            : taken.count() > kSubmission     ? std::max(count / 2, 1u)
+                                              : count;
+  }
+}
+
+image::Image8 TankPlayback::draw(double seconds, const std::function<bool()>& stopped) {
+  add_samples(seconds, stopped);
+  return read_picture(context_, runner_, picture_.display());
+}
+
+image::LayeredImage TankPlayback::draw_layers(double seconds, const std::function<bool()>& stopped) {
+  add_samples(seconds, stopped);
+  const auto sum = gpu::read_texels<glm::vec4>(context_, runner_, picture_.sampler().sum());
+  image::LayeredImage image{size_px_.x, size_px_.y, {}};
+  constexpr const char* kNames[]{"R", "G", "B"};
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<float> values(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      values[i] = sum[i][channel] / static_cast<float>(picture_.samples());
+    image.layers.push_back({kNames[channel], std::move(values)});
+  }
+  return image;
 }
 
 }  // namespace brume::render

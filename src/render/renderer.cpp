@@ -177,7 +177,8 @@ FrameResources Renderer::resources(const FramePlan& plan) const {
           .step_counters = picture_ ? picture_->step_counters(plan) : nullptr};
 }
 
-// The kinds of frames: on our own surfaces, of a part of a volume, over a host's surfaces.
+// The kinds of frames: on our own surfaces, of a part of a volume, over a host's surfaces. TankPicture is the
+// one of a tank alone, which shares nothing with them but its samples.
 
 void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   for (int part = 0; part < kParts; ++part) record_part(recorder, plan, part);

@@ -35,16 +35,6 @@ void TankSampler::resize(glm::uvec2 size_px) {
   radiance_ = picture_image(context_, size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
 }
 
-void TankSampler::set_kind(scene::TankView kind) {
-  restart();
-  if (kind == scene::TankView::voxels && !voxels_) {
-    volume_.add_colors(context_);
-    find_voxels();
-    voxels_.emplace(context_, volume_.size);
-  }
-  kind_ = kind;
-}
-
 void TankSampler::find_voxels() {
   if (!sphere_voxels_pass_) sphere_voxels_pass_.emplace(context_);
   stream_.run([&](gpu::Recorder& recorder) {
@@ -53,22 +43,22 @@ void TankSampler::find_voxels() {
   });
 }
 
-void TankSampler::set_lighting(scene::TankLighting lighting) {
-  restart();
-  lighting_ = lighting;
-  if (voxels_) voxels_->is_lit.change(context_) = false;
-}
-
 void TankSampler::set_view(const planning::TankPlan& plan, std::uint32_t index) {
   BRUME_ASSERT(plan.lights.size() <= scene::kMostTankLights, "too many lights");
-  const bool same_light = plan.constants.air.ambient == plan_.constants.air.ambient &&
+  restart();  // before anything that may throw
+  if (plan.view == scene::TankView::voxels && !voxels_) {
+    volume_.add_colors(context_);
+    find_voxels();
+    voxels_.emplace(context_, volume_.size);
+  }
+  const bool same_light = plan.lighting == plan_.lighting &&
+                          plan.constants.air.ambient == plan_.constants.air.ambient &&
                           std::ranges::equal(plan.lights, plan_.lights, same_bytes<shared::TankLight>);
   if (voxels_ && !same_light) voxels_->is_lit.change(context_) = false;
   plan_ = plan;
-  restart();
   index_ = index;
-  if (kind_ == scene::TankView::voxels && !voxels_->is_lit.get(context_))
-    voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
+  if (plan_.view == scene::TankView::voxels && !voxels_->is_lit.get(context_))
+    voxels_->light_pass.reserve(volume_, plan_.lights, plan_.lighting);
 }
 
 void TankSampler::set_photons(const spheres::LightPaths& paths) {
@@ -100,13 +90,13 @@ void TankSampler::record_light(gpu::Recorder& recorder) {
 void TankSampler::record_dispatch(gpu::Recorder& recorder, const gpu::Image& blue_noise, std::uint32_t count,
                                   std::uint32_t rows, const gpu::Image* surfaces) {
   record_upload(recorder);
-  if (kind_ == scene::TankView::voxels) record_light(recorder);
+  if (plan_.view == scene::TankView::voxels) record_light(recorder);
   const passes::TankInputs inputs{volume_, constants_, lights_, photons_, photon_cells_, blue_noise};
   const passes::TankTargets targets{sum_, radiance_, surfaces};
   const Done& done = done_.get(context_);
   const shared::TankSamples samples{done.samples, count, done.rows, index_};
   const gpu::Scope scope(recorder, "tank");
-  if (kind_ == scene::TankView::voxels)
+  if (plan_.view == scene::TankView::voxels)
     voxels_->pass.record(recorder, inputs, voxels_->light, targets, samples, rows);
   else
     spheres_pass_.record(recorder, inputs, targets, samples, rows);

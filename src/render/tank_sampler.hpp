@@ -26,14 +26,11 @@ class TankSampler {
 
   // When the device is done with what was recorded before; all throw resource_limit, and the picture begins
   // again but for replace_photons.
+  void restart() { done_.change(context_) = {}; }
   /// Pictures of another size.
   void resize(glm::uvec2 size_px);
-  /// What stands for the spheres from the next picture on; voxels need more memory.
-  void set_kind(scene::TankView kind);
-  /// How voxels are lit from the next picture on.
-  void set_lighting(scene::TankLighting lighting);
-  /// What the samples from the next one on show. `index`: of the first one; samples of other indices have
-  /// other noise.
+  /// What the samples from the next one on show; voxels need more memory than spheres. `index`: of the first
+  /// one; samples of other indices have other noise.
   void set_view(const planning::TankPlan& plan, std::uint32_t index = 0);
   /// Light of the view's lights that comes through the glass, from the next picture on.
   void set_photons(const spheres::LightPaths& paths);
@@ -51,12 +48,13 @@ class TankSampler {
   /// Rows of one more sample.
   std::uint32_t rows() const { return done_.get(context_).rows; }
 
+  /// What the samples show.
+  const planning::TankPlan& plan() const { return plan_; }
   const gpu::Image& radiance() const { return radiance_; }  ///< Half floats; the mean of all samples.
   const gpu::Image& sum() const { return sum_; }            ///< Floats: of the radiance of all samples.
   const passes::TankVolume& volume() const { return volume_; }
 
  private:
-  void restart() { done_.change(context_) = {}; }
   void find_voxels();
   void record_upload(gpu::Recorder& recorder);
   void record_light(gpu::Recorder& recorder);
@@ -83,8 +81,6 @@ class TankSampler {
   gpu::Buffer constants_, lights_, photons_, photon_cells_;
   planning::TankPlan plan_;
   shared::PhotonGrid photon_grid_{0, 0};
-  scene::TankView kind_ = scene::TankView::spheres;
-  scene::TankLighting lighting_ = scene::TankLighting::maps;
   /// What the picture consists of so far.
   struct Done {
     std::uint32_t samples = 0, rows = 0;

@@ -1,7 +1,7 @@
 // Tanks of spheres in a host's frames: over its surfaces, under the smoke.
 #include <bit>
 
-#include "render/tank_renderer.hpp"
+#include "render/tank_picture.hpp"
 #include "spheres/file.hpp"
 #include "tests/host/hosted_pair.hpp"
 #include "tests/passes/half.hpp"
@@ -110,18 +110,18 @@ class TankTest : public HostedPair {
   std::vector<glm::dvec4> reference(std::uint32_t samples, scene::TankView view, const glm::vec3& behind) {
     scene::TankScene scene = scene_;
     scene.sky.zenith = scene.sky.horizon = behind;
-    std::optional<render::TankRenderer> renderer;
+    scene.view = view;
+    std::optional<render::TankPicture> picture;
     host_->frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording_->begin(commands, frame, completed);
-      renderer.emplace(*gpu_, *recording_, tank_, kSize);
-      renderer->set_kind(view);
+      picture.emplace(*gpu_, *recording_, tank_);
       const planning::TankPlan plan = planning::plan_tank(scene, tank_, 0, kSize, camera_);
-      renderer->set_photons(spheres::trace_light_paths(
+      picture->set_photons(spheres::trace_light_paths(
           tank_, spheres::list_bricks(tank_), planning::light_path_scene(plan), {.count = scene.photons}));
-      renderer->set_view(plan, planning::plan_tank_display(scene, kSize));
-      renderer->record_samples(recording_->recorder(), samples);
+      picture->show(plan, planning::plan_tank_display(scene, kSize));
+      picture->record(recording_->recorder(), {samples});
       copies_.push_back(readback_buffer(*gpu_));
-      recording_->recorder().read_back(renderer->radiance(), copies_.back());
+      recording_->recorder().read_back(picture->sampler().radiance(), copies_.back());
       recording_->end();
     });
     host_->wait();

@@ -27,18 +27,18 @@ TEST_F(TankFurnaceTest, ASphereInAnEvenSkyHasItsAlbedoTimesTheAmbientLight) {
   const glm::dvec3 albedo = reference::TankModel(tank, scene).albedo(0);
   // All of the picture is sphere: a cone of 0.1 around the middle, at a distance of 1 m.
   const scene::Camera camera{{0.5f, 0.4f, 0.7f}, {0, 0, 0}, 0.1f};
-  TankRenderer renderer(context(), runner(), tank, kSize);
+  TankPicture picture(context(), runner(), tank);
   for (const std::uint32_t bounces : {0u, 1u, 2u, 16u}) {
     SCOPED_TRACE(bounces);
     scene.bounces = bounces;
-    for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, 16))
+    for (const glm::dvec3& pixel : draw(picture, scene, tank, camera, kSize, 16))
       expect_near(pixel, 0.7 * albedo, kRounding);
   }
   // Nine bits of each channel of a voxel's light.
   for (const scene::TankLighting lighting : {scene::TankLighting::maps, scene::TankLighting::exact}) {
-    renderer.set_kind(scene::TankView::voxels);
-    renderer.set_lighting(lighting);
-    for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, 16))
+    scene.view = scene::TankView::voxels;
+    scene.lighting = lighting;
+    for (const glm::dvec3& pixel : draw(picture, scene, tank, camera, kSize, 16))
       expect_near(pixel, 0.7 * albedo, 0x1p-9);
   }
 }
@@ -65,12 +65,12 @@ TEST_F(TankFurnaceTest, WhiteSpheresVanishWithManyBounces) {
     double most_again;  // of what is scattered, what is scattered again
   };
   for (const Row& row : {Row{pair, 0.25}, Row{cloud, 1 - std::exp(-depth)}}) {
-    TankRenderer renderer(context(), runner(), row.tank, kSize);
+    TankPicture picture(context(), runner(), row.tank);
     std::vector<double> lacking;
     for (const std::uint32_t bounces : {1u, 2u, 4u, 16u}) {
       scene.bounces = bounces;
       double sum = 0;
-      for (const glm::dvec3& pixel : draw(renderer, scene, row.tank, camera, kSize, 64)) {
+      for (const glm::dvec3& pixel : draw(picture, scene, row.tank, camera, kSize, 64)) {
         EXPECT_LE(pixel.g, 1 + kRounding);
         sum += 1 - pixel.g;
       }
@@ -96,11 +96,11 @@ TEST_F(TankFurnaceTest, AnotherSphereTakesItsPartOfTheSky) {
   scene::TankScene scene = dark_scene();
   scene.sky.ambient = glm::vec3(1);
   // From between the two at that point of the first: the ray is on the second's axis.
-  TankRenderer renderer(context(), runner(), tank, kSize);
+  TankPicture picture(context(), runner(), tank);
   const scene::Camera camera = narrow_camera({0, 0, 0}, {-0.04, 0, 0});
   constexpr std::uint32_t kSamples = 256;
   double seen = 0;
-  for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, kSamples))
+  for (const glm::dvec3& pixel : draw(picture, scene, tank, camera, kSize, kSamples))
     seen += pixel.g / (kSize.x * kSize.y);
   const double hidden = 8.0 * 8 / (16 * 16);
   // Of as many independent rays, four deviations, 3 % of the hidden part.
@@ -174,7 +174,7 @@ TEST_F(TankFogTest, DependsOnTheLengthOfTheRayAlone) {
       {{0.005, 0.016, 3}, {0.005, 0.016, 0}},    {{-2, 0.0171, 0.0323}, {0, 0.0171, 0.0323}},
       {{0.9, 0.7, 1.1}, {0.031, 0.012, -0.053}}, {{-0.8, 0.9, -0.7}, {0.012, -0.043, 0.021}},
       {{0.013, 0.011, 0.021}, {-0.3, 0.5, 0.9}}, {{1, 0.5, 0}, {1, 0.5, -1}}};
-  const scene::TankScene scene = foggy();
+  scene::TankScene scene = foggy();
   const glm::dvec3 sky(scene.sky.zenith);
   double longest = 0;
   int compared = 0;
@@ -183,13 +183,13 @@ TEST_F(TankFogTest, DependsOnTheLengthOfTheRayAlone) {
     // Sizes that are multiples of a brick's, and others.
     const glm::uvec3 size(48 + phase % 5, 56 + phase % 3, 64 + phase % 7);
     const spheres::Tank tank = dotted_tank(size, phase);
-    TankRenderer renderer(context(), runner(), tank, kSize);
+    TankPicture picture(context(), runner(), tank);
     for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-      renderer.set_kind(view);
+      scene.view = view;
       for (const FoggyRay& ray : rays) {
         if (!misses_dots(ray, size, phase)) continue;
         const double length = ray.length(glm::dvec3(size) * 0.01);
-        for (const glm::dvec3& pixel : draw(renderer, scene, tank, narrow_camera(ray.from, ray.to), kSize, 2))
+        for (const glm::dvec3& pixel : draw(picture, scene, tank, narrow_camera(ray.from, ray.to), kSize, 2))
           expect_near(pixel, seen_through(sky, length), kRounding);
         longest = std::max(longest, length);
         ++compared;
@@ -209,18 +209,18 @@ TEST_F(TankFogTest, EndsWhereASphereBegins) {
     spheres::Tank tank = tank_of(kTank);
     put(tank, {20, 20, 20 + phase}, 10, kWhite);
     const glm::dvec3 middle(0, 0, 0.01 * phase - 0.2);
-    TankRenderer renderer(context(), runner(), tank, kSize);
+    TankPicture picture(context(), runner(), tank);
     for (const glm::dvec3& from : {glm::dvec3(0, 0, 2), glm::dvec3(0.3, 0.2, 1.5)}) {
       const FoggyRay ray{from, middle};
       const glm::dvec3 expected = seen_through(
           glm::dvec3(0.7), ray.length(glm::dvec3(kTank) * 0.01, glm::distance(from, middle) - 0.1));
       for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-        renderer.set_kind(view);
+        scene.view = view;
         // Of voxels, the face is at most the diagonal of one off; light has nine bits.
         const double off = view == scene::TankView::voxels
                                ? 0.7 * (kExtinction * std::sqrt(3.0) * 0.01 + 0x1p-9)
                                : kRounding;
-        for (const glm::dvec3& pixel : draw(renderer, scene, tank, narrow_camera(from, middle), kSize, 2))
+        for (const glm::dvec3& pixel : draw(picture, scene, tank, narrow_camera(from, middle), kSize, 2))
           expect_near(pixel, expected, off);
       }
     }
@@ -235,18 +235,18 @@ TEST_F(TankFogTest, GoesOnInAMediumThatDimsIt) {
   spheres::Tank tank = tank_of(kTank);
   put(tank, {16.5f, 16.5f, 30.5f}, 14, 4u << 24);
   const double a = -std::log1p(-4 / 255.0) / 0.01, k = kExtinction, chord = 0.28;
-  const scene::TankScene scene = foggy();
+  scene::TankScene scene = foggy();
   const glm::dvec3 color(kColor), sky(scene.sky.zenith);
   // From 0.195 m before the ball to 0.165 m behind it.
   const glm::dvec3 behind = std::exp(-(k + a) * chord) * seen_through(sky, 0.165);
   const glm::dvec3 expected =
       seen_through(color * (k / (k + a) * (1 - std::exp(-(k + a) * chord))) + behind, 0.195);
-  TankRenderer renderer(context(), runner(), tank, kSize);
+  TankPicture picture(context(), runner(), tank);
   const scene::Camera camera = narrow_camera({0.005, 0.005, 2}, {0.005, 0.005, 0});
   for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-    renderer.set_kind(view);
+    scene.view = view;
     glm::dvec3 mean(0);
-    for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, 64))
+    for (const glm::dvec3& pixel : draw(picture, scene, tank, camera, kSize, 64))
       mean += pixel / static_cast<double>(kSize.x * kSize.y);
     // Spheres: events at random, of which none changes the radiance by more than 0.8. Voxels: at both ends of
     // the ball one may be painted that is not in it, and a voxel does not dim the fog that is in itself.
@@ -261,10 +261,10 @@ TEST_F(TankFogTest, IsNotInTheGlass) {
   scene::TankScene scene = foggy();
   scene.glass = scene::TankGlass{{0, 0, 0.2f}, glm::vec3(0.3f), 1.0f};
   const spheres::Tank tank = tank_of({40, 40, 80});
-  TankRenderer renderer(context(), runner(), tank, kSize);
+  TankPicture picture(context(), runner(), tank);
   for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-    renderer.set_kind(view);
-    for (const glm::dvec3& pixel : draw(renderer, scene, tank, narrow_camera({0, 0, 3}, {0, 0, 0}), kSize, 2))
+    scene.view = view;
+    for (const glm::dvec3& pixel : draw(picture, scene, tank, narrow_camera({0, 0, 3}, {0, 0, 0}), kSize, 2))
       expect_near(pixel, seen_through(glm::dvec3(scene.sky.zenith), 0.3), kRounding);
   }
 }

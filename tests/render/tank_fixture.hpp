@@ -2,7 +2,7 @@
 #pragma once
 
 #include "planning/tank_plan.hpp"
-#include "render/tank_renderer.hpp"
+#include "render/tank_picture.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/path_tracer/tank_fixture.hpp"
 
@@ -13,26 +13,27 @@ using reference::dark_scene, reference::grey, reference::kLooser, reference::kPi
 
 class TankPicturesTest : public gpu::GpuTest {
  protected:
-  /// What a renderer shows next: from its first sample on.
-  static void set_view(TankRenderer& renderer, const scene::TankScene& scene, const spheres::Tank& tank,
-                       const scene::Camera& camera, glm::uvec2 size_px) {
-    renderer.set_view(planning::plan_tank(scene, tank, 0, size_px, camera),
-                      planning::plan_tank_display(scene, size_px));
+  /// What a picture shows next: from its first sample on.
+  static void begin(TankPicture& picture, const scene::TankScene& scene, const spheres::Tank& tank,
+                    const scene::Camera& camera, glm::uvec2 size_px) {
+    picture.restart();
+    picture.show(planning::plan_tank(scene, tank, 0, size_px, camera),
+                 planning::plan_tank_display(scene, size_px));
   }
-  static void add_samples(TankRenderer& renderer, std::uint32_t count) {
-    runner().run([&](gpu::Recorder& recorder) { renderer.record_samples(recorder, count); });
+  static void add_samples(TankPicture& picture, std::uint32_t count) {
+    runner().run([&](gpu::Recorder& recorder) { picture.record(recorder, {count}); });
   }
-  static std::vector<glm::vec4> sums(const TankRenderer& renderer) {
-    return read_back<glm::vec4>(renderer.sum());
+  static std::vector<glm::vec4> sums(const TankPicture& picture) {
+    return read_back<glm::vec4>(picture.sampler().sum());
   }
   /// Radiance of each pixel.
-  static std::vector<glm::dvec3> draw(TankRenderer& renderer, const scene::TankScene& scene,
+  static std::vector<glm::dvec3> draw(TankPicture& picture, const scene::TankScene& scene,
                                       const spheres::Tank& tank, const scene::Camera& camera,
                                       glm::uvec2 size_px, std::uint32_t samples) {
-    set_view(renderer, scene, tank, camera, size_px);
-    add_samples(renderer, samples);
+    begin(picture, scene, tank, camera, size_px);
+    add_samples(picture, samples);
     std::vector<glm::dvec3> pixels;
-    for (const glm::vec4& sum : sums(renderer))
+    for (const glm::vec4& sum : sums(picture))
       pixels.push_back(glm::dvec3(sum) / static_cast<double>(samples));
     return pixels;
   }

@@ -46,13 +46,13 @@ class TankLensTest : public TankPicturesTest {
     scene_.lens_points = points;
     scene::Camera camera{{0, 0, kDistance}, {0, 0, 0}, static_cast<float>(2 * std::atan(kHalf))};
     camera.lens = {.aperture = kAperture, .focus = focus, .blades = blades};
-    TankRenderer renderer(context(), runner(), tank_, kLensSize);
-    set_view(renderer, scene_, tank_, camera, kLensSize);
+    TankPicture picture(context(), runner(), tank_);
+    begin(picture, scene_, tank_, camera, kLensSize);
     Blob blob;
     std::vector<glm::vec4> before(kLensSize.x * kLensSize.y, glm::vec4(0));
     for (std::uint32_t batch = 0; batch < kBatches; ++batch) {
-      add_samples(renderer, kSamplesOfBatch);
-      const std::vector<glm::vec4> after = sums(renderer);
+      add_samples(picture, kSamplesOfBatch);
+      const std::vector<glm::vec4> after = sums(picture);
       add_moments(blob, before, after);
       before = after;
     }

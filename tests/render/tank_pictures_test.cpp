@@ -1,10 +1,9 @@
 // Pictures of tanks against the reference, which traces their paths in double (docs/how/path-tracer.md).
-#include "render/tank_pictures.hpp"
-
 #include <array>
 
 #include "core/tasks.hpp"
 #include "reference/tank_tracer.hpp"
+#include "render/playback.hpp"
 #include "tests/render/tank_fixture.hpp"
 
 namespace brume::render {
@@ -12,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kTruthSize{48, 32};
 constexpr std::uint32_t kBatches = reference::kFewer > 1 ? 8 : 48;
-constexpr std::uint32_t kSamplesOfBatch = TankRenderer::kSamplesOfBatch;
+constexpr std::uint32_t kSamplesOfBatch = TankPicture::kSamplesOfBatch;
 constexpr std::uint32_t kPixels = kTruthSize.x * kTruthSize.y;
 constexpr std::uint32_t kPhotonsOfBatch = 100000;
 
@@ -144,17 +143,17 @@ constexpr double kBlur = 0.01;
 
 class TankTruthTest : public TankPicturesTest {
  protected:
-  static Means means_of_device(TankRenderer& renderer, const Example& shown) {
+  static Means means_of_device(TankPicture& picture, const Example& shown) {
     const auto& [scene, tank] = shown.scenario;
     const planning::TankPlan plan = planning::plan_tank(scene, tank, 0, kTruthSize, shown.camera);
-    renderer.set_view(plan, planning::plan_tank_display(scene, kTruthSize));
+    picture.show(plan, planning::plan_tank_display(scene, kTruthSize));
     Means means;
     std::vector<glm::vec4> before(kPixels, glm::vec4(0));
     for (std::uint32_t batch = 0; batch < kBatches; ++batch) {
       if (scene.photons > 0)
-        renderer.replace_photons(light_paths(tank, planning::light_path_scene(plan), batch));
-      add_samples(renderer, kSamplesOfBatch);
-      const std::vector<glm::vec4> after = sums(renderer);
+        picture.replace_photons(light_paths(tank, planning::light_path_scene(plan), batch));
+      add_samples(picture, kSamplesOfBatch);
+      const std::vector<glm::vec4> after = sums(picture);
       Numbers numbers{};
       for (std::uint32_t y = 0; y < kTruthSize.y; ++y)
         for (std::uint32_t x = 0; x < kTruthSize.x; ++x) {
@@ -186,8 +185,8 @@ TEST_F(TankTruthTest, OpaqueSpheresAreThoseOfTheReference) {
   for (const std::uint32_t bounces : {0u, 2u}) {
     SCOPED_TRACE(bounces);
     const Example shown = example(Matter::opaque, bounces);
-    TankRenderer renderer(context(), runner(), shown.scenario.tank, kTruthSize);
-    expect_same(means_of_device(renderer, shown), means_of_reference(shown));
+    TankPicture picture(context(), runner(), shown.scenario.tank);
+    expect_same(means_of_device(picture, shown), means_of_reference(shown));
   }
 }
 
@@ -195,8 +194,8 @@ TEST_F(TankTruthTest, MediaAreThoseOfTheReference) {
   for (const std::uint32_t bounces : {0u, 2u}) {
     SCOPED_TRACE(bounces);
     const Example shown = example(Matter::media, bounces);
-    TankRenderer renderer(context(), runner(), shown.scenario.tank, kTruthSize);
-    expect_same(means_of_device(renderer, shown), means_of_reference(shown));
+    TankPicture picture(context(), runner(), shown.scenario.tank);
+    expect_same(means_of_device(picture, shown), means_of_reference(shown));
   }
 }
 
@@ -204,8 +203,8 @@ TEST_F(TankTruthTest, LightThroughTheGlassIsThatOfTheReference) {
   for (const std::uint32_t bounces : {0u, 2u}) {
     SCOPED_TRACE(bounces);
     const Example shown = example(Matter::mixed, bounces);
-    TankRenderer renderer(context(), runner(), shown.scenario.tank, kTruthSize);
-    const Means device = means_of_device(renderer, shown),
+    TankPicture picture(context(), runner(), shown.scenario.tank);
+    const Means device = means_of_device(picture, shown),
                 gathered = means_of_reference(shown, Through::light_paths);
     expect_same(device, gathered);
     // A third of the light or more.
@@ -217,14 +216,12 @@ TEST_F(TankTruthTest, LightThroughTheGlassIsThatOfTheReference) {
 
 TEST_F(TankTruthTest, PortionsOfSamplesAddUpToTheSameBits) {
   // A picture takes as many samples at once as its device manages in time.
-  const Example shown = example(Matter::media, 2);
-  const spheres::Tank& tank = shown.scenario.tank;
-  TankRenderer whole(context(), runner(), tank, kTruthSize), parts(context(), runner(), tank, kTruthSize);
+  Example shown = example(Matter::media, 2);
+  auto& [scene, tank] = shown.scenario;
+  TankPicture whole(context(), runner(), tank), parts(context(), runner(), tank);
   for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-    for (TankRenderer* renderer : {&whole, &parts}) {
-      renderer->set_kind(view);
-      set_view(*renderer, shown.scenario.scene, tank, shown.camera, kTruthSize);
-    }
+    scene.view = view;
+    for (TankPicture* picture : {&whole, &parts}) begin(*picture, scene, tank, shown.camera, kTruthSize);
     add_samples(whole, 13);
     for (const std::uint32_t count : {1u, 2u, 7u, 3u}) add_samples(parts, count);
     EXPECT_EQ(sums(whole), sums(parts));
@@ -235,18 +232,18 @@ TEST_F(TankTruthTest, PicturesTakeNewLightPathsEverySixteenSamples) {
   Example shown = example(Matter::mixed, 2);
   shown.scenario.scene.samples = 3 * kSamplesOfBatch - 5;
   const auto& [scene, tank] = shown.scenario;
-  TankPictures pictures(context(), shown.scenario, kTruthSize);
-  pictures.set_camera(shown.camera);
-  const image::LayeredImage image = pictures.draw_layers(0);
+  TankPlayback playback(context(), shown.scenario, kTruthSize);
+  playback.set_camera(shown.camera);
+  const image::LayeredImage image = playback.draw_layers(0);
 
-  TankRenderer renderer(context(), runner(), tank, kTruthSize);
+  TankPicture picture(context(), runner(), tank);
   const planning::TankPlan plan = planning::plan_tank(scene, tank, 0, kTruthSize, shown.camera);
-  renderer.set_view(plan, planning::plan_tank_display(scene, kTruthSize));
+  picture.show(plan, planning::plan_tank_display(scene, kTruthSize));
   for (std::uint32_t batch = 0; batch < 3; ++batch) {
-    renderer.replace_photons(light_paths(tank, planning::light_path_scene(plan), batch));
-    add_samples(renderer, batch < 2 ? kSamplesOfBatch : kSamplesOfBatch - 5);
+    picture.replace_photons(light_paths(tank, planning::light_path_scene(plan), batch));
+    add_samples(picture, batch < 2 ? kSamplesOfBatch : kSamplesOfBatch - 5);
   }
-  const std::vector<glm::vec4> expected = sums(renderer);
+  const std::vector<glm::vec4> expected = sums(picture);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto& values = std::get<std::vector<float>>(image.layers[c].values);
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -268,12 +265,12 @@ TEST_F(TankTruthTest, FramesOfAFilmAreThoseOfNewPictures) {
       if (moves == 1)
         scene.glass->keys = {{0, {0, 0, 0.6f}, glm::vec3(0.2f)}, {2, {0, 0, 0.7f}, glm::vec3(0.3f)}};
       if (moves == 2) scene.camera.push_back({2, {{0.7f, 0.5f, 0.8f}, {0, 0, 0}, 0.6f}});
-      TankPictures film(context(), shown.scenario, {24, 16});
+      TankPlayback film(context(), shown.scenario, {24, 16});
       std::vector<image::LayeredImage> frames;
       for (const double seconds : {0.0, 1.0, 0.0, 2.0}) {
         frames.push_back(film.draw_layers(seconds));
-        TankPictures picture(context(), shown.scenario, {24, 16});
-        const image::LayeredImage alone = picture.draw_layers(seconds);
+        const image::LayeredImage alone =
+            TankPlayback(context(), shown.scenario, {24, 16}).draw_layers(seconds);
         for (std::size_t c = 0; c < 3; ++c)
           EXPECT_TRUE(frames.back().layers[c].values == alone.layers[c].values) << seconds << " s";
       }

@@ -1,7 +1,7 @@
 // Parts of a tank's picture: rows of a sample at a time, other sizes, other exposures.
 
 #include "planning/tank_plan.hpp"
-#include "render/tank_renderer.hpp"
+#include "render/tank_picture.hpp"
 #include "scenario/tank.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
@@ -22,19 +22,19 @@ class TankRowsTest : public gpu::GpuTest {
     made.scene.lights = {{{0.2f, 0.6f, 0.8f}}};
     made.tank = scenario::make_tank(made.scene).value_or_throw();
   }
-  void set_view(TankRenderer& renderer, glm::uvec2 size_px) {
-    renderer.set_view(planning::plan_tank(scenario_.scene, scenario_.tank, 0, size_px),
-                      planning::plan_tank_display(scenario_.scene, size_px));
+  bool show(TankPicture& picture, glm::uvec2 size_px) {
+    return picture.show(planning::plan_tank(scenario_.scene, scenario_.tank, 0, size_px),
+                        planning::plan_tank_display(scenario_.scene, size_px));
   }
-  std::vector<glm::uvec4> sums(const TankRenderer& renderer) {  // as their bits
-    return read_back<glm::uvec4>(renderer.sum());
+  std::vector<glm::uvec4> sums(const TankPicture& picture) {  // as their bits
+    return read_back<glm::uvec4>(picture.sampler().sum());
   }
-  std::vector<std::uint32_t> shown(const TankRenderer& renderer) {
-    return read_back<std::uint32_t>(renderer.display());
+  std::vector<std::uint32_t> shown(const TankPicture& picture) {
+    return read_back<std::uint32_t>(picture.display());
   }
-  void add_samples(TankRenderer& renderer, std::uint32_t count) {
+  void add_samples(TankPicture& picture, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i)
-      runner().run([&](gpu::Recorder& recorder) { renderer.record_samples(recorder, 1); });
+      runner().run([&](gpu::Recorder& recorder) { picture.record(recorder, {1}); });
   }
 
   scenario::TankScenario scenario_;
@@ -42,17 +42,14 @@ class TankRowsTest : public gpu::GpuTest {
 
 TEST_F(TankRowsTest, RowsAddUpToTheSameBitsInBothViews) {
   for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
-    TankRenderer whole(context(), runner(), scenario_.tank, kPictureSize);
-    TankRenderer parts(context(), runner(), scenario_.tank, kPictureSize);
-    for (TankRenderer* renderer : {&whole, &parts}) {
-      renderer->set_kind(view);
-      set_view(*renderer, kPictureSize);
-    }
+    scenario_.scene.view = view;
+    TankPicture whole(context(), runner(), scenario_.tank), parts(context(), runner(), scenario_.tank);
+    for (TankPicture* picture : {&whole, &parts}) show(*picture, kPictureSize);
     add_samples(whole, 3);
     for (std::uint32_t sample = 0; sample < 3; ++sample)
       for (const std::uint32_t rows : {8u, 24u, 5u}) {
         EXPECT_EQ(parts.samples(), sample);
-        runner().run([&](gpu::Recorder& recorder) { parts.record_rows(recorder, rows); });
+        runner().run([&](gpu::Recorder& recorder) { parts.record(recorder, {0, rows}); });
       }
     EXPECT_EQ(parts.samples(), 3u);
     EXPECT_EQ(parts.rows(), 0u);
@@ -62,34 +59,37 @@ TEST_F(TankRowsTest, RowsAddUpToTheSameBitsInBothViews) {
 }
 
 TEST_F(TankRowsTest, AResizedPictureIsThatOfItsSize) {
-  TankRenderer renderer(context(), runner(), scenario_.tank, {16, 9});
-  set_view(renderer, {16, 9});
-  add_samples(renderer, 2);
-  renderer.resize(kPictureSize);
-  EXPECT_EQ(renderer.samples(), 0u);
-  set_view(renderer, kPictureSize);
-  add_samples(renderer, 2);
-  TankRenderer other(context(), runner(), scenario_.tank, kPictureSize);
-  set_view(other, kPictureSize);
+  TankPicture picture(context(), runner(), scenario_.tank);
+  show(picture, {16, 9});
+  add_samples(picture, 2);
+  EXPECT_TRUE(show(picture, kPictureSize));
+  EXPECT_EQ(picture.samples(), 0u);
+  add_samples(picture, 2);
+  TankPicture other(context(), runner(), scenario_.tank);
+  show(other, kPictureSize);
   add_samples(other, 2);
-  EXPECT_EQ(sums(renderer), sums(other));
+  EXPECT_EQ(sums(picture), sums(other));
 }
 
 TEST_F(TankRowsTest, TheExposureChangesThePictureAndNotItsSamples) {
-  TankRenderer renderer(context(), runner(), scenario_.tank, kPictureSize);
-  set_view(renderer, kPictureSize);
-  add_samples(renderer, 2);
-  const auto before = sums(renderer);
-  const auto dark = shown(renderer);
+  TankPicture picture(context(), runner(), scenario_.tank);
+  show(picture, kPictureSize);
+  add_samples(picture, 2);
+  const auto before = sums(picture);
+  const auto dark = shown(picture);
   scenario_.scene.exposure = 2;
-  renderer.set_display(planning::plan_tank_display(scenario_.scene, kPictureSize));
-  runner().run([&](gpu::Recorder& recorder) { renderer.record_display(recorder); });
-  EXPECT_EQ(sums(renderer), before);
-  EXPECT_NE(shown(renderer), dark);
-  const auto bright = shown(renderer);
-  set_view(renderer, kPictureSize);
-  add_samples(renderer, 2);
-  EXPECT_EQ(shown(renderer), bright);
+  EXPECT_FALSE(show(picture, kPictureSize));
+  runner().run([&](gpu::Recorder& recorder) {
+    EXPECT_TRUE(picture.record(recorder, {}));
+    EXPECT_FALSE(picture.record(recorder, {}));
+  });
+  EXPECT_EQ(sums(picture), before);
+  EXPECT_NE(shown(picture), dark);
+  const auto bright = shown(picture);
+  picture.restart();
+  show(picture, kPictureSize);
+  add_samples(picture, 2);
+  EXPECT_EQ(shown(picture), bright);
 }
 
 }  // namespace

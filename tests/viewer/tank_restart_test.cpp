@@ -2,7 +2,7 @@
 // that of a renderer that has never shown anything else.
 #include <functional>
 
-#include "apps/viewer/tank_painter.hpp"
+#include "apps/viewer/tank_refiner.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::viewer {
@@ -10,7 +10,7 @@ namespace {
 
 constexpr glm::uvec2 kRestarted(24, 16);
 /// More than a batch of light paths is good for.
-constexpr std::uint32_t kRestartSamples = render::TankRenderer::kSamplesOfBatch + 2;
+constexpr std::uint32_t kRestartSamples = render::TankPicture::kSamplesOfBatch + 2;
 
 spheres::Tank small_tank() {
   spheres::Tank tank{{40, 40, 24}, 0.01f, {}, {}};
@@ -37,47 +37,34 @@ scene::TankScene full_scene() {
 
 class TankRestartPictures : public gpu::GpuTest {
  protected:
-  /// A picture that goes on or begins again, as TankPainter decides.
   class Picture {
    public:
-    explicit Picture(const spheres::Tank& tank)
-        : tank_(tank), renderer_(context(), runner(), tank, kRestarted) {}
+    explicit Picture(const spheres::Tank& tank) : tank_(tank), picture_(context(), runner(), tank) {}
     /// Shows all samples of a scene; returns whether the picture has begun again.
     bool show(const scene::TankScene& scene, double seconds) {
       TankState state(scene, planning::size_of(tank_));
       state.seek(seconds);
-      const TankPictureKey key = picture_key(state, tank_, kRestarted);
-      const planning::TankDisplay display = planning::plan_tank_display(scene, kRestarted);
-      const bool begins = !drawn_ || !same_samples(key, *drawn_);
-      if (begins) {
-        if (!drawn_ || drawn_->lighting != key.lighting) renderer_.set_lighting(key.lighting);
-        if (!drawn_ || drawn_->view != key.view) renderer_.set_kind(key.view);
-        renderer_.set_view(key.plan, display);
-      }
-      renderer_.set_display(display);
-      drawn_ = key;
-      const std::uint32_t photons = key.view == scene::TankView::spheres ? key.photons : 0;
-      while (renderer_.samples() < kRestartSamples) {
-        const auto change =
-            photons_.complete(tank_, planning::light_path_scene(key.plan), photons, renderer_.samples());
-        if (change && change->restarts) renderer_.set_photons(change->paths);
-        if (change && !change->restarts) renderer_.replace_photons(change->paths);
-        constexpr std::uint32_t kBatch = render::TankRenderer::kSamplesOfBatch;
+      const planning::TankPlan plan = plan_picture(state, tank_, kRestarted);
+      const bool begins = picture_.show(plan, planning::plan_tank_display(scene, kRestarted));
+      while (picture_.samples() < kRestartSamples) {
+        const auto change = photons_.complete(tank_, planning::light_path_scene(plan),
+                                              planning::light_path_count(plan), picture_.samples());
+        if (change && change->restarts) picture_.set_photons(change->paths);
+        if (change && !change->restarts) picture_.replace_photons(change->paths);
         const std::uint32_t count =
-            std::min(kRestartSamples - renderer_.samples(), kBatch - renderer_.samples() % kBatch);
-        runner().run([&](gpu::Recorder& recorder) { renderer_.record_samples(recorder, count); });
+            std::min(kRestartSamples - picture_.samples(), picture_.rest_of_batch(picture_.samples()));
+        runner().run([&](gpu::Recorder& recorder) { picture_.record(recorder, {count}); });
       }
-      runner().run([&](gpu::Recorder& recorder) { renderer_.record_display(recorder); });
+      runner().run([&](gpu::Recorder& recorder) { picture_.record(recorder, {}); });
       return begins;
     }
-    std::vector<glm::vec4> sums() const { return read_back<glm::vec4>(renderer_.sum()); }
-    std::vector<glm::u8vec4> shown() const { return read_back<glm::u8vec4>(renderer_.display()); }
+    std::vector<glm::vec4> sums() const { return read_back<glm::vec4>(picture_.sampler().sum()); }
+    std::vector<glm::u8vec4> shown() const { return read_back<glm::u8vec4>(picture_.display()); }
 
    private:
     const spheres::Tank& tank_;
-    render::TankRenderer renderer_;
+    render::TankPicture picture_;
     TankPhotons photons_;
-    std::optional<TankPictureKey> drawn_;
   };
 
   struct Row {

@@ -8,7 +8,7 @@
 
 #include "apps/viewer/job.hpp"
 #include "apps/viewer/tank_mouse.hpp"
-#include "apps/viewer/tank_painter.hpp"
+#include "apps/viewer/tank_refiner.hpp"
 #include "scene/tank_writer.hpp"
 
 namespace brume::viewer {
@@ -217,7 +217,8 @@ TEST(TankStateTest, ASnapshotShowsWhatTheWindowDid) {
   EXPECT_EQ(shot.samples, 13u);
   EXPECT_EQ(shot.pack.count, spheres::PackOptions().count);
   const TankState again(shot, planning::size_of(tank));
-  EXPECT_TRUE(same_samples(picture_key(state, tank, {64, 36}), picture_key(again, tank, {64, 36})));
+  EXPECT_TRUE(
+      planning::same_samples(plan_picture(state, tank, {64, 36}), plan_picture(again, tank, {64, 36})));
 }
 
 TEST(TankStateTest, DiffersFromItsTankOnlyByWhatPacksIt) {
@@ -235,16 +236,16 @@ TEST(TankStateTest, DiffersFromItsTankOnlyByWhatPacksIt) {
 // Whatever shows in a picture begins it again; the exposure does not.
 TEST(TankRestartTest, AnyVisibleChangeBeginsThePictureAgain) {
   const spheres::Tank tank;
-  const auto key_after = [&](const std::function<void(scene::TankScene&)>& change, double seconds = 0) {
+  const auto plan_after = [&](const std::function<void(scene::TankScene&)>& change, double seconds = 0) {
     scene::TankScene scene = keyed_scene();
     change(scene);
     TankState state(scene, glm::vec3(1));
     state.seek(seconds);
-    return picture_key(state, tank, {64, 36});
+    return plan_picture(state, tank, {64, 36});
   };
-  const TankPictureKey still = key_after([](scene::TankScene&) {});
+  const planning::TankPlan still = plan_after([](scene::TankScene&) {});
   const auto restarts = [&](const std::function<void(scene::TankScene&)>& change) {
-    return !same_samples(still, key_after(change));
+    return !planning::same_samples(still, plan_after(change));
   };
   EXPECT_FALSE(restarts([](auto&) {}));
   EXPECT_FALSE(restarts([](auto& s) { s.exposure = 1; }));
@@ -260,7 +261,7 @@ TEST(TankRestartTest, AnyVisibleChangeBeginsThePictureAgain) {
   EXPECT_TRUE(restarts([](auto& s) { s.lights.pop_back(); }));
   EXPECT_TRUE(restarts([](auto& s) { s.glass.reset(); }));
   EXPECT_TRUE(restarts([](auto& s) { s.camera[0].camera.lens.aperture = 0.1f; }));
-  EXPECT_FALSE(same_samples(still, key_after([](auto&) {}, 2)));  // a light has moved
+  EXPECT_FALSE(planning::same_samples(still, plan_after([](auto&) {}, 2)));  // a light has moved
 }
 
 TEST(TankScheduleTest, DrawsLessWhileSomethingMovesAndAllAtRest) {
@@ -268,23 +269,16 @@ TEST(TankScheduleTest, DrawsLessWhileSomethingMovesAndAllAtRest) {
   constexpr double kSeconds = 0.25;
   TankSchedule schedule;
   schedule.measured(kSeconds, kWindow, {1, 0});
-  schedule.begin_frame(true);
-  const glm::uvec2 moving = schedule.picture_px(kWindow);
+  const glm::uvec2 moving = schedule.picture_px(kWindow, true);
   EXPECT_LT(moving.x, kWindow.x);
   EXPECT_LE(moving.x * moving.y * kSeconds / (kWindow.x * kWindow.y), TankSchedule::kMoving);
-  for (int i = 0; i < TankSchedule::kFramesUntilRest; ++i) {
-    EXPECT_TRUE(schedule.is_moving());
-    schedule.begin_frame(false);
-  }
-  EXPECT_FALSE(schedule.is_moving());
-  EXPECT_EQ(schedule.picture_px(kWindow), kWindow);
+  EXPECT_EQ(schedule.picture_px(kWindow, false), kWindow);
 
   // On a fast device the picture has the window's size all the time, and many samples a frame.
   TankSchedule fast;
   fast.measured(0.0001, kWindow, {1, 0});
-  fast.begin_frame(true);
-  EXPECT_EQ(fast.picture_px(kWindow), kWindow);
-  EXPECT_EQ(fast.next(kWindow, 0, 0, 1000).samples, TankSchedule::kMostSamples);
+  EXPECT_EQ(fast.picture_px(kWindow, true), kWindow);
+  EXPECT_EQ(fast.next(kWindow, 0, 0, 1000, true).samples, TankSchedule::kMostSamples);
 }
 
 TEST(TankScheduleTest, SlicesAddUpToAllSamples) {
@@ -292,17 +286,16 @@ TEST(TankScheduleTest, SlicesAddUpToAllSamples) {
     constexpr glm::uvec2 kPicture(640, 357);
     TankSchedule schedule;
     schedule.measured(seconds, kPicture, {1, 0});
-    for (int i = 0; i < TankSchedule::kFramesUntilRest; ++i) schedule.begin_frame(false);
     std::uint32_t samples = 0, rows = 0;
     for (int frames = 0;; ++frames) {
       ASSERT_LT(frames, 1000);
-      const TankSlice slice = schedule.next(kPicture, samples, rows, 17);
+      const render::TankSlice slice = schedule.next(kPicture, samples, rows, 17, false);
       if (slice.samples == 0 && slice.rows == 0) break;
       ASSERT_TRUE(slice.samples == 0 || rows == 0);
       samples += slice.samples;
       rows += slice.rows;
       ASSERT_LE(rows, kPicture.y);
-      ASSERT_TRUE(rows == kPicture.y || rows % render::TankRenderer::kRows == 0);
+      ASSERT_TRUE(rows == kPicture.y || rows % render::TankSampler::kRows == 0);
       if (rows == kPicture.y) ++samples, rows = 0;
     }
     EXPECT_EQ(samples, 17u);

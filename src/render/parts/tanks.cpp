@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/same_bytes.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/view_frustum.hpp"
 
@@ -16,11 +15,6 @@ constexpr std::uint32_t kMostSamples = 1u << 16;
 
 bool is_alike(const scenario::MovedObject& a, const scenario::MovedObject& b) {
   return a.object == b.object && a.world_from_mesh == b.world_from_mesh;
-}
-
-bool same_picture(const planning::TankPlan& a, const planning::TankPlan& b) {
-  return same_bytes(a.constants, b.constants) &&
-         std::ranges::equal(a.lights, b.lights, same_bytes<shared::TankLight>);
 }
 
 /// Glass may be anywhere.
@@ -63,19 +57,16 @@ TanksPart::Slot& TanksPart::slot_of(const planning::TankInput& tank) {
 void TanksPart::add(const planning::TankInput& tank, const planning::View& view) {
   Slot& slot = slot_of(tank);
   const bool continues = tank.continues && level_stands_ && slot.frame + 1 == frame_ &&
-                         slot.light == tank.light && slot.view == tank.view && slot.sampler.samples() > 0;
+                         slot.light == tank.light && slot.sampler.samples() > 0;
   slot.frame = frame_;
   shown_.push_back(&slot);
   planning::TankPlan plan = planning::plan_tank_in_frame(tank.light->scene, tank.content->tank,
                                                          tank.placement, view.camera, view.sample, size_px_);
+  plan.view = tank.view;
   if (slot.light != tank.light) slot.sampler.set_photons(tank.light->paths);
   slot.light = tank.light;
-  if (slot.view != tank.view) slot.sampler.set_kind(tank.view);
-  slot.view = tank.view;
-  if (!continues || !same_picture(plan, slot.plan)) {
+  if (!continues || !planning::same_samples(plan, slot.sampler.plan()))
     slot.sampler.set_view(plan, tank.index);
-    slot.plan = std::move(plan);
-  }
   slot.samples = std::min(tank.samples, kMostSamples - slot.sampler.samples());
 }
 

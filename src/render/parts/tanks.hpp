@@ -46,8 +46,6 @@ class TanksPart {
         : sampler(context, stream, tank_content.tank, tank_content.bricks) {}
     std::shared_ptr<const scene::TankContent> content;
     std::shared_ptr<const scene::TankIllumination> light;
-    std::optional<scene::TankView> view;
-    planning::TankPlan plan;
     TankSampler sampler;
     std::uint32_t samples = 0;  ///< To record in this frame.
     std::uint64_t frame = 0;    ///< The last one that it was planned for.
