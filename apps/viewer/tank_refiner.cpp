@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/playback.hpp"
+
 namespace brume::viewer {
 namespace {
 
@@ -52,28 +54,14 @@ void TankRefiner::reserve_shown() {
   if (!shown_ || shown_.info().size != size) shown_ = make_shown(screen_.context(), size);
 }
 
-void TankRefiner::set_photons(const std::optional<TankPhotons::Change>& change) {
-  if (!change) return;
-  if (!change->restarts) return picture_->replace_photons(change->paths);
-  picture_->set_photons(change->paths);
-  seconds_ = 0;
-}
-
-/// What is drawn next with the light paths that the picture has.
-void TankRefiner::choose_slice(std::uint32_t limit) {
-  slice_ = {};
-  if (!photons_.is_ready_for(samples())) return;
-  slice_ = schedule_.next(picture_px(), samples(), picture_->rows(), limit, is_moving());
-  if (planning::light_path_count(*drawn_) > 0)
-    slice_.samples = std::min(slice_.samples, render::TankPicture::rest_of_batch(samples()));
-}
-
 bool TankRefiner::prepare(glm::uvec2 window_px, Stage stage, double /*frame_seconds*/) {
   stage_ = stage;
   show(plan_picture(*state_, tank_, schedule_.picture_px(window_px, is_moving())));
-  set_photons(photons_.update(tank_, planning::light_path_scene(*drawn_), planning::light_path_count(*drawn_),
-                              samples(), is_moving()));
-  choose_slice(state_->scene().samples);
+  if (photons_.update(*picture_, tank_, is_moving())) seconds_ = 0;
+  if (const std::uint32_t most = photons_.samples_from(samples()); most > 0) {
+    slice_ = schedule_.next(picture_px(), samples(), picture_->rows(), state_->scene().samples, is_moving());
+    slice_.samples = std::min(slice_.samples, most);
+  }
   // A picture of another size replaces the one that shows only when it is complete.
   const bool ends_sample = slice_.rows > 0 && picture_->rows() + slice_.rows == picture_px().y;
   if (slice_.samples > 0 || ends_sample) reserve_shown();
@@ -102,16 +90,11 @@ image::Image8 TankRefiner::picture(glm::uvec2 size_px, bool complete, const std:
   const std::uint32_t wanted = complete ? std::max(state_->scene().samples, 1u) : 1;
   drawn_ = plan_picture(*state_, tank_, size_px);
   show(*drawn_);
-  while (samples() < wanted || picture_->rows() > 0 || !photons_.is_complete()) {
-    set_photons(photons_.complete(tank_, planning::light_path_scene(*drawn_),
-                                  planning::light_path_count(*drawn_), samples()));
-    choose_slice(wanted);
-    // The rest of a sample that began beyond the last.
-    if (slice_.samples == 0 && slice_.rows == 0) slice_.rows = size_px.y - picture_->rows();
-    screen_.runner().run([&](gpu::Recorder& recorder) { picture_->record(recorder, slice_); });
-    measure();
+  if (!photons_.is_complete()) photons_.complete(*picture_, tank_);
+  render::add_samples(screen_.runner(), *picture_, photons_, tank_, wanted, [&] {
     if (check) check();
-  }
+    return false;
+  });
   // The window shows what is saved.
   reserve_shown();
   screen_.runner().run([&](gpu::Recorder& recorder) {

@@ -8,11 +8,10 @@
 
 #include "apps/viewer/refiner.hpp"
 #include "apps/viewer/screen.hpp"
-#include "apps/viewer/tank_photons.hpp"
 #include "apps/viewer/tank_schedule.hpp"
 #include "apps/viewer/tank_state.hpp"
 #include "planning/tank_plan.hpp"
-#include "render/tank_picture.hpp"
+#include "render/tank_photons.hpp"
 
 namespace brume::viewer {
 
@@ -53,8 +52,6 @@ class TankRefiner final : public Refiner {
  private:
   void show(const planning::TankPlan& plan);
   void reserve_shown();
-  void set_photons(const std::optional<TankPhotons::Change>& change);
-  void choose_slice(std::uint32_t limit);
 
   Screen& screen_;
   const std::optional<TankState>& state_;
@@ -63,7 +60,7 @@ class TankRefiner final : public Refiner {
   gpu::Image shown_;  ///< A copy, which remains when the picture's size changes.
 
   TankSchedule schedule_;
-  TankPhotons photons_;
+  render::TankPhotons photons_;
   std::optional<planning::TankPlan> drawn_;  ///< At the window's size, whatever the picture's.
   Stage stage_ = Stage::changed;             ///< The last one.
   render::TankSlice slice_;                  ///< The last one.

@@ -108,57 +108,49 @@ image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_in
   return mean.mean();
 }
 
+void add_samples(gpu::CommandRunner& runner, TankPicture& picture, TankPhotons& photons,
+                 const spheres::Tank& tank, std::uint32_t samples, const std::function<bool()>& stopped) {
+  Progress progress("samples", samples);
+  std::uint32_t most = 1;
+  while (picture.samples() < samples) {
+    photons.complete(picture, tank, stopped);
+    if (stopped && stopped()) return;
+    const std::uint32_t done = picture.samples();
+    most = std::min({most, samples - done, photons.samples_from(done), kMostSamplesOfSubmission});
+    // The rest of a sample comes first.
+    const std::uint32_t rows = picture.rows() > 0 ? picture.size_px().y - picture.rows() : 0;
+    const auto begin = std::chrono::steady_clock::now();
+    runner.run([&](gpu::Recorder& recorder) { picture.record(recorder, {rows > 0 ? 0u : most, rows}); });
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    progress.advance(picture.samples() - done);
+    most = taken.count() < 0.5 * kSubmission ? 2 * most
+           : taken.count() > kSubmission     ? std::max(most / 2, 1u)
+                                             : most;
+  }
+}
+
 TankPlayback::TankPlayback(gpu::Context& context, const scenario::TankScenario& scenario, glm::uvec2 size_px)
     : context_(context),
       scenario_(scenario),
       runner_(context),
-      bricks_(spheres::list_bricks(scenario.tank)),
       picture_(context, runner_, scenario.tank),
       size_px_(size_px),
       samples_(scenario.scene.samples) {}
 
-void TankPlayback::trace_batch(const planning::TankPlan& plan, const std::function<bool()>& stopped) {
-  const spheres::LightPathScene scene = planning::light_path_scene(plan);
-  const std::uint32_t batch = TankPicture::batch_of(picture_.samples());
-  // The light of the frame before, as long as neither the lights nor the glass move.
-  if (traced_ && spheres::same_light(*traced_, scene) && batch == batch_) return;
-  spheres::LightPathOptions options;
-  options.count = plan.photons;
-  options.seed = batch;
-  picture_.replace_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));
-  traced_ = scene;
-  batch_ = batch;
-}
-
-void TankPlayback::add_samples(double seconds, const std::function<bool()>& stopped) {
-  Progress progress("samples", samples_);
-  const planning::TankPlan plan =
-      planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_);
+void TankPlayback::refine(double seconds, const std::function<bool()>& stopped) {
   picture_.restart();
-  picture_.show(plan, planning::plan_tank_display(scenario_.scene, size_px_));
-  const bool has_batches = planning::light_path_count(plan) > 0;
-  std::uint32_t count = 1;
-  while (picture_.samples() < samples_ && !(stopped && stopped())) {
-    if (has_batches) trace_batch(plan, stopped);
-    count = std::min({count, samples_ - picture_.samples(), kMostSamplesOfSubmission});
-    if (has_batches) count = std::min(count, TankPicture::rest_of_batch(picture_.samples()));
-    const auto begin = std::chrono::steady_clock::now();
-    runner_.run([&](gpu::Recorder& recorder) { picture_.record(recorder, {count}); });
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    progress.advance(count);
-    count = taken.count() < 0.5 * kSubmission ? 2 * count
-            : taken.count() > kSubmission     ? std::max(count / 2, 1u)
-                                              : count;
-  }
+  picture_.show(planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_),
+                planning::plan_tank_display(scenario_.scene, size_px_));
+  add_samples(runner_, picture_, photons_, scenario_.tank, samples_, stopped);
 }
 
 image::Image8 TankPlayback::draw(double seconds, const std::function<bool()>& stopped) {
-  add_samples(seconds, stopped);
+  refine(seconds, stopped);
   return read_picture(context_, runner_, picture_.display());
 }
 
 image::LayeredImage TankPlayback::draw_layers(double seconds, const std::function<bool()>& stopped) {
-  add_samples(seconds, stopped);
+  refine(seconds, stopped);
   const auto sum = gpu::read_texels<glm::vec4>(context_, runner_, picture_.sampler().sum());
   image::LayeredImage image{size_px_.x, size_px_.y, {}};
   constexpr const char* kNames[]{"R", "G", "B"};

@@ -9,7 +9,7 @@
 #include "planning/scenario_frame.hpp"
 #include "render/frame_layers.hpp"
 #include "render/renderer.hpp"
-#include "render/tank_picture.hpp"
+#include "render/tank_photons.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/tank.hpp"
 
@@ -94,6 +94,11 @@ class Playback {
   std::optional<std::uint32_t> last_frame_index_;
 };
 
+/// Adds samples to the picture of a tank alone until it has so many, with progress, by new light paths for
+/// every batch. `stopped` ends it early.
+void add_samples(gpu::CommandRunner& runner, TankPicture& picture, TankPhotons& photons,
+                 const spheres::Tank& tank, std::uint32_t samples, const std::function<bool()>& stopped);
+
 /// A tank of spheres alone, frame after frame.
 class TankPlayback {
  public:
@@ -115,16 +120,13 @@ class TankPlayback {
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
 
  private:
-  void trace_batch(const planning::TankPlan& plan, const std::function<bool()>& stopped);
-  void add_samples(double seconds, const std::function<bool()>& stopped);
+  void refine(double seconds, const std::function<bool()>& stopped);
 
   gpu::Context& context_;
   const scenario::TankScenario& scenario_;
   gpu::CommandRunner runner_;
-  spheres::BrickLists bricks_;
   TankPicture picture_;
-  std::optional<spheres::LightPathScene> traced_;  ///< The picture has its light of this batch.
-  std::uint32_t batch_ = 0;
+  TankPhotons photons_;
   glm::uvec2 size_px_;
   std::uint32_t samples_;
   std::optional<scene::Camera> camera_;

@@ -31,14 +31,6 @@ class TankPicture {
   /// Light of the lights that comes through the glass, as TankSampler::set_photons and replace_photons.
   void set_photons(const spheres::LightPaths& paths) { sampler_.set_photons(paths); }
   void replace_photons(const spheres::LightPaths& paths) { sampler_.replace_photons(paths); }
-  /// Light paths are traced again for every few samples, with this number as their seed: what their noise
-  /// leaves in one batch averages out over all.
-  static constexpr std::uint32_t kSamplesOfBatch = 16;
-  static constexpr std::uint32_t batch_of(std::uint32_t samples) { return samples / kSamplesOfBatch; }
-  /// How many samples are left of the batch of a picture that has `samples`.
-  static constexpr std::uint32_t rest_of_batch(std::uint32_t samples) {
-    return kSamplesOfBatch - samples % kSamplesOfBatch;
-  }
 
   /// Records a slice, and the colours of what is there if samples are complete or are shown differently than
   /// before. Whether display() is another picture then.

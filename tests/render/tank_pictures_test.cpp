@@ -11,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kTruthSize{48, 32};
 constexpr std::uint32_t kBatches = reference::kFewer > 1 ? 8 : 48;
-constexpr std::uint32_t kSamplesOfBatch = TankPicture::kSamplesOfBatch;
+constexpr std::uint32_t kSamplesOfBatch = TankPhotons::kSamplesOfBatch;
 constexpr std::uint32_t kPixels = kTruthSize.x * kTruthSize.y;
 constexpr std::uint32_t kPhotonsOfBatch = 100000;
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "apps/viewer/tank_refiner.hpp"
+#include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::viewer {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kRestarted(24, 16);
 /// More than a batch of light paths is good for.
-constexpr std::uint32_t kRestartSamples = render::TankPicture::kSamplesOfBatch + 2;
+constexpr std::uint32_t kRestartSamples = render::TankPhotons::kSamplesOfBatch + 2;
 
 spheres::Tank small_tank() {
   spheres::Tank tank{{40, 40, 24}, 0.01f, {}, {}};
@@ -44,17 +45,10 @@ class TankRestartPictures : public gpu::GpuTest {
     bool show(const scene::TankScene& scene, double seconds) {
       TankState state(scene, planning::size_of(tank_));
       state.seek(seconds);
-      const planning::TankPlan plan = plan_picture(state, tank_, kRestarted);
-      const bool begins = picture_.show(plan, planning::plan_tank_display(scene, kRestarted));
-      while (picture_.samples() < kRestartSamples) {
-        const auto change = photons_.complete(tank_, planning::light_path_scene(plan),
-                                              planning::light_path_count(plan), picture_.samples());
-        if (change && change->restarts) picture_.set_photons(change->paths);
-        if (change && !change->restarts) picture_.replace_photons(change->paths);
-        const std::uint32_t count =
-            std::min(kRestartSamples - picture_.samples(), picture_.rest_of_batch(picture_.samples()));
-        runner().run([&](gpu::Recorder& recorder) { picture_.record(recorder, {count}); });
-      }
+      const bool begins = picture_.show(plan_picture(state, tank_, kRestarted),
+                                        planning::plan_tank_display(scene, kRestarted));
+      photons_.update(picture_, tank_, false);  // the window shows a preview first
+      render::add_samples(runner(), picture_, photons_, tank_, kRestartSamples, {});
       runner().run([&](gpu::Recorder& recorder) { picture_.record(recorder, {}); });
       return begins;
     }
@@ -64,7 +58,7 @@ class TankRestartPictures : public gpu::GpuTest {
    private:
     const spheres::Tank& tank_;
     render::TankPicture picture_;
-    TankPhotons photons_;
+    render::TankPhotons photons_;
   };
 
   struct Row {
