@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bench/frames.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 
 namespace brume::bench {

@@ -3,7 +3,7 @@
 #include "bench/bench.hpp"
 #include "core/tasks.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "sim/fill.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"

@@ -2,7 +2,7 @@
 
 #include "bench/bench.hpp"
 #include "scenario/level_events.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::bench {
 namespace {

@@ -1,6 +1,7 @@
 #include "bench/frames.hpp"
 
-#include "render/read_back.hpp"
+#include "film/read_back.hpp"
+#include "planning/device_camera.hpp"
 
 namespace brume::bench {
 
@@ -12,7 +13,7 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
       renderer_(context, runner_, scenario.scene, options),
       counter_(gpu::readback_buffer(context, sizeof(std::uint32_t))) {
   simulation_->advance_to(seconds);
-  input_ = planning::frame_input(scenario, *simulation_, seconds, holes_);
+  input_ = scenario::frame_input(scenario, *simulation_, seconds, holes_);
   input_.quality.rebuild_light = true;
   input_.quality.indirect_update_fraction = 0.125f;  // as the viewer
 }
@@ -37,7 +38,7 @@ FrameCost RepeatedFrame::draw() {
 }
 
 std::vector<glm::vec4> RepeatedFrame::radiance() {
-  return render::unpack_halves(
+  return film::unpack_halves(
       gpu::read_back(context_, runner_, renderer_.targets().radiance, sizeof(std::uint64_t)));
 }
 

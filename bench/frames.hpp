@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "bench/bench.hpp"
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 namespace brume::bench {
 

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "bench/frames.hpp"
+#include "scene/files/timeline_reader.hpp"
 
 namespace brume::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "bench/frames.hpp"
-#include "grids/slice_atlas.hpp"
+#include "grids/files/slice_atlas.hpp"
 
 namespace brume::bench {
 namespace {

@@ -1,7 +1,7 @@
 // Whether the frame time depends on what is visible only: increasing numbers of smokes in view and out of
 // view, and increasing size of the world.
 #include "bench/frames.hpp"
-#include "scene/stand_ins.hpp"
+#include "scene/files/stand_ins.hpp"
 
 namespace brume::bench {
 namespace {

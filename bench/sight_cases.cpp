@@ -5,7 +5,7 @@
 #include "core/tasks.hpp"
 #include "image/font.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "sim/world.hpp"
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"

@@ -9,6 +9,7 @@
 #include "render/parts/tanks.hpp"
 #include "render/tank_picture.hpp"
 #include "scenario/tank.hpp"
+#include "scene/files/tank_reader.hpp"
 #include "spheres/brick_lists.hpp"
 #include "spheres/pack.hpp"
 

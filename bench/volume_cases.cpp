@@ -2,7 +2,7 @@
 
 #include "bench/bench.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "sim/world.hpp"
 #include "smoke/smoke_volume.hpp"
 #include "voxel/surface_planes.hpp"

@@ -72,9 +72,9 @@ brume_precompiled(brume_headers ${brume_common_headers})
 # the code of the others, which compile for longer than they then run: -Og for them, with all checks. Of those that take
 # longest to compile they are calls, which takes a fifth less.
 set(brume_busy_libraries voxel volume trace sim smoke surfaces reference)
-set(brume_large_libraries image scene scenario frame_planning)
+set(brume_large_libraries image scene_files scenario planning)
 
-# brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): the folder `NAME` as brume::NAME.
+# brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): this folder as brume::NAME.
 function(brume_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS")
   add_library(brume_${name} STATIC ${arg_UNPARSED_ARGUMENTS})

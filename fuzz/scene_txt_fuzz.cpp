@@ -1,5 +1,5 @@
 #include "fuzz/scene_fuzz.hpp"
-#include "scene/scene_txt.hpp"
+#include "scene/files/scene_txt.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace brume::scene;

@@ -1,8 +1,9 @@
 #include "scene/timeline.hpp"
 
 #include "fuzz/scene_fuzz.hpp"
-#include "scene/timeline_check.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_check.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/files/timeline_writer.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace brume::scene;

@@ -8,8 +8,8 @@
 #include <chrono>
 #include <future>
 
-#include "grids/files.hpp"
-#include "grids/raw_file.hpp"
+#include "grids/files/grid_files.hpp"
+#include "grids/files/raw_file.hpp"
 #include "python/grid_arrays.hpp"
 
 namespace brume::python {

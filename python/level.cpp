@@ -9,7 +9,7 @@
 
 #include "python/arrays.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "voxel/voxelize.hpp"
 #include "vxl/file.hpp"
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "film/playback.hpp"
 #include "gpu/context.hpp"
 #include "image/background.hpp"
 #include "image/png.hpp"
 #include "python/scenario.hpp"
-#include "render/playback.hpp"
 #include "render/volume_room.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 
@@ -57,7 +57,7 @@ class Renderer {
     if (camera)
       playback_->set_camera(*camera);
     else
-      playback_->set_camera(planning::CameraAt());
+      playback_->set_camera(scenario::CameraAt());
     playback_->set_samples(samples);
     if (loaded_->scenario.measure_exposure && !(measured_ && same(*measured_, camera))) {
       playback_->measure_exposure();
@@ -73,7 +73,7 @@ class Renderer {
   std::shared_ptr<Loaded> loaded_;
   render::RendererOptions options_;
   gpu::Context context_;
-  std::optional<render::Playback> playback_;
+  std::optional<film::Playback> playback_;
   /// The camera that the exposure was measured for, as brume render does for its --camera; none: not yet.
   std::optional<std::optional<scene::Camera>> measured_;
 };

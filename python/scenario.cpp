@@ -7,6 +7,7 @@
 
 #include "planning/smoke_look.hpp"
 #include "scenario/tank.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 

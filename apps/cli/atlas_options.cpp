@@ -7,7 +7,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/command_line/parse.hpp"
 #include "core/file.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

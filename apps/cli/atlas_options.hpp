@@ -11,7 +11,7 @@
 #include "apps/command_line/arguments.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/outputs.hpp"
-#include "grids/slice_atlas.hpp"
+#include "grids/files/slice_atlas.hpp"
 
 namespace brume::cli {
 

@@ -10,10 +10,10 @@
 #include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "passes/generate_cloud.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

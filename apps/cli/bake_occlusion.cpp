@@ -10,7 +10,7 @@
 #include "apps/command_line/targets.hpp"
 #include "bake/occlusion.hpp"
 #include "core/log.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

@@ -15,8 +15,8 @@
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
 #include "core/similar.hpp"
-#include "grids/files.hpp"
-#include "scene/load.hpp"
+#include "grids/files/grid_files.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "core/error.hpp"
-#include "grids/files.hpp"
-#include "grids/raw_file.hpp"
-#include "scene/load.hpp"
+#include "grids/files/grid_files.hpp"
+#include "grids/files/raw_file.hpp"
+#include "scene/files/load.hpp"
 #include "spheres/file.hpp"
 
 namespace brume::cli {

@@ -10,7 +10,7 @@
 #include "core/file.hpp"
 #include "image/decode.hpp"
 #include "image/png.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
+#include "film/playback.hpp"
 #include "gpu/context.hpp"
 #include "image/png.hpp"
-#include "render/playback.hpp"
 
 namespace brume::cli {
 namespace {
@@ -47,7 +47,7 @@ void demo(const DemoOptions& options, CommonOptions& common) {
   gpu::Context context({options.device, false});
   const double seconds = static_cast<double>(scenario.timeline.duration);
   {
-    render::Playback playback(context, scenario, kPictureSize);
+    film::Playback playback(context, scenario, kPictureSize);
     image::save_png(picture, playback.draw(kPictureTime, 0)).value_or_throw();
     stop_if_interrupted();
     print(picture.string() + "\n");
@@ -55,7 +55,7 @@ void demo(const DemoOptions& options, CommonOptions& common) {
   }
   render::RendererOptions options_of_film{kFilmSize};
   options_of_film.smoke.march_scale = kFilmMarchScale;
-  render::Playback playback(context, scenario, options_of_film);
+  film::Playback playback(context, scenario, options_of_film);
   playback.set_light_update_fraction(kFilmLightUpdateFraction);
   const auto frames = static_cast<std::uint32_t>(std::ceil(seconds * kFramesPerSecond));
   write_film(film, {kFilmSize, {kFramesPerSecond, 1}, common.threads}, 0, frames - 1, common.outputs,

@@ -7,7 +7,7 @@
 #include "apps/command_line/targets.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

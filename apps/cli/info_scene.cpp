@@ -10,7 +10,8 @@
 #include "scenario/free_place.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/text_reader.hpp"
 #include "voxel/voxelize.hpp"
 

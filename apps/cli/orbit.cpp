@@ -42,7 +42,7 @@ Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Came
   check();
 }
 
-Orbit::Orbit(planning::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
+Orbit::Orbit(scenario::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
              FrameRange range)
     : path_(std::move(path)), still_(chosen), radians_(degrees * scene::kRadiansOfDegree), range_(range) {
   check();

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "apps/command_line/parse.hpp"
-#include "planning/scenario_frame.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::cli {
@@ -24,7 +24,7 @@ class Orbit {
   Orbit(const scenario::Scenario& scenario, const std::optional<scene::Camera>& chosen, double degrees,
         FrameRange range, float aspect);
   /// A turn around the target of `chosen`, or of a camera that moves along `path`.
-  Orbit(planning::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
+  Orbit(scenario::CameraAt path, const std::optional<scene::Camera>& chosen, double degrees,
         FrameRange range);
 
   /// The camera of a frame: after (frame - first) / count of the angle. Frames outside of the range go on;
@@ -36,7 +36,7 @@ class Orbit {
  private:
   void check() const;
 
-  planning::CameraAt path_;
+  scenario::CameraAt path_;
   std::optional<scene::Camera> still_;
   std::optional<glm::vec3> centre_world_;  ///< Empty: the camera's target.
   double radians_;

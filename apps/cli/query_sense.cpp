@@ -16,7 +16,7 @@
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "scenario/tank.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "shared/tone.h"
 #include "spheres/sense.hpp"
 

@@ -8,8 +8,8 @@
 #include "apps/command_line/unit_key.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
-#include "planning/scenario_frame.hpp"
 #include "reference/picture.hpp"
+#include "scenario/frame.hpp"
 #include "scene/text_reader.hpp"
 #include "surfaces/motion.hpp"
 
@@ -113,7 +113,7 @@ void ReferenceFrames::measure_exposure(const Stopwatch& watch) {
 }
 
 planning::FrameInput ReferenceFrames::frame_at(double seconds, std::vector<shared::Hole>& holes) const {
-  return planning::frame_input(scenario_, *simulation_, seconds, holes, frame_options_);
+  return scenario::frame_input(scenario_, *simulation_, seconds, holes, frame_options_);
 }
 
 /// Where all is at further steps while the shutter is open.
@@ -125,7 +125,7 @@ std::vector<planning::FrameInput> ReferenceFrames::frames_after(double seconds,
   constexpr std::size_t kSteps = surfaces::kMostSteps - 1;
   for (std::size_t step = 1; step <= kSteps; ++step) {
     later.push_back(frame);
-    planning::move_frame(scenario_, seconds, seconds + shutter * static_cast<double>(step) / kSteps,
+    scenario::move_frame(scenario_, seconds, seconds + shutter * static_cast<double>(step) / kSteps,
                          frame_options_, later.back());
   }
   return later;
@@ -137,7 +137,7 @@ reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInpu
   settings.size_px = settings_.size_px;
   const scene::Lens& lens = frame.view.camera.lens;
   settings.blades = lens.blades;
-  settings.opening = planning::opening_of(scenario_.lens_openings, lens);
+  settings.opening = scenario::opening_of(scenario_.lens_openings, lens);
   settings.eyes.push_back(reference::make_eye(frame.view.camera, settings_.size_px));
   for (const planning::FrameInput& step : later)
     settings.eyes.push_back(reference::make_eye(step.view.camera, settings_.size_px));

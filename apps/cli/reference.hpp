@@ -9,8 +9,8 @@
 #include "apps/command_line/arguments.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/targets.hpp"
-#include "planning/scenario_frame.hpp"
 #include "reference/render.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::cli {
@@ -54,7 +54,7 @@ class ReferenceFrames {
                   const ReferenceOptions& options, const FrameSettings& frames);
 
   /// Where the camera is at a time instead of on the timeline's path; empty: on the path.
-  void set_camera(planning::CameraAt camera) { frame_options_.camera = std::move(camera); }
+  void set_camera(scenario::CameraAt camera) { frame_options_.camera = std::move(camera); }
   /// Renders the frame at a time [s] until the limits of the options, with progress. Saves and continues the
   /// checkpoint. Throws Error and Interrupted.
   Picture draw(double seconds);
@@ -74,7 +74,7 @@ class ReferenceFrames {
   std::unique_ptr<scenario::Simulation> simulation_;
   const ReferenceOptions& options_;
   FrameSettings settings_;
-  planning::FrameOptions frame_options_{.particles = false};
+  scenario::FrameOptions frame_options_{.particles = false};
   std::optional<float> exposure_;  ///< Measured; a factor.
   image::Display display_;
   std::uint32_t frames_ = 0;

@@ -21,9 +21,9 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "film/playback.hpp"
 #include "gpu/context.hpp"
-#include "grids/files.hpp"
-#include "render/playback.hpp"
+#include "grids/files/grid_files.hpp"
 #include "render/volume_room.hpp"
 #include "scenario/tank.hpp"
 #include "scene/text_reader.hpp"
@@ -114,14 +114,14 @@ void simulate(const RenderOptions& options, const Plan& plan, Loaded& loaded) {
 }
 
 // Where the camera is as long as it does not turn; empty: on the timeline's path.
-planning::CameraAt camera_before(const Plan& plan, const Loaded& loaded) {
+scenario::CameraAt camera_before(const Plan& plan, const Loaded& loaded) {
   const std::optional<scene::Camera>& camera = loaded.orbit ? loaded.orbit->still_camera() : plan.camera;
   if (!camera) return {};
   return [still = *camera](double) { return still; };
 }
 
 // The camera of --orbit around the time of a frame.
-planning::CameraAt orbiting(const Plan& plan, const Orbit& orbit, double seconds, std::uint32_t frame) {
+scenario::CameraAt orbiting(const Plan& plan, const Orbit& orbit, double seconds, std::uint32_t frame) {
   return [&orbit, seconds, frame, rate = plan.rate.per_second()](double at) {
     return orbit.at(at, frame + (at - seconds) * rate);
   };
@@ -175,7 +175,7 @@ class TracedFrames final : public FrameSource {
 
 // Frames that depend on those before are single samples.
 void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario::Scenario& scenario) {
-  const auto is_sharp = [](const scene::Camera& camera) { return planning::usual_samples(camera) == 1; };
+  const auto is_sharp = [](const scene::Camera& camera) { return scenario::usual_samples(camera) == 1; };
   const auto& keys = scenario.timeline.camera;
   const bool all_sharp = plan.camera    ? is_sharp(*plan.camera)
                          : keys.empty() ? is_sharp(scenario.camera)
@@ -216,7 +216,7 @@ class DeviceFrames final : public FrameSource {
  private:
   const Plan& plan_;
   const std::optional<Orbit>& orbit_;
-  render::Playback playback_;
+  film::Playback playback_;
   TimedPlayback timed_{playback_};
 };
 
@@ -232,7 +232,7 @@ Json write_frames(const RenderOptions& options, const Plan& plan, CommonOptions&
   }
   scenario::Scenario& scenario = loaded.scenario;
   const FrameRange range = frames_of(plan, duration_of(loaded));
-  const planning::CameraAt still = camera_before(plan, loaded);
+  const scenario::CameraAt still = camera_before(plan, loaded);
   const double begin = plan.rate.time_of(range.first);
   const bool is_sequence =
       scenario.timeline.smokes.empty() && scenario.timeline.carriers.empty() && !loaded.orbit;

@@ -5,7 +5,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/tank_options.hpp"
 #include "core/error.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 
 namespace brume::cli {
 namespace {

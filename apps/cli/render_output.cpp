@@ -8,7 +8,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {

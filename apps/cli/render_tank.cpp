@@ -8,10 +8,10 @@
 #include "apps/cli/tank_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
+#include "film/playback.hpp"
 #include "gpu/context.hpp"
 #include "reference/picture.hpp"
 #include "reference/tank_tracer.hpp"
-#include "render/playback.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {
@@ -40,7 +40,7 @@ struct TankJob {
 
 Json render_on_device(const TankJob& job) {
   gpu::Context context({job.options.device, false});
-  render::TankPlayback playback(context, job.scenario, job.plan.renderer.size_px);
+  film::TankPlayback playback(context, job.scenario, job.plan.renderer.size_px);
   if (job.options.samples) playback.set_samples(*job.options.samples);
   const Stopwatch drawing;
   write(job.options, job.plan, job.common, job.film({context.info().name, context.info().driver}),

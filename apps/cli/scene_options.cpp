@@ -9,9 +9,10 @@
 #include "apps/cli/command.hpp"
 #include "apps/command_line/parse.hpp"
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/daylight.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 

@@ -7,14 +7,14 @@
 #include "apps/cli/stopwatch.hpp"
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/targets.hpp"
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 namespace brume::cli {
 
 /// Draws frames and gathers the statistics for --json.
 class TimedPlayback {
  public:
-  explicit TimedPlayback(render::Playback& playback) : playback_(playback) {}
+  explicit TimedPlayback(film::Playback& playback) : playback_(playback) {}
   /// `form`: null draws colours.
   Picture draw(double seconds, std::uint32_t frame_index, const LayerForm* form) {
     return timed([&]() -> Picture {
@@ -45,7 +45,7 @@ class TimedPlayback {
     return picture;
   }
 
-  render::Playback& playback_;
+  film::Playback& playback_;
   double seconds_ = 0, cpu_seconds_ = 0;
   int frames_ = 0;
 };

@@ -1,6 +1,6 @@
 #include "apps/cli/volumes.hpp"
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 
 namespace brume::cli {
 

@@ -11,7 +11,7 @@
 #include "core/log.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/voxel_cache.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "voxel/obj_export.hpp"
 #include "voxel/voxelize.hpp"
 

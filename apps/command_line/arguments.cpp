@@ -8,7 +8,7 @@
 #include "apps/command_line/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

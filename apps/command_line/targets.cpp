@@ -16,7 +16,7 @@
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "image/video.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::cli {
 namespace {

@@ -23,16 +23,16 @@
 #include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "film/playback.hpp"
+#include "film/volume_part.hpp"
 #include "gpu/context.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "image/png.hpp"
-#include "planning/scenario_frame.hpp"
-#include "render/playback.hpp"
-#include "render/volume_part.hpp"
 #include "render/volume_room.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/simulation.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "volume/parts.hpp"
 #include "volumes/volumes.hpp"
 
@@ -119,9 +119,9 @@ Subject load(const Options& options, const Process& process, cli::Outputs& outpu
   std::vector<shared::Hole> holes;
   const double end = double{scenario.timeline.duration};
   simulation->advance_to(end);
-  planning::FrameOptions frame_options;
+  scenario::FrameOptions frame_options;
   if (view.camera) frame_options.camera = [camera = *view.camera](double) { return camera; };
-  planning::FrameInput frame = planning::frame_input(scenario, *simulation, end, holes, frame_options);
+  planning::FrameInput frame = scenario::frame_input(scenario, *simulation, end, holes, frame_options);
   if (frame.volumes.size() != 1)
     throw Error(ErrorCode::bad_input, options.input + ": has no density to render");
   // What refers to the scenario, which goes: there is neither smoke nor a level.
@@ -154,22 +154,22 @@ double resident_bytes() {
 void sum_depths(std::vector<float>& depths) {
   MPI_Allreduce(MPI_IN_PLACE, depths.data(), static_cast<int>(depths.size()), MPI_FLOAT, MPI_SUM,
                 MPI_COMM_WORLD);
-  for (float& depth : depths) depth = std::min(depth, render::kMostDepth);
+  for (float& depth : depths) depth = std::min(depth, film::kMostDepth);
 }
 
 /// The pixels of the whole in the first process; nothing in the others.
-render::Pixels composite(const Process& process, const render::Pixels& own,
-                         const std::vector<std::uint32_t>& order) {
+film::Pixels composite(const Process& process, const film::Pixels& own,
+                       const std::vector<std::uint32_t>& order) {
   const int floats = static_cast<int>(4 * own.size());
-  render::Pixels all(process.is_first() ? own.size() * order.size() : 0);
+  film::Pixels all(process.is_first() ? own.size() * order.size() : 0);
   MPI_Gather(own.data(), floats, MPI_FLOAT, all.data(), floats, MPI_FLOAT, 0, MPI_COMM_WORLD);
   if (!process.is_first()) return {};
   const auto part = [&](std::uint32_t number) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(number * own.size());
-    return render::Pixels(begin, begin + static_cast<std::ptrdiff_t>(own.size()));
+    return film::Pixels(begin, begin + static_cast<std::ptrdiff_t>(own.size()));
   };
-  render::Pixels front = part(order.front());
-  for (std::size_t i = 1; i < order.size(); ++i) render::composite_behind(front, part(order[i]));
+  film::Pixels front = part(order.front());
+  for (std::size_t i = 1; i < order.size(); ++i) film::composite_behind(front, part(order[i]));
   return front;
 }
 
@@ -214,7 +214,7 @@ struct Prepared {
   Subject subject;
   gpu::Context context;
   gpu::CommandRunner runner;
-  render::VolumePartRenderer renderer;
+  film::VolumePartRenderer renderer;
 
   Prepared(const Options& options, const std::string& device, Subject&& shown)
       : subject(std::move(shown)),
@@ -311,13 +311,13 @@ int render_parts(const Options& options, const Process& process) {
   facts.light_seconds = clock.lap();
 
   // The rays.
-  render::Pixels own;
+  film::Pixels own;
   code = together(process, [&] { own = prepared->renderer.march(depths); });
   if (code != 0) return code;
   facts.march_seconds = clock.lap();
   facts.resident_bytes = resident_bytes();
   facts.volume_bytes = static_cast<double>(prepared->renderer.volume_bytes());
-  const render::Pixels all = composite(process, own, prepared->subject.order);
+  const film::Pixels all = composite(process, own, prepared->subject.order);
   code = together(process, [&] {
     if (process.is_first()) image::save_png(options.output, prepared->renderer.picture(all)).value_or_throw();
   });
@@ -337,7 +337,7 @@ void render_whole(const Options& options, const Process& process) {
   const glm::uvec2 size_px = cli::parse_size("--size", options.size);
   gpu::Context context({device_of(options), false});
   if (scenario.volumes) scenario.volumes->limit(render::volume_room(context)).value_or_throw();
-  render::Playback playback(context, scenario, size_px);
+  film::Playback playback(context, scenario, size_px);
   if (!options.camera.empty()) playback.set_camera(cli::parse_camera("--camera", options.camera));
   if (scenario.measure_exposure) playback.measure_exposure();
   Facts facts;

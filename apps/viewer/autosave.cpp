@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "apps/viewer/screenshot.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_writer.hpp"
 
 namespace brume::viewer {
 namespace {

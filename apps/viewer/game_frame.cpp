@@ -4,10 +4,10 @@ namespace brume::viewer {
 namespace {
 
 /// The frame of a game with options that say what is steered.
-render::FrameInput input_of(const Game& game, const planning::FrameOptions& options,
+render::FrameInput input_of(const Game& game, const scenario::FrameOptions& options,
                             std::vector<shared::Hole>& holes) {
   const Session& session = game.session();
-  render::FrameInput input = planning::frame_input(session.live().scenario(), session.simulation(),
+  render::FrameInput input = scenario::frame_input(session.live().scenario(), session.simulation(),
                                                    session.seconds(), holes, options);
   if (!game.choices().decals) input.decals.clear();
   input.debug = {game.choices().view, game.choices().slice};
@@ -15,7 +15,7 @@ render::FrameInput input_of(const Game& game, const planning::FrameOptions& opti
 }
 
 /// Where the camera is around the time of a game: on its path as long as it follows that, else at rest.
-planning::CameraAt camera_of(const Game& game) {
+scenario::CameraAt camera_of(const Game& game) {
   return [&game, still = game.player().camera()](double seconds) {
     const Session& session = game.session();
     if (!session.follows_path() || seconds == session.seconds()) return still;
@@ -34,12 +34,12 @@ render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& hole
 }
 
 StillFrame::StillFrame(const Game& game) : steered_(game.steered_carriers()) {
-  const planning::FrameOptions options{.steered = steered_ ? &*steered_ : nullptr, .camera = camera_of(game)};
+  const scenario::FrameOptions options{.steered = steered_ ? &*steered_ : nullptr, .camera = camera_of(game)};
   render::FrameInput input = input_of(game, options, holes_);
   // Edges stay as smooth as they are in motion.
   constexpr std::uint32_t kSmooth = 4;
   const bool smooth = game.choices().temporal && input.debug.view == planning::DebugView::none;
-  const std::uint32_t count = std::max(planning::usual_samples(input.view.camera), smooth ? kSmooth : 1);
+  const std::uint32_t count = std::max(scenario::usual_samples(input.view.camera), smooth ? kSmooth : 1);
   samples_.emplace(game.session().live().scenario(), game.session().seconds(), options, std::move(input),
                    count);
 }

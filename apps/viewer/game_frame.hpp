@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/viewer/game.hpp"
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 namespace brume::viewer {
 
@@ -27,7 +27,7 @@ class StillFrame {
  private:
   std::vector<shared::Hole> holes_;
   std::optional<std::vector<scene::Carrier>> steered_;
-  std::optional<planning::FrameSamples> samples_;
+  std::optional<scenario::FrameSamples> samples_;
 };
 
 }  // namespace brume::viewer

@@ -6,7 +6,7 @@
 #include "apps/viewer/level_refiner.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "core/log.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_writer.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -52,7 +52,7 @@ class LevelDocument final : public Document {
     if (!loaded_ || !scenario().measure_exposure) return;
     std::vector<shared::Hole> holes;
     const float factor = refiner_->measure_exposure(
-        planning::frame_input(scenario(), loaded_->simulation(), loaded_->seconds(), holes));
+        scenario::frame_input(scenario(), loaded_->simulation(), loaded_->seconds(), holes));
     loaded_->set_first_exposure(std::log2(factor)).value_or_throw();
   }
 

@@ -2,7 +2,8 @@
 
 #include <chrono>
 
-#include "render/exposure.hpp"
+#include "film/exposure.hpp"
+#include "planning/device_camera.hpp"
 #include "render/volume_room.hpp"
 
 namespace brume::viewer {
@@ -69,7 +70,7 @@ void LevelRefiner::begin_still(render::FrameInput& input, glm::uvec2 size_px) {
 }
 
 float LevelRefiner::measure_exposure(const render::FrameInput& input) {
-  return render::measure_exposure(screen_.context(), renderer_, input);
+  return film::measure_exposure(screen_.context(), renderer_, input);
 }
 
 image::Image8 LevelRefiner::picture(glm::uvec2 size_px, bool /*complete*/,

@@ -24,7 +24,7 @@ class LevelRefiner final : public Refiner {
   LevelRefiner(Screen& screen, Window& window, const scenario::Scenario& scenario, std::uint64_t volume_bytes,
                const std::optional<Game>& game, const QualityControl& quality);
 
-  /// The exposure factor that fits `input` (render::measure_exposure).
+  /// The exposure factor that fits `input` (film::measure_exposure).
   float measure_exposure(const render::FrameInput& input);
   void set_masks(const smoke::MaskAtlas& masks) { renderer_.set_masks(masks); }
   glm::uvec2 picture_px() const { return renderer_.targets().size_px; }

@@ -6,7 +6,7 @@
 #include "apps/viewer/tank_mouse.hpp"
 #include "apps/viewer/tank_refiner.hpp"
 #include "apps/viewer/tank_ui.hpp"
-#include "scene/tank_writer.hpp"
+#include "scene/files/tank_writer.hpp"
 #include "spheres/file.hpp"
 
 namespace brume::viewer {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 namespace brume::viewer {
 namespace {

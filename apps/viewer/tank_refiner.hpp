@@ -10,8 +10,8 @@
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/tank_schedule.hpp"
 #include "apps/viewer/tank_state.hpp"
+#include "film/tank_photons.hpp"
 #include "planning/tank_plan.hpp"
-#include "render/tank_photons.hpp"
 
 namespace brume::viewer {
 
@@ -60,7 +60,7 @@ class TankRefiner final : public Refiner {
   gpu::Image shown_;  ///< A copy, which remains when the picture's size changes.
 
   TankSchedule schedule_;
-  render::TankPhotons photons_;
+  film::TankPhotons photons_;
   std::optional<planning::TankPlan> drawn_;  ///< At the window's size, whatever the picture's.
   Stage stage_ = Stage::changed;             ///< The last one.
   render::TankSlice slice_;                  ///< The last one.

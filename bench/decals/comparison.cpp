@@ -8,11 +8,11 @@
 
 #include "bench/decals/ray_traced_occlusion.hpp"
 #include "core/tasks.hpp"
+#include "film/playback.hpp"
 #include "gpu/read_back.hpp"
 #include "image/png.hpp"
-#include "render/playback.hpp"
-#include "scenario/moved_objects.hpp"
 #include "scenario/world_triangles.hpp"
+#include "scene/moved_objects.hpp"
 
 namespace brume::decals {
 namespace {
@@ -43,8 +43,8 @@ DecalBox decal_box(const scenario::Scenario& scenario, double seconds) {
 std::vector<voxel::Triangle> carried_triangles(const scenario::Scenario& scenario, double seconds) {
   const std::string& name = scenario.timeline.decals.front().carrier;
   std::vector<voxel::Triangle> triangles;
-  for (const scenario::MovedObject& moved :
-       scenario::moved_objects(scenario.timeline.carriers, scenario.scene, seconds)) {
+  for (const scene::MovedObject& moved :
+       scene::moved_objects(scenario.timeline.carriers, scenario.scene, seconds)) {
     scene::Object object = scenario.scene.objects[moved.object];
     const auto is_carrier = [&](const scene::Carrier& carrier) {
       return carrier.name == name && carrier.object == object.name;
@@ -114,7 +114,7 @@ View ViewRenderer::draw(double seconds) {
   Parts& in = *parts_;
   in.simulation->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  const render::FrameInput input = planning::frame_input(in.scenario, *in.simulation, seconds, holes);
+  const render::FrameInput input = scenario::frame_input(in.scenario, *in.simulation, seconds, holes);
   in.renderer.draw(input, [&](gpu::Recorder& recorder) {
     const passes::GBuffer& gbuffer = in.renderer.targets().gbuffer;
     recorder.read_back(gbuffer.depth, in.depth);

@@ -11,7 +11,7 @@
 
 #include "bench/peers/single_scattering.hpp"
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 
 namespace {
 

@@ -30,4 +30,10 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up, shift};
 }
 
+ViewSample film_sample(std::uint32_t frame_index) {
+  constexpr glm::ivec2 kSixteenths[kFilmSamples] = {{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
+                                                    {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+  return {glm::vec2(kSixteenths[frame_index % kFilmSamples]) / 16.0f};
+}
+
 }  // namespace brume::planning

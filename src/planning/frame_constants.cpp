@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "planning/device_camera.hpp"
-#include "planning/lens.hpp"
 #include "shared/resolve.h"
 
 namespace brume::planning {

@@ -7,10 +7,10 @@
 
 #include "grids/dense_grid.hpp"
 #include "planning/debug_request.hpp"
+#include "planning/next_level.hpp"
 #include "planning/particle_plan.hpp"
 #include "planning/tank_input.hpp"
-#include "scenario/moved_objects.hpp"
-#include "scenario/next_level.hpp"
+#include "scene/moved_objects.hpp"
 #include "scene/scene.hpp"
 #include "scene/tone.hpp"
 #include "scene/volume_options.hpp"
@@ -70,10 +70,10 @@ struct LevelState {
   std::vector<std::uint32_t> hidden_objects;  ///< Objects of the scene, rising: not drawn, without a shadow.
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
   /// Objects of the scene, rising; hidden ones, too, which are drawn here without a shadow.
-  std::vector<scenario::MovedObject> moved;
+  std::vector<scene::MovedObject> moved;
   /// The level of later frames, for what takes long to compute from it; null: unknown. Never decides what is
   /// shown.
-  std::shared_ptr<const scenario::NextLevel> next = nullptr;
+  std::shared_ptr<const planning::NextLevel> next = nullptr;
 };
 
 using smoke::SmokeInput;

@@ -18,7 +18,7 @@ float largest(const glm::vec3& radiance) {
 bool is_in_view(const Emitter& emitter, const LevelState& level, const ViewFrustum& frustum) {
   if (std::ranges::binary_search(level.hidden_objects, emitter.object)) return false;
   const bool moves =
-      std::ranges::find(level.moved, emitter.object, &scenario::MovedObject::object) != level.moved.end();
+      std::ranges::find(level.moved, emitter.object, &scene::MovedObject::object) != level.moved.end();
   return moves || frustum.may_intersect(emitter.bounds);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "planning/glow_lights.hpp"
 
@@ -10,14 +9,6 @@ namespace brume::planning {
 namespace {
 
 static_assert(scene::kMostVolumes == shared::kMaxVolumes);
-static_assert(scene::kMostVolumes <= shared::kMaxParticleSystems);
-
-/// A volume that moves with its carrier.
-void move_by(const glm::mat4& pose, volumes::VolumeAt& volume) {
-  for (glm::mat4* matrix : {&volume.world_from_density, &volume.world_from_heat,
-                            &volume.world_from_density_preview, &volume.world_from_heat_preview})
-    *matrix = pose * *matrix;
-}
 
 /// The disturbance in voxels of the density.
 DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const volumes::VolumeFrame& frame,
@@ -78,30 +69,7 @@ VolumeInput input_of(const scene::VolumeOptions& options, const volumes::VolumeA
   return input;
 }
 
-/// The quads that show a volume's masks, of its box in the world.
-ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::SliceVolume& slices,
-                           const grids::DenseVolume& volume, const glm::mat4& pose, double seconds) {
-  const Box<double>& box = volume.front().box;
-  const glm::dmat4 box_from_uvw =
-      glm::translate(glm::dmat4(1), box.low) * glm::scale(glm::dmat4(1), box.high - box.low);
-  ParticleInput input;
-  input.world_from_uvw =
-      pose * volumes::world_from_file(options) * slices.file_from_box * glm::mat4(box_from_uvw);
-  input.slices = static_cast<std::uint32_t>(slices.volume);
-  for (std::size_t mask = 0; mask < options.masks.size(); ++mask)
-    input.tints[mask] = scene::glow_at(options.masks[mask], seconds);
-  input.extinction = options.extinction;
-  input.count = options.particles;
-  input.radius = options.particle_size;
-  input.time = seconds;
-  // They stream along the volume as its slices do.
-  constexpr float kDrift = 0.5f;
-  input.drift = kDrift;
-  // As deep as a tenth of the box's shortest edge.
-  const glm::mat3 axes(input.world_from_uvw);
-  input.softness = 0.1f * std::min({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
-  return input;
-}
+}  // namespace
 
 void add_glow(const scene::VolumeOptions& options, const volumes::VolumeAt& volume, double seconds,
               FrameInput& input) {
@@ -113,8 +81,6 @@ void add_glow(const scene::VolumeOptions& options, const volumes::VolumeAt& volu
   }
 }
 
-}  // namespace
-
 void add_volume(const scene::VolumeOptions& options, const volumes::VolumeAt& volume,
                 const volumes::VolumeFrame& typical, double seconds, FrameInput& input) {
   input.volumes.push_back(input_of(options, volume, typical, seconds));
@@ -123,31 +89,6 @@ void add_volume(const scene::VolumeOptions& options, const volumes::VolumeAt& vo
 
 void sort_glow(FrameInput& input) {
   std::ranges::stable_sort(input.environment.glow, std::greater(), &shared::Light::range);
-}
-
-void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                 const FrameOptions& frame, FrameInput& input) {
-  if (!scenario.volumes) return;
-  const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  std::vector<volumes::VolumeAt> volumes = scenario.volumes->at(options, seconds, frame.wait);
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (!volumes[i].frame) continue;
-    const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);
-    move_by(pose, volumes[i]);
-    const auto& slices = scenario.slices.of_volumes;
-    const bool is_particles =
-        frame.particles && options[i].particles > 0 && i < slices.size() && slices[i].has_value();
-    if (is_particles) {
-      input.particles.push_back(particles_of(options[i], *slices[i],
-                                             *(*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
-      input.particles.back().index = i;
-      add_glow(options[i], volumes[i], seconds, input);
-    } else {
-      add_volume(options[i], volumes[i], scenario.volumes->typical_frame(i), seconds, input);
-      input.volumes.back().index = i;
-    }
-  }
-  sort_glow(input);
 }
 
 }  // namespace brume::planning

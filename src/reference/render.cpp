@@ -9,7 +9,7 @@
 
 #include "core/tasks.hpp"
 #include "planning/device_camera.hpp"
-#include "planning/lens.hpp"
+#include "scenario/lens.hpp"
 #include "surfaces/motion.hpp"
 
 namespace brume::reference {
@@ -71,7 +71,7 @@ Ray Render::eye_ray(glm::uvec2 pixel, Sampler& sampler) const {
   if (!(eye.aperture > 0)) return ray;
   // All rays of a point that is sharp meet there.
   const glm::vec2 on_lens =
-      eye.aperture * planning::point_on_lens(settings_.blades, settings_.opening, sampler.next_2d());
+      eye.aperture * scenario::point_on_lens(settings_.blades, settings_.opening, sampler.next_2d());
   ray.origin += on_lens.x * glm::normalize(camera.right) + on_lens.y * glm::normalize(camera.up);
   ray.direction = glm::normalize(camera.eye_world + eye.focus * through - ray.origin);
   return ray;

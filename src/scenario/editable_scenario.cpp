@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "scene/timeline_check.hpp"
+#include "scene/files/timeline_check.hpp"
+#include "scene/files/timeline_reader.hpp"
 
 namespace brume::scenario {
 namespace {

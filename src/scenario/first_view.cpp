@@ -7,7 +7,7 @@
 #include "core/log.hpp"
 #include "scenario/first_smoke.hpp"
 #include "scene/daylight.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::scenario {
 namespace {

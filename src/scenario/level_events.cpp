@@ -5,6 +5,7 @@
 
 #include "scenario/ticks.hpp"
 #include "scenario/world_triangles.hpp"
+#include "scene/files/timeline_reader.hpp"
 
 namespace brume::scenario {
 namespace {

@@ -6,14 +6,15 @@
 #include <numbers>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "image/font.hpp"
 #include "scenario/first_smoke.hpp"
 #include "scenario/free_place.hpp"
-#include "scenario/moved_objects.hpp"
 #include "scenario/volume_view.hpp"
-#include "scene/load.hpp"
-#include "scene/stand_ins.hpp"
+#include "scene/files/load.hpp"
+#include "scene/files/stand_ins.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/moved_objects.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::scenario {
@@ -40,7 +41,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene,
   for (const scene::RoleOptions& options : timeline.roles)
     for (scene::Object& object : scene.objects)
       if (object.name == options.object) object.role = options.role;
-  exclude_moved_objects(timeline.carriers, scene);
+  scene::exclude_moved_objects(timeline.carriers, scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();
   std::filesystem::path cache;

@@ -23,7 +23,7 @@ struct Scenario {
   Voxels voxels;
   smoke::MaskAtlas masks = {};  ///< The masks of its shots and texts.
   ShotMasks shot_masks = {};    ///< Which mask each shot and text uses.
-  /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
+  /// Whether the exposure that fits its first image replaces Timeline::exposure (film::measure_exposure).
   bool measure_exposure = false;
   std::shared_ptr<brume::volumes::Volumes> volumes = {};  ///< Timeline::volumes, loaded; null: none.
   SliceVolumes slices = {};                               ///< Volumes of Timeline::decals.

@@ -121,7 +121,7 @@ std::vector<std::uint32_t> Simulation::hidden_after(std::size_t events) const {
   return objects;
 }
 
-std::shared_ptr<const NextLevel> Simulation::next_level() const {
+std::shared_ptr<const planning::NextLevel> Simulation::next_level() const {
   const std::size_t present = count_in_effect(level_events_, world_);
   if (next_level_ || present == level_events_.size()) return next_level_;
   const auto tick_of = [&](const LevelEvent& event) {
@@ -135,8 +135,8 @@ std::shared_ptr<const NextLevel> Simulation::next_level() const {
   std::size_t end = present;
   for (; end < level_events_.size() && tick_of(level_events_[end]) == tick_of(level_events_[present]); ++end)
     sim::apply_edits(grid, roles, level_events_[end].blocks);
-  next_level_ = std::make_shared<const NextLevel>(
-      NextLevel{roles.sight ? std::move(*roles.sight) : std::move(grid), hidden_after(end)});
+  next_level_ = std::make_shared<const planning::NextLevel>(
+      planning::NextLevel{roles.sight ? std::move(*roles.sight) : std::move(grid), hidden_after(end)});
   return next_level_;
 }
 

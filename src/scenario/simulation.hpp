@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "planning/next_level.hpp"
 #include "scenario/events.hpp"
 #include "scenario/level_events.hpp"
-#include "scenario/next_level.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/smoke_report.hpp"
 #include "sim/world.hpp"
@@ -35,7 +35,7 @@ class Simulation {
   std::span<const std::uint32_t> hidden_objects() const { return hidden_objects_; }
   /// The level after the next of its changes, as far as that is known; null: none follows. The same object
   /// until the level changes or is edited.
-  std::shared_ptr<const NextLevel> next_level() const;
+  std::shared_ptr<const planning::NextLevel> next_level() const;
   /// All changes of the level, sorted by time.
   const std::vector<LevelEvent>& level_events() const { return level_events_; }
 
@@ -58,7 +58,7 @@ class Simulation {
   std::vector<LevelEvent> level_events_;
   std::optional<std::size_t> in_effect_ = 0;  // how many level_events_ show; none: another's show
   std::vector<std::uint32_t> hidden_objects_;
-  mutable std::shared_ptr<const NextLevel> next_level_;  // null: yet to be made
+  mutable std::shared_ptr<const planning::NextLevel> next_level_;  // null: yet to be made
   sim::World world_;
   std::vector<EventOrder> orders_;  // sort keys of the world's log, in parallel
   smoke::Field field_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "volumes/decal_volume.hpp"
 
 namespace brume::scenario {

@@ -4,6 +4,7 @@
 
 #include "palettes/choice.hpp"
 #include "palettes/sample.hpp"
+#include "scene/files/tank_reader.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
 

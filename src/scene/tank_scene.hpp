@@ -1,4 +1,4 @@
-// A tank of spheres, its lights, its glass and the camera before it: a file of its own, with [tank].
+// A tank of spheres, its lights, its glass and the camera before it.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -127,17 +126,5 @@ TankLight light_at(const TankLight& light, double time);
 TankGlass glass_at(const TankGlass& glass, double time);
 /// The camera likewise, or one that shows all of a tank of this size [m].
 Camera camera_at(const TankScene& scene, const glm::vec3& tank_size, double time);
-
-/// What a file of a tank alone is shown with: a light above it, and a bright sky.
-TankScene scene_of_tank_file(const std::filesystem::path& tank);
-
-/// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.
-bool is_tank_scene(const std::filesystem::path& path);
-/// The files that its text names, whether or not they exist or the scene is valid; none where it cannot be
-/// read.
-std::vector<std::filesystem::path> files_named_by_tank_scene(const std::filesystem::path& path);
-/// Reads it. Fails as load_timeline.
-Result<TankScene> load_tank_scene(const std::filesystem::path& path);
-Result<TankScene> parse_tank_scene(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace brume::scene

@@ -20,7 +20,7 @@ LightCells make_cells(const scene::Scene& scene, const planning::LevelState& lev
 }  // namespace
 
 struct LightCellsMaker::Expected {
-  Expected(const scene::Scene& scene, std::shared_ptr<const scenario::NextLevel> expected_level)
+  Expected(const scene::Scene& scene, std::shared_ptr<const planning::NextLevel> expected_level)
       : level(std::move(expected_level)),
         thread([this, &scene, log = log_of_threads(), threads = thread_count()] {
           run(scene, log.get(), threads);
@@ -45,7 +45,7 @@ struct LightCellsMaker::Expected {
            voxel::same_voxels(*state.voxels.light_grid(), level->opaque);
   }
 
-  std::shared_ptr<const scenario::NextLevel> level;
+  std::shared_ptr<const planning::NextLevel> level;
   std::optional<LightCells> cells;
   std::atomic<bool> is_done{false};
   std::thread thread;
@@ -67,7 +67,7 @@ LightCells LightCellsMaker::make(const planning::LevelState& level) {
   return make_cells(scene_, level, *level.voxels.light_grid());
 }
 
-void LightCellsMaker::expect(const std::shared_ptr<const scenario::NextLevel>& level) {
+void LightCellsMaker::expect(const std::shared_ptr<const planning::NextLevel>& level) {
   if (!level || (expected_ && (expected_->level == level || !expected_->is_done))) return;
   expected_ = std::make_unique<Expected>(scene_, level);
 }

@@ -7,7 +7,7 @@
 #include "core/log.hpp"
 #include "grids/color_bricks.hpp"
 #include "grids/coverage.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/mask_bricks.hpp"
 #include "grids/metadata.hpp"
 #include "volumes/stray_note.hpp"

@@ -11,7 +11,7 @@
 #include "core/box.hpp"
 #include "core/error.hpp"
 #include "grids/brick_volume.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/glow.hpp"
 #include "grids/volume_files.hpp"
 #include "scene/volume_options.hpp"

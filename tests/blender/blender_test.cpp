@@ -10,7 +10,8 @@
 
 #include "core/file.hpp"
 #include "image/decode.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "shared/spot.h"
 #include "tests/blender/blender_fixture.hpp"

@@ -1,6 +1,6 @@
 // Tests that require a display: Blender's renderer and its window.
 #include "image/decode.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "tests/blender/blender_fixture.hpp"
 
 namespace brume::blender {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
-#include "scene/toml_table.hpp"
+#include "scene/files/toml_table.hpp"
 #include "tests/cli/run_program.hpp"
 
 namespace brume::blender {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/cli/run_program.hpp"
 #include "tests/grids/sample_grids.hpp"
 

@@ -1,8 +1,8 @@
 // brume bake slices and brume bake occlusion.
 #include <gtest/gtest.h>
 
-#include "grids/files.hpp"
-#include "grids/slice_atlas.hpp"
+#include "grids/files/grid_files.hpp"
+#include "grids/files/slice_atlas.hpp"
 #include "image/png.hpp"
 #include "tests/cli/command_test.hpp"
 

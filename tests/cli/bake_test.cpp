@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "core/box.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
+#include "grids/files/slice_atlas.hpp"
 #include "grids/generate.hpp"
-#include "grids/slice_atlas.hpp"
 #include "tests/cli/command_test.hpp"
 
 namespace brume::cli {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/cli/command_test.hpp"
 #include "tests/grids/sample_grids.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/cli/command_test.hpp"
 
 namespace brume::cli {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "image/png.hpp"
 #include "tests/cli/run_program.hpp"
 #include "tests/engines/sample_volume.hpp"

@@ -1,6 +1,6 @@
 #include "tests/engines/sample_volume.hpp"
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 
 namespace brume::engines {
 namespace {

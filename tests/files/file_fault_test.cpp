@@ -13,11 +13,11 @@
 #include <functional>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
-#include "grids/raw_file.hpp"
+#include "grids/files/grid_files.hpp"
+#include "grids/files/raw_file.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "spheres/export.hpp"
 #include "spheres/file.hpp"
 #include "tests/work_folder.hpp"

@@ -6,7 +6,7 @@
 #include "core/file.hpp"
 #include "fuzz/brv_checks.hpp"
 #include "grids/brv_file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/grids/sample_grids.hpp"
 
 namespace brume::grids {

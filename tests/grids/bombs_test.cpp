@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/grids/bombs.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"

@@ -1,4 +1,4 @@
-#include "grids/cut_sides.hpp"
+#include "grids/files/cut_sides.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 #include "core/file.hpp"
 #include "grids/check.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/file.hpp"
-#include "grids/raw_file.hpp"
+#include "grids/files/raw_file.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
 

@@ -1,4 +1,4 @@
-#include "grids/slice_atlas.hpp"
+#include "grids/files/slice_atlas.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "core/file.hpp"
 #include "grids/dense_grid.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "tests/grids/child.hpp"

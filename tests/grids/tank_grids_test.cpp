@@ -1,5 +1,5 @@
 // Tanks as volume grids: where they are, what they hold, how they are reduced.
-#include "grids/tank_grids.hpp"
+#include "grids/files/tank_grids.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/metadata.hpp"
 #include "spheres/color.hpp"
 #include "spheres/file.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/volume_files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/slice_volumes.hpp"
 #include "tests/host/hosted_pair.hpp"
 #include "tests/passes/half.hpp"

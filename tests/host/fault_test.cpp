@@ -3,7 +3,7 @@
 #include <array>
 
 #include "gpu/read_back.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "scenario/scenario.hpp"
 #include "tests/gpu/interposer.hpp"

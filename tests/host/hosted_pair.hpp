@@ -6,8 +6,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gpu/read_back.hpp"
-#include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 #include "tests/host/hosted_smoke.hpp"
 
@@ -76,7 +76,7 @@ class HostedPair : public testing::Test {
         options.smoke.temporal = HostedSmoke::is_temporal;
         whole_ = std::make_unique<render::Renderer>(*gpu_, *recording_, scenario_.scene, options);
       }
-      planning::FrameInput input = planning::frame_input(scenario_, *simulation_, seconds, holes_);
+      planning::FrameInput input = scenario::frame_input(scenario_, *simulation_, seconds, holes_);
       input.view.frame_index = static_cast<std::uint32_t>(frame);
       if (change_input_) change_input_(input);
       const planning::FramePlan plan = whole_->plan(input);

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "tests/host/hostile_frames.hpp"
 #include "tests/thorough.hpp"

@@ -2,7 +2,7 @@
 #include <bit>
 #include <set>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "scene/options.hpp"
 #include "tests/host/hosted_pair.hpp"

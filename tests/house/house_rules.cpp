@@ -9,17 +9,13 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 32> kFolders{"core",     "palettes",    "spheres",
-                                                    "image",    "scene",       "voxel",
-                                                    "vxl",      "volume",      "grids",
-                                                    "trace",    "bake",        "sim",
-                                                    "smoke",    "wire",        "api",
-                                                    "volumes",  "scenario",    "planning",
-                                                    "surfaces", "reference",   "gpu",
-                                                    "passes",   "render",      "host",
-                                                    "bench",    "apps/vdb",    "apps/command_line",
-                                                    "apps/mpi", "apps/viewer", "apps/cli",
-                                                    "examples", "python"};
+constexpr std::array<std::string_view, 35> kFolders{
+    "core",     "palettes",    "spheres",  "image",     "scene",       "scene/files",
+    "voxel",    "vxl",         "volume",   "grids",     "grids/files", "trace",
+    "bake",     "sim",         "smoke",    "wire",      "api",         "volumes",
+    "planning", "scenario",    "surfaces", "reference", "gpu",         "passes",
+    "render",   "film",        "host",     "bench",     "apps/vdb",    "apps/command_line",
+    "apps/mpi", "apps/viewer", "apps/cli", "examples",  "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {
@@ -53,16 +49,19 @@ std::span<const std::string_view> folders() {
 
 std::string_view folder_of(std::string_view path) {
   if (path.starts_with("src/")) path.remove_prefix(4);
-  std::size_t slash = path.find('/');
-  if (path.starts_with("apps/")) slash = path.find('/', slash + 1);
-  return slash == std::string_view::npos ? std::string_view() : path.substr(0, slash);
+  // A folder within a folder is one of its own where it is listed.
+  const std::size_t slash = path.find('/'), inner = path.find('/', slash + 1);
+  if (slash == std::string_view::npos) return {};
+  const bool is_listed =
+      inner != std::string_view::npos && place(path.substr(0, inner)) < std::ssize(kFolders);
+  return path.substr(0, is_listed ? inner : slash);
 }
 
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text) {
   std::vector<std::string> found;
   for (const std::string& path : quoted_includes(text)) {
     const std::string_view other = folder_of(path);
-    if (other.empty()) continue;  // A generated header.
+    if (other.empty()) continue;      // A generated header.
     if (other == "shared") continue;  // The lowest layer: plain structs for C++ and GLSL.
     if (place(other) > place(folder) || place(other) == std::ssize(kFolders)) found.push_back(path);
   }

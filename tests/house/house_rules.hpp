@@ -11,8 +11,8 @@ namespace brume::house {
 /// The folders from bottom to top: a file may include its own folder and those before it.
 std::span<const std::string_view> folders();
 
-/// "core" for src/core/file.hpp and core/file.hpp, "apps/cli" for apps/cli/main.cpp; empty for a file in
-/// none.
+/// "core" for src/core/file.hpp and core/file.hpp, "scene/files" for src/scene/files/load.hpp, "apps/cli" for
+/// apps/cli/main.cpp; empty for a file in none.
 std::string_view folder_of(std::string_view path);
 
 /// The includes of a file of a folder that point up in folders() or to a folder that is not in

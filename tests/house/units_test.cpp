@@ -16,10 +16,7 @@ using Groups = std::vector<std::vector<std::string>>;
 constexpr std::size_t kMostUnitLines = 700, kMostInterfaceLines = 1000, kMostShaderLines = 199;
 
 // Groups of units that still need each other. A line may only be removed.
-const Groups kKnownCircles{
-    {"python/density", "python/smoke"},
-    {"src/scene/timeline", "src/scene/timeline_parts"},
-};
+const Groups kKnownCircles{{"python/density", "python/smoke"}};
 
 Units units_of(std::initializer_list<std::pair<const char*, const char*>> files) {
   Units units;

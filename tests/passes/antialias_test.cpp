@@ -4,7 +4,7 @@
 #include <functional>
 #include <random>
 
-#include "planning/lens.hpp"
+#include "planning/device_camera.hpp"
 #include "planning/media_plan.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/film_frame.hpp"

@@ -2,8 +2,8 @@
 #include "tests/reference/truth.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/device_lights.hpp"
-#include "planning/scenario_frame.hpp"
 #include "reference/path_tracer.hpp"
+#include "scenario/frame.hpp"
 #include "smoke/noise_tile.hpp"
 #include "tests/path_tracer/statistics.hpp"
 #include "tests/render/truth_scenes.hpp"
@@ -82,7 +82,7 @@ struct Studio {
         lights(without_range(planning::device_lights(one.scenario.scene.lights, 64))),
         triangles(truth_triangles(one.scenario.scene)) {
     simulation->advance_to(one.seconds);
-    frame = planning::frame_input(one.scenario, *simulation, one.seconds, holes);
+    frame = scenario::frame_input(one.scenario, *simulation, one.seconds, holes);
     if (!one.noisy) frame.smoke.look.hole_rim = 0;
     scene = make_scene(one.scenario.scene, frame, &one.scenario.masks);
 

@@ -1,7 +1,7 @@
 // What is out of view costs nothing, and changes nothing.
 #include <cstdlib>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -44,7 +44,7 @@ class CullingTest : public gpu::GpuTest {
 // their length.
 TEST_F(CullingTest, SmokeAndLightsOutOfViewChangeNothing) {
   const scenario::Scenario alone = wide_stage(false, false), crowded = wide_stage(true, true);
-  Playback a(context(), alone, kSize), b(context(), crowded, kSize);
+  film::Playback a(context(), alone, kSize), b(context(), crowded, kSize);
   a.set_step_scale(0.25f);
   b.set_step_scale(0.25f);
   const image::Image8 with = b.draw(2, 0), without = a.draw(2, 0);
@@ -63,7 +63,7 @@ TEST_F(CullingTest, SmokeAndLightsOutOfViewChangeNothing) {
 TEST_F(CullingTest, WhatComesIntoViewIsUpToDate) {
   const scenario::Scenario scenario = wide_stage(true, true);
   const scene::Camera toward{{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f}, away{{0, 1.5f, 5.5f}, {0, 1.2f, 30}, 0.9f};
-  Playback turning(context(), scenario, kSize), staring(context(), scenario, kSize);
+  film::Playback turning(context(), scenario, kSize), staring(context(), scenario, kSize);
   turning.set_camera(away);
   staring.set_camera(toward);
   EXPECT_NE(turning.draw(0.4, 0).rgba, staring.draw(0.4, 0).rgba);

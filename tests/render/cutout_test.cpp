@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -49,7 +49,7 @@ class CutoutTest : public gpu::GpuTest {
 
   /// Brightness of the floor at a place along x.
   static std::vector<int> along_x(const scenario::Scenario& scenario) {
-    Playback playback(context(), scenario, kSize);
+    film::Playback playback(context(), scenario, kSize);
     const image::Image8 image = playback.draw(0, 0);
     std::vector<int> row;
     // From 1.8 m above, half of the image's height is tan(0.8) of that.

@@ -3,7 +3,7 @@
 #include <optional>
 #include <set>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -39,8 +39,8 @@ class DebugViewsTest : public gpu::GpuTest {
     return instance;
   }
   /// One for all tests, which makes each view's pipeline once.
-  static Playback& playback() {
-    static Playback instance(context(), scenario(), kViewImage);
+  static film::Playback& playback() {
+    static film::Playback instance(context(), scenario(), kViewImage);
     return instance;
   }
   RendererOptions options(std::uint32_t march_scale, bool temporal) const {
@@ -75,10 +75,10 @@ TEST_F(DebugViewsTest, EachIsThereAndDiffersFromAllOthers) {
 
 TEST_F(DebugViewsTest, TheImageIsTheSameWhateverWasShownBefore) {
   for (const std::uint32_t scale : {1u, 4u}) {
-    Playback plain(context(), scenario(), options(scale, false));
-    std::optional<Playback> of_blocks;
+    film::Playback plain(context(), scenario(), options(scale, false));
+    std::optional<film::Playback> of_blocks;
     if (scale > 1) of_blocks.emplace(context(), scenario(), options(scale, false));
-    Playback& other = of_blocks ? *of_blocks : playback();
+    film::Playback& other = of_blocks ? *of_blocks : playback();
     for (std::uint32_t i = 1; i < shared::kViewCount; i += scale) {  // of the lower resolution a few
       const double seconds = 1.6 + 0.1 * i;                          // over the time when a wall breaks
       other.set_view(static_cast<DebugView>(i), {});
@@ -91,7 +91,8 @@ TEST_F(DebugViewsTest, TheImageIsTheSameWhateverWasShownBefore) {
 }
 
 TEST_F(DebugViewsTest, AFilmGoesOnAfterAView) {
-  Playback plain(context(), scenario(), options(4, true)), other(context(), scenario(), options(4, true));
+  film::Playback plain(context(), scenario(), options(4, true)),
+      other(context(), scenario(), options(4, true));
   for (std::uint32_t frame = 0; frame < 4; ++frame) {
     const double seconds = 1.2 + frame / 24.0;
     other.set_view(frame == 1 ? DebugView::steps : frame == 2 ? DebugView::holes : DebugView::none, {});

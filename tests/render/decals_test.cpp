@@ -34,7 +34,7 @@ class DecalFramesTest : public VolumeFixture {
     if (with_carrier)
       timeline.carriers = {
           {"drone", "cube", {{0, {1.5f, 1, 0}, {20, 40, 10}}, {2, {1.5f, 1, 2}, {0, 0, 90}}}}};
-    scenario::exclude_moved_objects(timeline.carriers, scene);
+    scene::exclude_moved_objects(timeline.carriers, scene);
     return scenario_of(std::move(scene), std::move(timeline), {{48, 20, 48}, 0.25f, {-6, -0.6f, -6}});
   }
   /// A decal of one value in a box of 4 x 2 x 4 m around its carrier.

@@ -1,7 +1,7 @@
 // Ambient light that is the same from all directions.
 #pragma once
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 namespace brume::render {
 

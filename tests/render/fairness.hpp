@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/truth_scenes.hpp"
 

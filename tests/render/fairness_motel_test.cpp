@@ -1,7 +1,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "tests/render/fairness.hpp"
 
 namespace brume::render {

@@ -1,7 +1,7 @@
 // Films whose smoke is gathered over their frames.
 #include <cmath>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -48,7 +48,8 @@ class FilmTest : public gpu::GpuTest {
 TEST_F(FilmTest, AFrameThatFollowsNoneIsTheImageOfItsTime) {
   const scenario::Scenario scene = scenario();
   for (const std::uint32_t scale : {1u, 4u}) {
-    Playback film(context(), scene, options(scale, true)), stills(context(), scene, options(scale, false));
+    film::Playback film(context(), scene, options(scale, true)),
+        stills(context(), scene, options(scale, false));
     // Stills of one sample halve their steps where smoke has detail; films do not.
     stills.set_step_scale(2);
     EXPECT_EQ(film.draw(2, 48).rgba, stills.draw(2, 48).rgba);
@@ -96,7 +97,7 @@ TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
   scenario::Scenario still = shot;
   still.timeline.shots.clear();
   for (const std::uint32_t scale : {1u, 2u}) {
-    Playback had(context(), shot, options(scale, true)), never(context(), still, options(scale, true)),
+    film::Playback had(context(), shot, options(scale, true)), never(context(), still, options(scale, true)),
         stills(context(), still, options(scale, false));
     double most_open = 0, first_apart = 0, last_apart = 0;
     for (std::uint32_t i = 0; i < 24; ++i) {
@@ -148,7 +149,7 @@ TEST_F(FilmTest, WhatSmokeHidesAntialiasedFilmsHideAtOnce) {
   scene.timeline.smoke.erosion = 0;  // which shots push around, for longer than their holes stay open
   RendererOptions antialiased = options(1, true);
   antialiased.antialias = true;
-  Playback film(context(), scene, antialiased), stills(context(), scene, options(1, false));
+  film::Playback film(context(), scene, antialiased), stills(context(), scene, options(1, false));
   double open = 0, closed = 0;
   int frames = 0;
   for (std::uint32_t i = 0; i < 24; ++i) {
@@ -195,7 +196,7 @@ TEST_F(FilmTest, EdgesAreSmooth) {
   scene.timeline.shots.clear();
   RendererOptions antialiased = options(1, false);
   antialiased.antialias = true;
-  Playback film(context(), scene, antialiased), stills(context(), scene, options(1, false));
+  film::Playback film(context(), scene, antialiased), stills(context(), scene, options(1, false));
   image::Image8 shown;
   for (std::uint32_t i = 0; i < 33; ++i) shown = film.draw(0.1, i);
   const image::Image8 jagged = stills.draw(0.1, 0);
@@ -208,7 +209,7 @@ TEST_F(FilmTest, EdgesAreSmooth) {
 }
 
 /// Mean difference of images that follow each other while the camera circles the smoke.
-double flicker(Playback& playback) {
+double flicker(film::Playback& playback) {
   const auto draw = [&](std::uint32_t i) {
     const float angle = 0.6f * std::sin(0.6283f * static_cast<float>(i) / 24);
     playback.set_camera(
@@ -232,7 +233,7 @@ double flicker(Playback& playback) {
 
 TEST_F(FilmTest, AReducedMarchFlickersNoMoreThanAFullOne) {
   const scenario::Scenario scene = scenario();
-  Playback full(context(), scene, options(1, false)), half(context(), scene, options(2, false)),
+  film::Playback full(context(), scene, options(1, false)), half(context(), scene, options(2, false)),
       gathered(context(), scene, options(2, true));
   const double of_full = flicker(full), of_half = flicker(half), of_gathered = flicker(gathered);
   std::printf("from frame to frame, of 255: full %.3f, half %.3f, half gathered %.3f\n", of_full, of_half,

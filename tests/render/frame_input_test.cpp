@@ -296,7 +296,7 @@ TEST_F(FrameInputTest, TheLevel) {
        }},
       {"next",
        [&](FrameInput& input) {
-         input.level.next = std::make_shared<const scenario::NextLevel>(scenario::NextLevel{walled, {}});
+         input.level.next = std::make_shared<const planning::NextLevel>(planning::NextLevel{walled, {}});
        },
        {},
        "it never decides what is shown"},

@@ -1,6 +1,6 @@
 // The numbers behind a frame: bit for bit the device's, and what they mean.
-#include "render/frame_layers.hpp"
-#include "render/layer_mean.hpp"
+#include "film/frame_layers.hpp"
+#include "film/layer_mean.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/file.hpp"
+#include "film/playback.hpp"
 #include "image/exr.hpp"
-#include "render/playback.hpp"
 #include "scene/color.hpp"
 #include "shared/opaque.h"
 #include "tests/gpu/gpu_test.hpp"
@@ -91,9 +91,9 @@ class FrameLayersTest : public gpu::GpuTest {
   }
 
   Layers draw() {
-    FrameLayers layers(context(), renderer().targets().size_px);
+    film::FrameLayers layers(context(), renderer().targets().size_px);
     renderer().draw(input_, [&](gpu::Recorder& recorder) { layers.record(recorder, renderer()); });
-    LayerMean mean;
+    film::LayerMean mean;
     mean.add(layers.image());
     return Layers(mean.mean());
   }
@@ -284,9 +284,9 @@ TEST_F(FrameLayersTest, ExposureAndToneCurveGiveTheShownImage) {
   for (const std::uint32_t scale : {1u, 4u}) {
     RendererOptions options{{33, 17}};
     options.smoke.march_scale = scale;
-    Playback usual(context(), scenario, options);
+    film::Playback usual(context(), scenario, options);
     options.smoke.record_entries = true;
-    Playback playback(context(), scenario, options);
+    film::Playback playback(context(), scenario, options);
     const image::Image8 shown = usual.draw(1.5, 0);
     EXPECT_EQ(playback.draw(1.5, 0).rgba, shown.rgba) << "recording entries changes nothing";
     const Layers layers(playback.draw_layers(1.5, 0));

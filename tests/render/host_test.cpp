@@ -4,8 +4,8 @@
 #include <set>
 
 #include "planning/device_camera.hpp"
-#include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/gpu/host_application.hpp"
@@ -36,7 +36,7 @@ class HostTest : public gpu::GpuTest {
 
   FrameInput input_at(double seconds) {
     simulation_->advance_to(seconds);
-    return planning::frame_input(scenario_, *simulation_, seconds, holes_);
+    return scenario::frame_input(scenario_, *simulation_, seconds, holes_);
   }
   /// The media of all frames as a device of its own draws them.
   std::vector<Texels> drawn() {

@@ -3,7 +3,7 @@
 #include <glm/gtc/packing.hpp>
 #include <numbers>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -46,7 +46,7 @@ class LensTest : public gpu::GpuTest {
   static std::vector<double> row(const scenario::Scenario& scenario, double seconds = 0) {
     RendererOptions options{kSize};
     options.smoke.record_entries = true;
-    Playback playback(context(), scenario, options);
+    film::Playback playback(context(), scenario, options);
     playback.set_samples(kSamples);
     const image::LayeredImage image = playback.draw_layers(seconds, 0);
     std::vector<double> row;

@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/two_smokes.hpp"
 #include "tests/worlds.hpp"

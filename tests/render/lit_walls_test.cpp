@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "core/file.hpp"
+#include "film/playback.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/device_lights.hpp"
-#include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/reference/truth.hpp"

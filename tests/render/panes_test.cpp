@@ -1,6 +1,6 @@
 // Panes over a picture: what they let through, and where media are before or behind them.
-#include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
@@ -9,7 +9,7 @@
 namespace brume::render {
 namespace {
 
-using planning::frame_input;
+using scenario::frame_input;
 
 /// What clear glass reflects of light that falls straight on it.
 constexpr double kStraight = 0.04;

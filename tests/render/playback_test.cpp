@@ -1,4 +1,4 @@
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,19 +50,19 @@ class PlaybackTest : public gpu::GpuTest {
 
 TEST_F(PlaybackTest, TheSameTimeGivesTheSameImage) {
   const scenario::Scenario scenario = small_stage(small_scene(true));
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto first = playback.draw(0.8, 5).rgba;
   const auto early = playback.draw(0.1, 1).rgba;
   EXPECT_NE(first, early);
   EXPECT_EQ(playback.draw(0.8, 5).rgba, first);
-  Playback other(context(), scenario, kSize);
+  film::Playback other(context(), scenario, kSize);
   EXPECT_EQ(other.draw(0.8, 5).rgba, first);
 }
 
 TEST_F(PlaybackTest, AwkwardSizes) {
   const scenario::Scenario scenario = small_stage(small_scene(false));
   for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(33, 17)}) {
-    Playback playback(context(), scenario, size);
+    film::Playback playback(context(), scenario, size);
     const auto image = playback.draw(1.2, 0);
     EXPECT_EQ(image.rgba.size(), std::size_t{4} * size.x * size.y);
   }
@@ -93,7 +93,7 @@ double least_shown(const scene::Scene& scene, glm::dvec2 pixel, glm::dvec2 size)
 
 TEST_F(PlaybackTest, AWallCastsAShadow) {
   const scenario::Scenario open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
-  Playback without(context(), open, kSize), with(context(), screened, kSize);
+  film::Playback without(context(), open, kSize), with(context(), screened, kSize);
   const auto a = without.draw(0, 0), b = with.draw(0, 0);
   // Right of the screen the light, which hangs left of it, does not reach the back wall: there is the ambient
   // light alone. A step of 255 for rounding and the noise against bands.
@@ -114,7 +114,7 @@ TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
   scenario.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, {0.1f, 0.05f, 1.0f, 0.2f}}};
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const double clear = brightness(playback.draw(0.1, 0), 0.5, 0.47);
   const double hidden = brightness(playback.draw(2.9, 0), 0.5, 0.47);
   const double open = brightness(playback.draw(3.6, 0), 0.5, 0.47);
@@ -134,7 +134,7 @@ TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.smoke.voxels = 150;
   scenario.timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {-0.9f, 0, 0}}};
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0, 0), after = playback.draw(2.5, 0);
   EXPECT_GT(brightness(before, 0.585, 0.79), 30);
   EXPECT_LT(brightness(after, 0.585, 0.79), 0.5 * brightness(before, 0.585, 0.79));
@@ -181,7 +181,7 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   scenario.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
   scenario.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, {0.1f, 0.05f, 1.0f, 0.2f}}};
   scenario.timeline.shots[0].flash = 0;
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
   playback.set_camera(beside);
   // The middle of the image looks at the wall where the shot hits it.
@@ -233,7 +233,7 @@ TEST_F(PlaybackTest, SmokeShadowsTheSunUnderIt) {
   scenario.timeline.smokes = {{0.2, {0, 3, 1.5f}, {0, 3, 1.5f}}};
   scenario.timeline.edits = {
       {0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   // An eye on the floor that looks at the floor, first under the shelf, then beside.
   const auto floor_at = [&](glm::vec3 target_world, double seconds) {
     playback.set_camera(scene::Camera{target_world + glm::vec3(0, 0.8f, 0.5f), target_world, 0.9f});
@@ -257,7 +257,7 @@ TEST_F(PlaybackTest, TheSunLightsAGroundBeyondTheScene) {
   scene.objects.push_back({"ground", 2, 0, glm::mat4(1)});
   scene.objects.back().backdrop = true;
   const scenario::Scenario scenario = small_stage(std::move(scene));
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto ground_at = [&](float z) {
     const glm::vec3 target(0, -0.4f, z);
     playback.set_camera(scene::Camera{target + glm::vec3(0, 0.8f, 0.5f), target, 0.9f});
@@ -279,7 +279,7 @@ TEST_F(PlaybackTest, TheSkyLightsAGroundBeyondTheGrid) {
   scene.objects.back().backdrop = true;
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.sky.ambient = glm::vec3(0.4f);
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const glm::vec3 target(-40, -0.4f, 60);
   playback.set_camera(scene::Camera{target + glm::vec3(0, 0.8f, 0.5f), target, 0.9f});
   // Upwards 0.75 + 0.25 of the ambient light.
@@ -293,7 +293,7 @@ TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
   scenario::Scenario scenario = small_stage(std::move(scene));
   scenario.timeline.smokes.clear();
   scenario.timeline.shots = {{1, {-2, 2, 0.3f}, {-2, 2, -1}}};
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0.95, 0), flash = playback.draw(1.01, 0), after = playback.draw(1.1, 0);
   EXPECT_LE(brightness(before, 0.2, 0.4), 2);
   EXPECT_GT(brightness(flash, 0.2, 0.4), 50);
@@ -304,7 +304,7 @@ TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
 TEST_F(PlaybackTest, TheGrenadeFlies) {
   scenario::Scenario scenario = small_stage(small_scene(false));
   scenario.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0.4, 0), flying = playback.draw(0.6, 0);
   EXPECT_NE(before.rgba, flying.rgba);
 }
@@ -333,7 +333,7 @@ TEST_F(PlaybackTest, AnOpenDoorShowsWhatIsBehindItAndLetsTheLightThrough) {
   const scenario::Scenario scenario = stage_with_door();
   scenario::Scenario lightless = stage_with_door();
   lightless.scene.lights.clear();
-  Playback playback(context(), scenario, kSize), unlit(context(), lightless, kSize);
+  film::Playback playback(context(), scenario, kSize), unlit(context(), lightless, kSize);
   const auto shut = playback.draw(0.5, 0), open = playback.draw(1.5, 0), again = playback.draw(2.5, 0);
   EXPECT_LT(brightness(shut, 0.5, 0.47), 30);
   EXPECT_GT(brightness(open, 0.5, 0.47), 60);
@@ -343,7 +343,7 @@ TEST_F(PlaybackTest, AnOpenDoorShowsWhatIsBehindItAndLetsTheLightThrough) {
   EXPECT_GT(brightness(open, 0.5, 0.47), brightness(unlit.draw(1.5, 0), 0.5, 0.47) + 10);
   // A door that never was is one that is open.
   const scenario::Scenario without = stage_with_door(false);
-  Playback never(context(), without, kSize);
+  film::Playback never(context(), without, kSize);
   EXPECT_EQ(never.draw(1.5, 0).rgba, open.rgba);
 }
 
@@ -352,7 +352,7 @@ TEST_F(PlaybackTest, SmokeStaysBehindADoorThatIsShutAndComesThroughWhenItOpens) 
   scenario.timeline.smokes = {{0.0, {0, 3.5f, -1}, {0, 0, -1}}};  // behind the screen
   scenario.timeline.smoke.voxels = 3000;
   scenario.timeline.doors = {{1.5, "door", true, ""}};
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   const auto in_front = [&](double seconds) {
     (void)playback.draw(seconds, 0);
     const sim::State& state = playback.simulation().world().state();
@@ -371,7 +371,7 @@ TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
     scenario.timeline.shots.push_back(
         {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, {0.1f, 0.05f, 5.0f, 0.2f}});
   }
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   EXPECT_EQ(playback.draw(2.5, 0).width, kSize.x);
 }
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "planning/scenario_frame.hpp"
 #include "render/renderer.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::render {
@@ -24,7 +24,7 @@ inline std::unique_ptr<Studio> make_studio(gpu::Context& context, gpu::CommandRu
   auto made = std::make_unique<Studio>(Studio{std::move(scenario), {}, {}, {}, {}});
   made->simulation = scenario::Simulation::create(made->scenario).value_or_throw();
   made->simulation->advance_to(seconds);
-  made->input = planning::frame_input(made->scenario, *made->simulation, seconds, made->holes);
+  made->input = scenario::frame_input(made->scenario, *made->simulation, seconds, made->holes);
   made->renderer =
       std::make_unique<Renderer>(context, runner, made->scenario.scene, RendererOptions{.size_px = size_px});
   return made;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "planning/device_camera.hpp"
-#include "planning/lens.hpp"
+#include "scenario/lens.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/path_tracer/tank_fixture.hpp"
@@ -277,8 +277,8 @@ TEST_F(TankFramesTest, EachSampleOfALensSeesItFromItsPlace) {
   one->input.view.camera.lens.aperture = 0.2f;
   one->input.view.camera.lens.focus = 9;
   one->input.tanks = {tank()};
-  for (const planning::CameraSample& sample :
-       planning::camera_samples(3, one->input.view.camera.lens, nullptr)) {
+  for (const scenario::CameraSample& sample :
+       scenario::camera_samples(3, one->input.view.camera.lens, nullptr)) {
     one->input.view.sample = sample.view;
     one->renderer->draw(one->input);
     const std::vector<float> depth = read_back<float>(one->renderer->surfaces());
@@ -300,8 +300,8 @@ TEST_F(TankFramesTest, EachSampleOfALensSeesItFromItsPlace) {
 TEST_F(TankFramesTest, TheMeanOfSeveralSamplesHasNoHalo) {
   const auto one = studio();
   one->input.tanks = {tank(kMiddle, 1)};
-  const auto samples = planning::camera_samples(8, {}, nullptr);
-  for (const planning::CameraSample& sample : samples) {
+  const auto samples = scenario::camera_samples(8, {}, nullptr);
+  for (const scenario::CameraSample& sample : samples) {
     one->input.view.sample = sample.view;
     one->renderer->draw(one->input);
   }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
+#include "film/playback.hpp"
 #include "planning/device_camera.hpp"
 #include "reference/path_tracer.hpp"
-#include "render/playback.hpp"
 #include "spheres/file.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"

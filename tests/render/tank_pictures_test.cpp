@@ -2,8 +2,8 @@
 #include <array>
 
 #include "core/tasks.hpp"
+#include "film/playback.hpp"
 #include "reference/tank_tracer.hpp"
-#include "render/playback.hpp"
 #include "tests/render/tank_fixture.hpp"
 
 namespace brume::render {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kTruthSize{48, 32};
 constexpr std::uint32_t kBatches = reference::kFewer > 1 ? 8 : 48;
-constexpr std::uint32_t kSamplesOfBatch = TankPhotons::kSamplesOfBatch;
+constexpr std::uint32_t kSamplesOfBatch = film::TankPhotons::kSamplesOfBatch;
 constexpr std::uint32_t kPixels = kTruthSize.x * kTruthSize.y;
 constexpr std::uint32_t kPhotonsOfBatch = 100000;
 
@@ -232,7 +232,7 @@ TEST_F(TankTruthTest, PicturesTakeNewLightPathsEverySixteenSamples) {
   Example shown = example(Matter::mixed, 2);
   shown.scenario.scene.samples = 3 * kSamplesOfBatch - 5;
   const auto& [scene, tank] = shown.scenario;
-  TankPlayback playback(context(), shown.scenario, kTruthSize);
+  film::TankPlayback playback(context(), shown.scenario, kTruthSize);
   playback.set_camera(shown.camera);
   const image::LayeredImage image = playback.draw_layers(0);
 
@@ -265,12 +265,12 @@ TEST_F(TankTruthTest, FramesOfAFilmAreThoseOfNewPictures) {
       if (moves == 1)
         scene.glass->keys = {{0, {0, 0, 0.6f}, glm::vec3(0.2f)}, {2, {0, 0, 0.7f}, glm::vec3(0.3f)}};
       if (moves == 2) scene.camera.push_back({2, {{0.7f, 0.5f, 0.8f}, {0, 0, 0}, 0.6f}});
-      TankPlayback film(context(), shown.scenario, {24, 16});
+      film::TankPlayback film(context(), shown.scenario, {24, 16});
       std::vector<image::LayeredImage> frames;
       for (const double seconds : {0.0, 1.0, 0.0, 2.0}) {
         frames.push_back(film.draw_layers(seconds));
         const image::LayeredImage alone =
-            TankPlayback(context(), shown.scenario, {24, 16}).draw_layers(seconds);
+            film::TankPlayback(context(), shown.scenario, {24, 16}).draw_layers(seconds);
         for (std::size_t c = 0; c < 3; ++c)
           EXPECT_TRUE(frames.back().layers[c].values == alone.layers[c].values) << seconds << " s";
       }

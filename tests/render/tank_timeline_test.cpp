@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "scenario/editable_scenario.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/work_folder.hpp"
@@ -31,10 +31,10 @@ class TankTimelineTest : public gpu::GpuTest {
     return scenario::load_scenario(folder_.path() / folder_.write("level.toml", kLevel + tanks), {});
   }
   static FrameInput frame_of(const scenario::Scenario& scenario, double seconds,
-                             const planning::FrameOptions& options = {}) {
+                             const scenario::FrameOptions& options = {}) {
     const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
     std::vector<shared::Hole> holes;
-    FrameInput input = planning::frame_input(scenario, *simulation, seconds, holes, options);
+    FrameInput input = scenario::frame_input(scenario, *simulation, seconds, holes, options);
     input.smoke = {};
     input.level = {};
     return input;
@@ -69,7 +69,7 @@ TEST_F(TankTimelineTest, StandWhereTheTimelineSays) {
   expect_near(carried.placement.axes[0], {0, 0, -1});
   expect_near(carried.placement.position_world, {1, 2, 2});
   FrameInput moved = input;
-  planning::move_frame(scenario, 0, 2, {}, moved);
+  scenario::move_frame(scenario, 0, 2, {}, moved);
   expect_near(moved.tanks[1].placement.position_world, {5, 2, 2});
   EXPECT_EQ(moved.tanks[0].placement, standing.placement);
 }
@@ -77,7 +77,7 @@ TEST_F(TankTimelineTest, StandWhereTheTimelineSays) {
 TEST_F(TankTimelineTest, SamplesOfAPictureShareThePaths) {
   const auto scenario = load(std::string(kStanding) + "samples = 10\n").value_or_throw();
   for (const std::uint32_t count : {1u, 3u, 40u}) {
-    const planning::FrameSamples samples(scenario, 1, {}, frame_of(scenario, 1), count);
+    const scenario::FrameSamples samples(scenario, 1, {}, frame_of(scenario, 1), count);
     std::set<std::uint32_t> paths;
     for (std::uint32_t i = 0; i < count; ++i) {
       const planning::TankInput& tank = samples[i].tanks.at(0);
@@ -116,7 +116,7 @@ TEST_F(TankTimelineTest, AnEditedTimelineMovesItsTanksAndLoadsNoOthers) {
 
 TEST_F(TankTimelineTest, ATimeIsOnePictureWhateverCameBefore) {
   const auto with = load(kStanding).value_or_throw(), without = load("").value_or_throw();
-  Playback playback(context(), with, glm::uvec2(32, 18)), empty(context(), without, glm::uvec2(32, 18));
+  film::Playback playback(context(), with, glm::uvec2(32, 18)), empty(context(), without, glm::uvec2(32, 18));
   const image::Image8 first = playback.draw(1, 0);
   EXPECT_NE(first.rgba, empty.draw(1, 0).rgba);
   EXPECT_EQ(playback.draw(1, 1).rgba, first.rgba);

@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "film/playback.hpp"
 #include "image/metrics.hpp"
 #include "image/png.hpp"
 #include "passes/noise.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/device_lights.hpp"
-#include "render/playback.hpp"
 #include "smoke/drawn_smoke.hpp"
 #include "smoke/noise_tile.hpp"
 #include "tests/gpu/gpu_test.hpp"

@@ -1,5 +1,5 @@
 // Vertex colours reach the image.
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/rooms.hpp"
 
@@ -21,7 +21,7 @@ class VertexColorTest : public gpu::GpuTest {
   }
 
   static glm::ivec3 albedo_of(const scenario::Scenario& scenario) {
-    Playback playback(context(), scenario, kSize);
+    film::Playback playback(context(), scenario, kSize);
     playback.set_view(passes::DebugView::albedo, {});
     const image::Image8 image = playback.draw(0, 0);
     const std::size_t middle = 4 * (kSize.x * kSize.y / 2 + kSize.x / 2);

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/frame_builder.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"

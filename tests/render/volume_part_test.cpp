@@ -1,5 +1,5 @@
 // A volume in parts, each on a renderer of its own, and the picture of the whole on one.
-#include "render/volume_part.hpp"
+#include "film/volume_part.hpp"
 
 #include "grids/generate.hpp"
 #include "tests/render/volume_fixture.hpp"
@@ -40,22 +40,22 @@ class VolumePartTest : public VolumeFixture {
     std::vector<volume::SparseVolume> volumes;
     for (std::uint32_t i = 0; i < count; ++i) volumes.push_back(part_of_volume(*cloud_.volume, parts, i));
     while (renderers().size() < count)
-      renderers().push_back(std::make_unique<VolumePartRenderer>(context(), runner(), empty(), kSize));
+      renderers().push_back(std::make_unique<film::VolumePartRenderer>(context(), runner(), empty(), kSize));
     std::vector<float> depths;
     for (std::uint32_t i = 0; i < count; ++i) {
       FrameInput input = input_;
       input.volumes.front().volume = &volumes[i];
       const std::vector<float> own = renderers()[i]->find_depths(input);
       if (depths.empty()) depths.resize(own.size());
-      add_depths(depths, own);
+      film::add_depths(depths, own);
     }
-    std::vector<Pixels> pixels;
+    std::vector<film::Pixels> pixels;
     for (std::uint32_t i = 0; i < count; ++i) pixels.push_back(renderers()[i]->march(depths));
     const glm::vec3 eye(glm::inverse(cloud_.world_from_voxel) *
                         glm::dvec4(glm::dvec3(input_.view.camera.position_world), 1));
     const std::vector<std::uint32_t> order = parts.order_from(eye);
-    Pixels all = pixels[order.front()];
-    for (std::size_t i = 1; i < order.size(); ++i) composite_behind(all, pixels[order[i]]);
+    film::Pixels all = pixels[order.front()];
+    for (std::size_t i = 1; i < order.size(); ++i) film::composite_behind(all, pixels[order[i]]);
     return renderers().front()->picture(all);
   }
 
@@ -71,8 +71,8 @@ class VolumePartTest : public VolumeFixture {
     return scene;
   }
   /// One for each part, for all pictures: compiling their pipelines takes longer than those.
-  static std::vector<std::unique_ptr<VolumePartRenderer>>& renderers() {
-    static std::vector<std::unique_ptr<VolumePartRenderer>> all;
+  static std::vector<std::unique_ptr<film::VolumePartRenderer>>& renderers() {
+    static std::vector<std::unique_ptr<film::VolumePartRenderer>> all;
     return all;
   }
   static void TearDownTestSuite() { renderers().clear(); }
@@ -95,7 +95,7 @@ TEST_F(VolumePartTest, PartsMakeThePictureOfTheWhole) {
 
 TEST_F(VolumePartTest, RefusesWhatCannotBeDivided) {
   input_.view.camera = {{1, 2, 5}, {0, 0, 0}, 0.8f};
-  VolumePartRenderer renderer(context(), runner(), empty(), kSize);
+  film::VolumePartRenderer renderer(context(), runner(), empty(), kSize);
   const auto refuses = [&](const FrameInput& input) { EXPECT_THROW(renderer.find_depths(input), Error); };
   FrameInput two = input_;
   two.volumes.push_back(two.volumes.front());
@@ -109,12 +109,12 @@ TEST_F(VolumePartTest, RefusesWhatCannotBeDivided) {
   dense.volumes.front().voxel_depth = 100;
   refuses(dense);
   const scene::Scene floor = far_floor();
-  EXPECT_THROW(VolumePartRenderer(context(), runner(), floor, kSize), Error);
+  EXPECT_THROW(film::VolumePartRenderer(context(), runner(), floor, kSize), Error);
 }
 
 TEST(Composite, IsThatOfTheStepsInBetween) {
-  Pixels front{{0.2f, 0.1f, 0, 0.5f}};
-  composite_behind(front, {{0.4f, 0.6f, 1, 0.25f}});
+  film::Pixels front{{0.2f, 0.1f, 0, 0.5f}};
+  film::composite_behind(front, {{0.4f, 0.6f, 1, 0.25f}});
   EXPECT_EQ(front.front(), glm::vec4(0.4f, 0.4f, 0.5f, 0.125f));
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "render/volume_room.hpp"
 #include "tests/render/volume_fixture.hpp"
@@ -202,7 +202,7 @@ TEST_F(VolumeResolutionTest, AFileLargerThanTheDeviceIsShownCoarser) {
   EXPECT_NE(warnings[0].find("cloud.brv: grid density is shown at 1/2 of its resolution, off by"),
             std::string::npos)
       << warnings[0];
-  Playback playback(context(), scenario, kSize);
+  film::Playback playback(context(), scenario, kSize);
   playback.draw(0, 0);
 }
 

@@ -1,8 +1,8 @@
 // A word that is shot through smoke, read off the images of both sides.
 #include <cmath>
 
+#include "film/playback.hpp"
 #include "image/font.hpp"
-#include "render/playback.hpp"
 #include "scenario/shot_masks.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/boxes.hpp"
@@ -130,7 +130,7 @@ class WordTest : public gpu::GpuTest {};
 
 TEST_F(WordTest, ReadsFromTheFrontMirroredFromBehindAndNotAfterItsTime) {
   const scenario::Scenario scene = smoke_and_word();
-  Playback playback(context(), scene, kWordImage);
+  film::Playback playback(context(), scene, kWordImage);
   const auto image_at = [&](double seconds, bool from_behind) {
     playback.set_camera(camera(from_behind));
     return playback.draw(seconds, 0);

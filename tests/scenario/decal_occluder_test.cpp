@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "grids/slice_atlas.hpp"
+#include "grids/files/slice_atlas.hpp"
 #include "scenario/slice_volumes.hpp"
 #include "tests/image/image_test_tools.hpp"
 

@@ -10,7 +10,8 @@
 #include <random>
 
 #include "image/png.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scenario/two_rooms.hpp"
 

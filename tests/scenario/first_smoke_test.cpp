@@ -9,7 +9,7 @@
 
 #include "core/log.hpp"
 #include "scenario/scenario.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 namespace brume::scenario {
 namespace {

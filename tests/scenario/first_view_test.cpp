@@ -7,8 +7,8 @@
 #include "scenario/free_place.hpp"
 #include "scenario/simulation.hpp"
 #include "scenario/smoke_report.hpp"
-#include "scene/load.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/load.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scenario {

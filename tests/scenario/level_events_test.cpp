@@ -70,7 +70,7 @@ TEST(LevelEvents, TheNextLevelIsKnownBefore) {
   for (const double time : {0.0, 1.0, 1.5, 2.0, 0.5, 2.5}) {
     SCOPED_TRACE(time);
     simulation->advance_to(time);
-    const std::shared_ptr<const NextLevel> next = simulation->next_level();
+    const std::shared_ptr<const planning::NextLevel> next = simulation->next_level();
     ASSERT_TRUE(next);
     EXPECT_EQ(simulation->next_level(), next) << "the same until the level changes";
     for (double later = time; simulation->next_level() == next; later += 0.1) simulation->advance_to(later);

@@ -8,7 +8,7 @@
 #include "scenario/level_events.hpp"
 #include "scenario/walker.hpp"
 #include "scenario/world_triangles.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "tests/reference/triangle_box.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 
 namespace brume::scenario {
 

@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/volume_view.hpp"
 #include "tests/scenario/volume_folder.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "core/log.hpp"
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/scenario.hpp"
 #include "tests/scenario/volume_folder.hpp"
 

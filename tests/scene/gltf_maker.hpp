@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "scene/gltf.hpp"
+#include "scene/files/gltf.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

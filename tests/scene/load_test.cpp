@@ -1,4 +1,4 @@
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 
 #include <unistd.h>
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

@@ -1,5 +1,5 @@
 // Images that MTL files name: where they lie on a surface, and what they cut out of it.
-#include "scene/obj.hpp"
+#include "scene/files/obj.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

@@ -1,9 +1,9 @@
-#include "scene/obj.hpp"
+#include "scene/files/obj.hpp"
 
 #include <random>
 
-#include "scene/mesh_tools.hpp"
-#include "scene/polygon.hpp"
+#include "scene/files/mesh_tools.hpp"
+#include "scene/files/polygon.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

@@ -1,8 +1,9 @@
 // Roles that files give to surfaces.
 #include "scene/roles.hpp"
 
-#include "scene/obj.hpp"
-#include "scene/scene_txt.hpp"
+#include "scene/files/obj.hpp"
+#include "scene/files/scene_txt.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "tests/scene/gltf_maker.hpp"
 

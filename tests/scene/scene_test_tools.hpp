@@ -10,7 +10,7 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "image/png.hpp"
-#include "scene/files.hpp"
+#include "scene/files/scene_files.hpp"
 #include "scene/scene.hpp"
 #include "tests/work_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/scene_txt.hpp"
+#include "scene/files/scene_txt.hpp"
 
 #include <unistd.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/file.hpp"
-#include "scene/load.hpp"
-#include "scene/stand_ins.hpp"
+#include "scene/files/load.hpp"
+#include "scene/files/stand_ins.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

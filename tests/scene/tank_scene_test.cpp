@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/files/tank_reader.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::scene {

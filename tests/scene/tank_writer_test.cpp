@@ -1,4 +1,4 @@
-#include "scene/tank_writer.hpp"
+#include "scene/files/tank_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/file.hpp"
+#include "scene/files/tank_reader.hpp"
 #include "scene/tank_options.hpp"
 #include "tests/scene/random_timeline.hpp"
 #include "tests/work_folder.hpp"

@@ -1,10 +1,11 @@
-#include "scene/timeline_check.hpp"
+#include "scene/files/timeline_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scene/random_timeline.hpp"
 

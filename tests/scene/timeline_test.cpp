@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "scene/obj.hpp"
+#include "scene/files/obj.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/files/toml_table.hpp"
 #include "scene/ray.hpp"
-#include "scene/toml_table.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {

@@ -1,4 +1,4 @@
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 
 #include "core/file.hpp"
 #include "scene/event_fields.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scene/random_timeline.hpp"
 

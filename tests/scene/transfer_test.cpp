@@ -8,6 +8,7 @@
 #include <glm/gtc/color_space.hpp>
 #include <random>
 
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 

@@ -20,17 +20,17 @@ scene::Scene two_boxes() {
 }
 
 /// The level without the second box, or with it.
-std::shared_ptr<const scenario::NextLevel> level_of(bool has_other) {
+std::shared_ptr<const planning::NextLevel> level_of(bool has_other) {
   voxel::BitGrid grid(kLayout);
   for_each_in({glm::ivec3(2, 2, 2), glm::ivec3(4, 6, 6)}, [&](glm::ivec3 v) { grid.set(v, true); });
   if (has_other)
     for_each_in({glm::ivec3(8, 2, 2), glm::ivec3(10, 6, 6)}, [&](glm::ivec3 v) { grid.set(v, true); });
   std::vector<std::uint32_t> hidden;
   if (!has_other) hidden.push_back(1);
-  return std::make_shared<const scenario::NextLevel>(scenario::NextLevel{std::move(grid), std::move(hidden)});
+  return std::make_shared<const planning::NextLevel>(planning::NextLevel{std::move(grid), std::move(hidden)});
 }
 
-planning::LevelState state_of(const scenario::NextLevel& level) {
+planning::LevelState state_of(const planning::NextLevel& level) {
   planning::LevelState state;
   state.voxels.grid = &level.opaque;
   state.hidden_objects = level.hidden_objects;
@@ -51,7 +51,7 @@ class LightCellsMakerTest : public testing::Test {
   LightCells made(const planning::LevelState& level) const { return LightCellsMaker(scene_).make(level); }
 
   const scene::Scene scene_ = two_boxes();
-  const std::shared_ptr<const scenario::NextLevel> with_ = level_of(true), without_ = level_of(false);
+  const std::shared_ptr<const planning::NextLevel> with_ = level_of(true), without_ = level_of(false);
 };
 
 TEST_F(LightCellsMakerTest, ExpectedCellsAreTheSame) {

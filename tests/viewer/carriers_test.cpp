@@ -6,7 +6,8 @@
 #include "apps/viewer/carrier_keys.hpp"
 #include "apps/viewer/game_frame.hpp"
 #include "apps/viewer/option_labels.hpp"
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_reader.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "tests/viewer/foggy_room.hpp"
 
 namespace brume::viewer {

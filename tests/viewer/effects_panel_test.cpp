@@ -1,6 +1,7 @@
 // The panels of masks, decals and carriers: what is clicked is in the picture and in the saved timeline.
 #include <X11/keysym.h>
 
+#include "scene/files/timeline_reader.hpp"
 #include "tests/viewer/panel_test.hpp"
 
 namespace brume::viewer {

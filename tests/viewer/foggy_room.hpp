@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "tests/viewer/foggy_room.hpp"
 

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include "image/decode.hpp"
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "tests/viewer/room.hpp"
 

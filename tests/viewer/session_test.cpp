@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/timeline_writer.hpp"
+#include "scene/files/timeline_writer.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {

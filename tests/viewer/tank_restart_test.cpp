@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "apps/viewer/tank_refiner.hpp"
-#include "render/playback.hpp"
+#include "film/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::viewer {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kRestarted(24, 16);
 /// More than a batch of light paths is good for.
-constexpr std::uint32_t kRestartSamples = render::TankPhotons::kSamplesOfBatch + 2;
+constexpr std::uint32_t kRestartSamples = film::TankPhotons::kSamplesOfBatch + 2;
 
 spheres::Tank small_tank() {
   spheres::Tank tank{{40, 40, 24}, 0.01f, {}, {}};
@@ -58,7 +58,7 @@ class TankRestartPictures : public gpu::GpuTest {
    private:
     const spheres::Tank& tank_;
     render::TankPicture picture_;
-    render::TankPhotons photons_;
+    film::TankPhotons photons_;
   };
 
   struct Row {

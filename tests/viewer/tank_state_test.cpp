@@ -9,7 +9,8 @@
 #include "apps/viewer/job.hpp"
 #include "apps/viewer/tank_mouse.hpp"
 #include "apps/viewer/tank_refiner.hpp"
-#include "scene/tank_writer.hpp"
+#include "scene/files/tank_reader.hpp"
+#include "scene/files/tank_writer.hpp"
 
 namespace brume::viewer {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "image/decode.hpp"
+#include "scene/files/tank_reader.hpp"
 #include "scene/tank_scene.hpp"
 #include "spheres/file.hpp"
 #include "tests/viewer/small_tank.hpp"

@@ -1,4 +1,5 @@
 // The window: input, panels, resizing, surface and device loss, shader reload.
+#include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
 #include "tests/viewer/random_events.hpp"
 #include "tests/viewer/room.hpp"

@@ -13,7 +13,7 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
                                        const planning::LevelState& level) {
   std::vector<passes::Draw> draws(level.grenades.size(), scene.grenade);
   for (std::size_t i = 0; i < draws.size(); ++i) draws[i].world_from_mesh = level.grenades[i];
-  for (const scenario::MovedObject& moved : level.moved)
+  for (const scene::MovedObject& moved : level.moved)
     for (passes::Draw draw : scene.draws) {
       if (draw.object != moved.object) continue;
       draw.world_from_mesh = moved.world_from_mesh;
@@ -139,7 +139,8 @@ void LevelPart::record_panes(gpu::Recorder& recorder, const FramePlan& plan, con
   if (&layers != &media) tanks.emplace(passes::PanePass::Tanks{layers, in.surfaces});
   pane_pass_->record(
       recorder, pane_needs(plan, tanks.has_value()),
-      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.lit_media, tanks},
+      {in.frame, in.shadows, in.smoke_shadows, in.level, in.targets.gbuffer.depth, media, in.lit_media,
+       tanks},
       {scene_, moving, level.hidden_objects, plan.frustum, glm::normalize(plan.camera.forward)},
       in.targets.radiance);
 }

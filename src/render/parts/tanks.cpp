@@ -13,7 +13,7 @@ constexpr std::uint64_t kKeptFrames = 256;
 /// Samples of a picture: floats count them, and more change nothing.
 constexpr std::uint32_t kMostSamples = 1u << 16;
 
-bool is_alike(const scenario::MovedObject& a, const scenario::MovedObject& b) {
+bool is_alike(const scene::MovedObject& a, const scene::MovedObject& b) {
   return a.object == b.object && a.world_from_mesh == b.world_from_mesh;
 }
 

@@ -57,7 +57,7 @@ class TanksPart {
   struct LevelSurfaces {
     std::vector<std::uint32_t> hidden_objects;
     std::vector<glm::mat4> grenades;
-    std::vector<scenario::MovedObject> moved;
+    std::vector<scene::MovedObject> moved;
     bool is(const planning::LevelState& level) const;
   };
   void begin_level(const FrameInput& input);
