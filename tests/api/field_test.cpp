@@ -43,7 +43,6 @@ class FieldTest : public testing::Test {
   Context context_;
   Level level_ = match_.level(context_);
   Masks masks_ = match_.masks(context_);
-  brume_layout level_layout_ = match_.layout();
   brume_field_params params_ = brume_field_defaults();
 };
 
@@ -55,9 +54,7 @@ class Expected {
         grid_(*voxel::voxelize(triangles_, match.grid_layout())),
         planes_(voxel::SurfacePlanes::build(triangles_, grid_)),
         atlas_(*smoke::MaskAtlas::pack(match.sim_masks())),
-        world_(grid_, {.masks = atlas_.key()}) {
-    world_.append(match.sim_events()).value_or_throw();
-  }
+        world_(match.sim_world(grid_)) {}
 
   void advance_to(std::uint32_t tick) {
     world_.advance_to(tick);
@@ -133,12 +130,10 @@ TEST_F(FieldTest, EqualsTheLibraries) {
 TEST_F(FieldTest, DensitiesAreThoseOfTheState) {
   Expected expected(match_);
   World world = this->world();
-  Field field(level_, params_);
   std::size_t full = 0, some = 0;
   for (const std::uint32_t tick : {50u, 95u, 200u, 330u}) {
     expected.advance_to(tick);
-    world.advance_to(tick);
-    field.update(world.state());
+    const Field field = field_at(world, tick);
     const brume_voxel low{3, 1, 5}, high{48, 12, 38};
     const Bytes densities = field.densities(low, high);
     std::size_t i = 0;
@@ -238,12 +233,7 @@ TEST_F(FieldTest, FloatingPointSettingsOfTheCallerDoNotMatter) {
     std::feclearexcept(FE_ALL_EXCEPT);
     ::feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // Nearly every operation would trap.
     brume_level* level = nullptr;
-    brume_triangles_params params = brume_triangles_defaults();
-    params.layout = level_layout_;
-    params.points = match_.points.data();
-    params.point_count = match_.points.size();
-    params.indices = match_.indices.data();
-    params.index_count = match_.indices.size();
+    const brume_triangles_params params = match_.triangle_params();
     EXPECT_EQ(brume_level_create_from_triangles(context_.get(), &params, &level), BRUME_OK);
     brume_field* field = nullptr;
     EXPECT_EQ(brume_field_create(level, &params_, &field), BRUME_OK);
@@ -322,11 +312,8 @@ TEST_F(FieldTest, LevelsFromTrianglesAreVoxelized) {
   EXPECT_EQ(count, grid.count_solid());
 
   // A layout around the triangles.
-  brume_triangles_params params = brume_triangles_defaults();
-  params.points = match_.points.data();
-  params.point_count = match_.points.size();
-  params.indices = match_.indices.data();
-  params.index_count = match_.indices.size();
+  brume_triangles_params params = match_.triangle_params();
+  params.layout = brume_triangles_defaults().layout;
   params.layout.voxel_size = 0.25f;
   params.margin = 3;
   const brume_layout layout = Level(context_, params).layout();

@@ -126,26 +126,26 @@ sim::Event sim_event(const brume_event& event, const voxel::GridLayout& layout) 
   }
 }
 
-std::vector<sim::Event> Match::sim_events() const {
-  std::vector<sim::Event> out;
-  for (const brume_event& event : events) out.push_back(sim_event(event, grid_layout()));
-  return out;
-}
-
 std::vector<smoke::Mask> Match::sim_masks() const {
   std::vector<smoke::Mask> out;
   for (const auto& mask : texels) out.push_back({kMaskSide, kMaskSide, mask});
   return out;
 }
 
-Level Match::level(const Context& context) const {
+sim::World Match::sim_world(const voxel::BitGrid& level) const {
+  sim::World world(level, {.masks = smoke::MaskAtlas::pack(sim_masks())->key()});
+  for (const brume_event& event : events) world.append(sim_event(event, grid_layout())).value_or_throw();
+  return world;
+}
+
+brume_triangles_params Match::triangle_params() const {
   brume_triangles_params params = brume_triangles_defaults();
   params.layout = layout();
   params.points = points.data();
   params.point_count = points.size();
   params.indices = indices.data();
   params.index_count = indices.size();
-  return Level(context, params);
+  return params;
 }
 
 Masks Match::masks(const Context& context) const {

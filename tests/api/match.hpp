@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/events.hpp"
+#include "sim/world.hpp"
 #include "smoke/mask_atlas.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/triangle.hpp"
@@ -25,10 +25,12 @@ struct Match {
   brume_layout layout() const;
   voxel::GridLayout grid_layout() const;
   std::vector<voxel::Triangle> triangles() const;
-  std::vector<sim::Event> sim_events() const;
   std::vector<smoke::Mask> sim_masks() const;
+  /// The simulation of the match, below the interface, in its level.
+  sim::World sim_world(const voxel::BitGrid& level) const;
 
-  Level level(const Context& context) const;
+  brume_triangles_params triangle_params() const;
+  Level level(const Context& context) const { return {context, triangle_params()}; }
   Masks masks(const Context& context) const;
   /// Lines within the level and a little beyond it.
   std::vector<brume_segment> segments(std::size_t count, unsigned seed) const;

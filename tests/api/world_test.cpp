@@ -54,9 +54,7 @@ brume_result result_of(const std::function<void()>& call) {
 
 TEST_F(WorldTest, HasTheHashesOfTheSimulation) {
   const voxel::BitGrid grid = *voxel::voxelize(match_.triangles(), match_.grid_layout());
-  const smoke::MaskAtlas atlas = *smoke::MaskAtlas::pack(match_.sim_masks());
-  sim::World expected(grid, {.masks = atlas.key()});
-  expected.append(match_.sim_events()).value_or_throw();
+  sim::World expected = match_.sim_world(grid);
   World world = played();
   std::size_t clouds = 0;
   for (std::uint32_t tick = 0; tick < Match::kTicks; ++tick) {
@@ -70,8 +68,7 @@ TEST_F(WorldTest, HasTheHashesOfTheSimulation) {
 
 TEST_F(WorldTest, ListsWhatAStateHolds) {
   const voxel::BitGrid grid = *voxel::voxelize(match_.triangles(), match_.grid_layout());
-  sim::World expected(grid, {.masks = smoke::MaskAtlas::pack(match_.sim_masks())->key()});
-  expected.append(match_.sim_events()).value_or_throw();
+  sim::World expected = match_.sim_world(grid);
   World world = played();
   std::size_t grenades = 0, blasts = 0;
   for (std::uint32_t tick = 0; tick < Match::kTicks; tick += 3) {
