@@ -22,16 +22,14 @@ class CommandLineTest : public RoomTest {
 };
 
 TEST_F(CommandLineTest, HelpVersionAndOverview) {
-  const Outcome overview = run({});
-  EXPECT_EQ(overview.exit_code, 0);
+  const Outcome overview = run_well({});
   EXPECT_EQ(overview.error, "");
   for (const Arguments& same : {Arguments{"--help"}, {"-h"}, {"help"}})
     EXPECT_EQ(run(same).out, overview.out);
   EXPECT_NE(overview.out.find("\nCommands:\n  demo "), std::string::npos) << overview.out;
   EXPECT_EQ(run({"help", "sim"}).out, run({"sim", "--help"}).out);
   EXPECT_NE(run({"sim", "-h"}).out.find("--ticks N"), std::string::npos);
-  const Outcome version = run({"-V"});
-  EXPECT_EQ(version.exit_code, 0);
+  const Outcome version = run_well({"-V"});
   EXPECT_EQ(version.out, run({"--version"}).out);
   for (const char* fact : {"brume ", "\ncommit ", "\ncompiler ", "\nbuild "})
     EXPECT_NE(version.out.find(fact), std::string::npos) << version.out;
@@ -72,8 +70,7 @@ TEST_F(CommandLineTest, MistakesNameWhatWasMeant) {
 TEST_F(CommandLineTest, ValuesMayHaveTheNamesOfCommands) {
   for (const std::string name : {"sim", "voxelize", "bake slices"})
     EXPECT_EQ(refusal({"info", name}).rfind(name + ": unknown file suffix", 0), 0u);
-  const Outcome bench = run({"bench", "voxelize", "--repetitions", "1", "--json", "-"});
-  EXPECT_EQ(bench.exit_code, 0) << bench.error;
+  const Outcome bench = run_well({"bench", "voxelize", "--repetitions", "1", "--json", "-"});
   const Json results = Json::parse(bench.out, nullptr, false)["results"];
   ASSERT_FALSE(results.empty()) << bench.out;
   for (const Json& result : results)
@@ -158,8 +155,7 @@ TEST_F(CommandLineTest, SuffixesOfAnyCase) {
                                 {"render", "ROOM.TOML", "-o", "A.PNG", "--size", "16x16"},
                                 {"render", "ROOM.TOML", "-o", "A.MP4", "--size", "16x16", "--frames", "0-0"},
                                 {"info", "A.PNG"}}) {
-    const Outcome done = run(call);
-    EXPECT_EQ(done.exit_code, 0) << testing::PrintToString(call) << done.error;
+    run_well(call);
   }
   EXPECT_EQ(refusal({"sim", "room.xyz"}),
             "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv, "
@@ -169,12 +165,10 @@ TEST_F(CommandLineTest, SuffixesOfAnyCase) {
 TEST_F(CommandLineTest, PointsWithBlanksAndPercentSignsInNames) {
   for (const char* camera :
        {"0,1,1.5 0,1,0", "0,1,1.5  0,1,0 60", "0, 1, 1.5, 0, 1, 0 60", "0,1,1.5, 0,1,0, 60"}) {
-    const Outcome done = run({"render", "room.obj", "-o", "100%.png", "--size", "16x16", "--camera", camera,
-                              "--smoke", "0, 1, -1", "--force"});
-    EXPECT_EQ(done.exit_code, 0) << camera << done.error;
+    run_well({"render", "room.obj", "-o", "100%.png", "--size", "16x16", "--camera", camera, "--smoke",
+              "0, 1, -1", "--force"});
   }
-  const Outcome doubled = run({"render", "room.obj", "-o", "a%%d.png", "--size", "16x16"});
-  EXPECT_EQ(doubled.exit_code, 0) << doubled.error;
+  run_well({"render", "room.obj", "-o", "a%%d.png", "--size", "16x16"});
   EXPECT_EQ(folder_.files(), (Arguments{"100%.png", "a%d.png", "room.obj"}));
   EXPECT_EQ(refusal({"render", "room.obj", "-o", "a.png", "--smoke", "1e9,0,0"}),
             "--smoke '1e9,0,0': expected coordinates within 16384 m");

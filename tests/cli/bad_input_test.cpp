@@ -16,9 +16,7 @@ namespace {
 class BadInput : public RoomTest {};
 
 Arguments voxelize(const std::string& scene, const Arguments& more = {}) {
-  Arguments arguments{"voxelize", scene, "-o", "result.vxl", "--json", "result.json"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return joined({"voxelize", scene, "-o", "result.vxl", "--json", "result.json"}, more);
 }
 
 TEST_F(BadInput, MissingFile) {

@@ -12,10 +12,9 @@ namespace {
 class Bake : public CommandTest {};
 
 TEST_F(Bake, WritesTheGridOfItsOptions) {
-  const Outcome done =
-      run(words("bake pyroclastic -o a.brv --edge 33 --voxel 0.25 --seed 7 --octaves 3 --radius 2 "
-                "--edge-softness 0.5 --amplitude 0.4 --gain 0.6 --lacunarity 2.5 --frequency 1 --json -"));
-  ASSERT_EQ(done.exit_code, 0) << done.error;
+  const Outcome done = run_well(
+      words("bake pyroclastic -o a.brv --edge 33 --voxel 0.25 --seed 7 --octaves 3 --radius 2 "
+            "--edge-softness 0.5 --amplitude 0.4 --gain 0.6 --lacunarity 2.5 --frequency 1 --json -"));
   const grids::Grid expected =
       grids::generate_cloud({grids::CloudKind::pyroclastic, 33, 0.25, 2, 0.5, 0.4, 1, 0.6, 2.5, 3, 7});
   const grids::GridFile file = grids::load_grid_file(folder_.path() / "a.brv").value_or_throw();
@@ -30,9 +29,7 @@ TEST_F(Bake, WritesTheGridOfItsOptions) {
 }
 
 TEST_F(Bake, LaysSlicesOutInRows) {
-  const Outcome done =
-      run({"bake", "sphere", "-o", "a.png", "--edge", "40", "--voxel", "1", "--radius", "12.5", "--binary"});
-  ASSERT_EQ(done.exit_code, 0) << done.error;
+  run_well({"bake", "sphere", "-o", "a.png", "--edge", "40", "--voxel", "1", "--radius", "12.5", "--binary"});
   const image::Image8 image = png("a.png");
   // As near to a square as 40 tiles can be.
   ASSERT_EQ(image.width, 6u * 40);
@@ -57,8 +54,7 @@ TEST_F(Bake, SlicesComeBackAsTheVolume) {
   settings.radius = 0.28 * 7 * settings.voxel_size;
   settings.edge_width = 0;
   const shared::CloudParams params = grids::cloud_params(settings);
-  const Outcome done = run({"bake", "pyroclastic", "-o", "a.png", "--edge", "7", "--binary", "-q"});
-  ASSERT_EQ(done.exit_code, 0) << done.error;
+  run_well({"bake", "pyroclastic", "-o", "a.png", "--edge", "7", "--binary", "-q"});
   const grids::SliceAtlas atlas = grids::load_slice_atlas(folder_.path() / "a.json").value_or_throw();
   ASSERT_EQ(atlas.layout.size, glm::uvec3(7)) << "what is empty included";
   for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(7)}, [&](glm::ivec3 at) {

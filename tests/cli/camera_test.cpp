@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 
-#include "image/exr.hpp"
 #include "image/png.hpp"
 #include "tests/cli/command_test.hpp"
 
@@ -33,11 +32,12 @@ class CameraOptions : public RoomTest {
   Outcome render(const std::string& timeline, const Arguments& more) const {
     return run({"render", timeline, "--size", "40x24"}, more);
   }
+  Outcome render_well(const std::string& timeline, const Arguments& more) const {
+    return run_well({"render", timeline, "--size", "40x24"}, more);
+  }
   /// The picture at half a second.
-  std::vector<std::uint8_t> picture(const std::string& timeline, std::vector<std::string> more) const {
-    more.insert(more.end(), {"-o", "a.png", "--time", "0.5"});
-    const Outcome run = render(timeline, more);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+  std::vector<std::uint8_t> picture(const std::string& timeline, const Arguments& more) const {
+    const Outcome run = render_well(timeline, joined(more, {"-o", "a.png", "--time", "0.5"}));
     EXPECT_EQ(run.error, "");
     return png("a.png").rgba;
   }
@@ -71,11 +71,8 @@ TEST_F(CameraOptions, ShuttersBlurWhatMoves) {
         << mode;
     // The camera of --orbit moves, too.
     for (const char* shutter : {"0", "0.1"})
-      ASSERT_EQ(
-          render("still.toml", {"-o", std::string("o") + shutter + "_%d.png", "--frames", "0-1", "--orbit",
-                                "90", "--mode", mode, "--samples", "4", "--shutter", shutter})
-              .exit_code,
-          0);
+      render_well("still.toml", {"-o", std::string("o") + shutter + "_%d.png", "--frames", "0-1", "--orbit",
+                                 "90", "--mode", mode, "--samples", "4", "--shutter", shutter});
     EXPECT_NE(png("o0_1.png").rgba, png("o0.1_1.png").rgba) << mode;
   }
 }
@@ -107,11 +104,9 @@ TEST_F(CameraOptions, OpeningsAreImages) {
 
 TEST_F(CameraOptions, FramesAsNumbersAreMeans) {
   write("lens.toml", "aperture = 0.2\nfocus = 1.0\n");
-  ASSERT_EQ(render("lens.toml", {"-o", "a.exr", "--samples", "8", "--time", "0"}).exit_code, 0);
-  ASSERT_EQ(render("lens.toml", {"-o", "a.png", "--samples", "8", "--time", "0"}).exit_code, 0);
-  const auto image =
-      image::decode_exr(read_file(folder_.path() / "a.exr").value_or_throw(), "a.exr").value_or_throw();
-  for (const image::Layer& layer : image.layers) {
+  for (const char* file : {"a.exr", "a.png"})
+    render_well("lens.toml", {"-o", file, "--samples", "8", "--time", "0"});
+  for (const image::Layer& layer : exr("a.exr").layers) {
     const bool is_radiance =
         layer.name == "R" || layer.name == "G" || layer.name == "B" || layer.name.starts_with("background.");
     EXPECT_EQ(std::holds_alternative<std::vector<float>>(layer.values), !is_radiance) << layer.name;

@@ -16,9 +16,7 @@ class Convert : public CommandTest {
   void convert(const std::string& from, const std::string& to, const Arguments& more = {}) const {
     EXPECT_EQ(run_well({"convert", from, to}, more).error, "");
   }
-  Json info(const std::string& file) const {
-    return Json::parse(run({"info", file, "--json", "-"}).out, nullptr, false);
-  }
+  Json info(const std::string& file) const { return json_of({"info", file}); }
   grids::GridFile load(const std::string& name) const {
     return grids::load_grid_file(folder_.path() / name).value_or_throw();
   }
@@ -59,15 +57,13 @@ TEST_F(Convert, GridsOfOneNameAreNoChoice) {
   grids::GridFile file = load("smoke.brv");
   for (grids::Grid& grid : file.grids) grid.name = "density";
   grids::save_grid_file(folder_.path() / "two.vdb", file).value_or_throw();
-  for (const Arguments& more : {Arguments{}, Arguments{"--grid", "density"}}) {
-    Arguments arguments{"convert", "two.vdb", "two.json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_failure(folder_, arguments, 2, {"one grid, but 2 have the name density; convert to .vdb"});
-  }
+  for (const Arguments& more : {Arguments{}, Arguments{"--grid", "density"}})
+    expect_failure(folder_, joined({"convert", "two.vdb", "two.json"}, more), 2,
+                   {"one grid, but 2 have the name density; convert to .vdb"});
 }
 
 TEST_F(Convert, ReportsWhatItDid) {
-  const Json done = Json::parse(run({"convert", "smoke.brv", "a.vdb", "--json", "-"}).out);
+  const Json done = json_of({"convert", "smoke.brv", "a.vdb"});
   EXPECT_EQ(done["grids"], (Json{"density", "flame"}));
   EXPECT_EQ(done["bytes"], std::filesystem::file_size(folder_.path() / "a.vdb"));
   const grids::GridFile file = load("smoke.brv");

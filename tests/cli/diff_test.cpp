@@ -1,7 +1,6 @@
 // `brume diff`: the difference of two images.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "image/png.hpp"
@@ -29,9 +28,7 @@ class Diff : public CommandTest {
 };
 
 TEST_F(Diff, OneTexel) {
-  const Outcome run = diff({"a.png", "b.png", "-o", "map.png", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const Json json = Json::parse(run.out);
+  const Json json = json_of({"diff", "a.png", "b.png", "-o", "map.png"});
   constexpr double kValues = 33 * 17 * 3;
   EXPECT_NEAR(json["max"].get<double>(), 20, 1e-4);
   EXPECT_NEAR(json["mean"].get<double>(), 20 / kValues, 1e-6);
@@ -53,9 +50,7 @@ TEST_F(Diff, OneTexel) {
 }
 
 TEST_F(Diff, EqualImages) {
-  const Outcome run = diff({"a.png", "a.png", "--fail-above", "0", "--psnr-below", "200", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const Json json = Json::parse(run.out);
+  const Json json = json_of({"diff", "a.png", "a.png", "--fail-above", "0", "--psnr-below", "200"});
   EXPECT_TRUE(json["psnr"].is_null());
   EXPECT_EQ(json["ssim"], 1);
   EXPECT_EQ(json["flip"], 0);
@@ -76,14 +71,7 @@ TEST_F(Diff, FailsBeyondItsThresholdsAndReportsTheDifference) {
 
 TEST_F(Diff, RejectsIncomparableImages) {
   const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
-    SCOPED_TRACE(testing::PrintToString(more));
-    const auto before = folder_.files();
-    const Outcome run = diff(more);
-    EXPECT_EQ(run.exit_code, exit_code) << run.error;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
-    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
-    EXPECT_EQ(folder_.files(), before);
+    expect_failure(folder_, joined({"diff"}, more), exit_code, {part});
   };
   refuses({"a.png", "small.png"}, 7, "small.png: expected 33x17 texels as in a.png, found 16x17");
   refuses({"a.png", "missing.png"}, 3, "missing.png");

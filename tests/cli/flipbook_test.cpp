@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "image/exr.hpp"
 #include "image/flipbook.hpp"
 #include "tests/cli/command_test.hpp"
 
@@ -17,14 +16,10 @@ constexpr const char* kCamera = "0.4,0.4,3 0.4,0.4,0.4 30";
 
 class Flipbook : public CommandTest {
  protected:
-  void expect_runs(const Arguments& arguments) const { run_well(arguments); }
   void bake(const std::string& name, const std::string& seed) const {
-    expect_runs({"bake", "pyroclastic", "--edge", "16", "--seed", seed, "-o", name});
+    run_well({"bake", "pyroclastic", "--edge", "16", "--seed", seed, "-o", name});
   }
-  Texels exr(const std::string& name) const {
-    const auto bytes = read_file(folder_.path() / name).value_or_throw();
-    return image::to_texels(image::decode_exr(bytes, name).value_or_throw());
-  }
+  Texels exr(const std::string& name) const { return image::to_texels(CommandTest::exr(name)); }
   Json json(const std::string& name) const { return Json::parse(bytes(name)); }
 };
 
@@ -32,10 +27,10 @@ TEST_F(Flipbook, TilesAreTheFramesWithoutTheirBackground) {
   bake("a_1.brv", "1");
   bake("a_2.brv", "2");
   bake("a_3.brv", "3");
-  expect_runs(
+  run_well(
       {"render", "a_%d.brv", "-o", "sheet.exr", "--flipbook", "2x2", "--size", "24x20", "--camera", kCamera});
-  expect_runs({"render", "a_%d.brv", "-o", "f_%d.exr", "--background", "none", "--size", "20x16", "--camera",
-               kCamera});
+  run_well({"render", "a_%d.brv", "-o", "f_%d.exr", "--background", "none", "--size", "20x16", "--camera",
+            kCamera});
   const Texels sheet = exr("sheet.exr");
   EXPECT_EQ(glm::uvec2(sheet.width, sheet.height), glm::uvec2(48, 40));
   const image::FlipbookLayout layout{2, 2, {24, 20}, 2};
@@ -54,7 +49,7 @@ TEST_F(Flipbook, TilesAreTheFramesWithoutTheirBackground) {
 TEST_F(Flipbook, TheCameraFitsWhatIsSeen) {
   bake("a_1.brv", "1");
   bake("a_2.brv", "2");
-  expect_runs({"render", "a_%d.brv", "-o", "sheet.png", "--flipbook", "2x1", "--size", "48x48"});
+  run_well({"render", "a_%d.brv", "-o", "sheet.png", "--flipbook", "2x1", "--size", "48x48"});
   const image::Image8 sheet = png("sheet.png");
   int left = 96, right = 0, top = 48, bottom = 0;
   for (int y = 0; y < 48; ++y) {
@@ -85,16 +80,16 @@ TEST_F(Flipbook, LightOfASideIsThatOfASunThere) {
                       "[[volume]]\nfile = \"a.brv\"\nextinction = 8\nalbedo = [0.9, 0.9, 0.9]\n");
   };
   timeline("all.toml", 45);
-  expect_runs({"render", "all.toml", "-o", "s.exr", "--flipbook", "1x1", "--size", "32x32",
-               "--flipbook-gutter", "0", "--flipbook-maps", "six-way,normals", "--camera", kCamera});
+  run_well({"render", "all.toml", "-o", "s.exr", "--flipbook", "1x1", "--size", "32x32", "--flipbook-gutter",
+            "0", "--flipbook-maps", "six-way,normals", "--camera", kCamera});
   const Texels positive = exr("s_right_top_back.exr"), negative = exr("s_left_bottom_front.exr");
   // The camera looks along -z.
   const std::array<std::pair<int, std::pair<const Texels*, int>>, 3> suns{
       {{90, {&positive, 0}}, {-90, {&negative, 0}}, {0, {&negative, 2}}}};
   for (const auto& [azimuth, map] : suns) {
     timeline("one.toml", azimuth);
-    expect_runs({"render", "one.toml", "-o", "one.exr", "--background", "none", "--size", "32x32", "--camera",
-                 kCamera});
+    run_well({"render", "one.toml", "-o", "one.exr", "--background", "none", "--size", "32x32", "--camera",
+              kCamera});
     const Texels one = exr("one.exr");
     double of_map = 0, of_sun = 0;
     for (std::size_t i = 0; i < one.rgba.size(); ++i) {
@@ -115,12 +110,8 @@ TEST_F(Flipbook, MotionOfAnEngineHasItsDirections) {
   bake("a_2.brv", "2");
   const Arguments base{"render", "a_%d.brv",        "--flipbook", "2x1",      "--size",
                        "24x24",  "--flipbook-maps", "motion",     "--camera", kCamera};
-  const auto with = [&](Arguments more) {
-    more.insert(more.begin(), base.begin(), base.end());
-    return more;
-  };
-  expect_runs(with({"-o", "down.png", "--flipbook-preset", "godot"}));
-  expect_runs(with({"-o", "up.png", "--flipbook-preset", "unity"}));
+  run_well(base, {"-o", "down.png", "--flipbook-preset", "godot"});
+  run_well(base, {"-o", "up.png", "--flipbook-preset", "unity"});
   const image::Image8 down = png("down_motion.png"), up = png("up_motion.png");
   bool moves = false;
   for (std::size_t i = 0; i < down.rgba.size(); i += 4) {
@@ -139,14 +130,8 @@ TEST_F(Flipbook, MotionOfAnEngineHasItsDirections) {
 
 TEST_F(Flipbook, WhatCannotBeIsSaidBeforeAnythingIsDrawn) {
   bake("a.brv", "1");
-  const auto error = [&](Arguments more) {
-    more.insert(more.begin(), {"render", "a.brv"});
-    const Outcome outcome = run(more);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
-    return outcome.error;
-  };
   const auto says = [&](const Arguments& more, const std::string& text) {
-    EXPECT_NE(error(more).find(text), std::string::npos) << error(more);
+    expect_failure(folder_, joined({"render", "a.brv"}, more), 2, {text});
   };
   says({"-o", "s.png", "--flipbook", "8"}, "--flipbook '8': expected columns and rows, such as 8x8");
   says({"-o", "s.png", "--flipbook", "0x8"}, "expected columns and rows");
@@ -169,9 +154,7 @@ TEST_F(Flipbook, AlikeTilesAreNamed) {
   const Arguments still{"render", "a.brv",  "-o",    "s.png",    "--flipbook",
                         "2x1",    "--size", "20x20", "--camera", kCamera};
   EXPECT_NE(run(still).error.find("all tiles are alike"), std::string::npos);
-  Arguments turned = still;
-  turned.insert(turned.end(), {"--orbit", "360"});
-  EXPECT_EQ(run(turned).error.find("all tiles are alike"), std::string::npos);
+  EXPECT_EQ(run(still, {"--orbit", "360"}).error.find("all tiles are alike"), std::string::npos);
 }
 
 }  // namespace

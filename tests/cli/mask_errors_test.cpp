@@ -20,9 +20,8 @@ class MaskErrors : public RoomTest {
   }
   void expect_mask_fails(const std::string& file, int exit_code,
                          const std::vector<std::string>& parts) const {
-    std::vector<std::string> all{"a.toml:4:1: ", file};
-    all.insert(all.end(), parts.begin(), parts.end());
-    expect_event_fails("shot", "shape = \"mask\"\nmask = \"" + file + "\"", exit_code, all);
+    expect_event_fails("shot", "shape = \"mask\"\nmask = \"" + file + "\"", exit_code,
+                       joined({"a.toml:4:1: ", file}, parts));
   }
   void write_picture(const std::string& name, std::uint32_t width, std::uint32_t height) const {
     const image::Image8 picture{width, height,

@@ -68,10 +68,8 @@ TEST_F(RenderOrbit, ASequencePlaysWhileItTurns) {
                         "0",       "--fps", "24",       "--camera", camera_at(0)};
   // Beside the same sequence, held at its first frame.
   for (const std::string name : {"a", "b"}) {
-    Arguments all{"-o", name + "_%d.png"};
-    all.insert(all.end(), orbit.begin(), orbit.end());
-    if (name == "b") all.insert(all.end(), {"--volume-fps", "0.01"});
-    expect_renders("a_%04d.brv", all);
+    const Arguments speed = name == "b" ? Arguments{"--volume-fps", "0.01"} : Arguments();
+    expect_renders("a_%04d.brv", joined(joined({"-o", name + "_%d.png"}, orbit), speed));
   }
   EXPECT_EQ(png("a_0.png"), png("b_0.png"));
   EXPECT_NE(png("a_1.png"), png("b_1.png"));
@@ -92,15 +90,13 @@ TEST_F(RenderOrbit, ResumesOnlyFramesOfTheSameTurn) {
 TEST_F(RenderOrbit, RefusesWhatWouldTurnNothing) {
   bake("cloud.brv");
   const auto refused = [&](const Arguments& more, const std::string& part) {
-    const Outcome run = this->run({"render", "cloud.brv", "--size", "48x36"}, more);
-    EXPECT_EQ(run.exit_code, 2) << run.error;
-    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+    expect_failure(folder_, joined({"render", "cloud.brv", "--size", "48x36"}, more), 2, {part});
   };
   refused({"-o", "a.png", "--orbit", "90"}, "--orbit requires a film");
   for (const std::string angle : {"nan", "inf", "36001", "-1e9", "full", ""})
     refused({"-o", "a_%d.png", "--frames", "0-1", "--orbit=" + angle}, "--orbit");
   refused({"-o", "a_%d.png", "--frames", "0-1", "--orbit", "0"}, "0 degrees are no turn");
-  refused({"-o", "a_%d.png", "--frames", "0-1", "--orbit", "90", "--camera", "1,9,1 1,0,1"},
+  refused(words("-o a_%d.png --frames 0-1 --orbit 90 --scale 10 --camera '1,9,1 1,0,1'"),
           "right above or below");
 }
 

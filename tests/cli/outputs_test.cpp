@@ -33,20 +33,20 @@ class OutputFiles : public CommandTest {
   }
   // The command is refused, and no file changes.
   void refused(const Arguments& arguments, const std::vector<std::string>& parts, int exit_code = 2) const {
-    std::vector<std::string> before;
-    for (const std::string& name : folder_.files())
-      before.push_back(fs::is_regular_file(folder_.path() / name) ? bytes(name) : "");
+    const auto contents = [&] {
+      std::vector<std::string> all;
+      for (const std::string& name : folder_.files())
+        all.push_back(fs::is_regular_file(folder_.path() / name) ? bytes(name) : "");
+      return all;
+    };
+    const std::vector<std::string> before = contents();
     expect_failure(folder_, arguments, exit_code, parts);
-    std::vector<std::string> after;
-    for (const std::string& name : folder_.files())
-      after.push_back(fs::is_regular_file(folder_.path() / name) ? bytes(name) : "");
-    EXPECT_EQ(before, after) << testing::PrintToString(arguments);
+    EXPECT_EQ(before, contents()) << testing::PrintToString(arguments);
   }
   // Also with --force.
-  void never(Arguments arguments, const std::string& part) const {
+  void never(const Arguments& arguments, const std::string& part) const {
     refused(arguments, {part, "is the input", "name another file"});
-    arguments.push_back("--force");
-    refused(arguments, {part, "is the input"});
+    refused(joined(arguments, {"--force"}), {part, "is the input"});
   }
 };
 
@@ -81,13 +81,10 @@ TEST_F(OutputFiles, AreNeverAFileThatTheSceneRefersTo) {
 
 TEST_F(OutputFiles, AreNeverWhatATankIsMadeOf) {
   folder_.write("pal.json", "[\"#ff0000\", \"#0000ff\"]\n");
-  const Arguments bake{"bake", "spheres", "--size", "20x20x20", "--count", "5", "--palette"};
   const auto baked = [&](const Arguments& more) {
-    Arguments all = bake;
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return joined(words("bake spheres --size 20x20x20 --count 5 --palette"), more);
   };
-  ASSERT_EQ(run_brume(folder_.path(), baked({"pal.json", "-o", "t.spheres"})).exit_code, 0);
+  run_well(baked({"pal.json", "-o", "t.spheres"}));
   never(baked({"pal.json", "-o", "new.spheres", "--json", "pal.json"}), "--json pal.json: is the input;");
   never(baked({"pal.json:0.2-0.6", "-o", "new.spheres", "--json", "./pal.json"}), "is the input pal.json");
 
@@ -181,19 +178,14 @@ TEST_F(OutputFiles, ReplaceNoFileOfAnotherKindWithoutForce) {
   folder_.write("empty", "");
   folder_.write("old.json", "  [1, 2]\n");
   for (const Arguments& to : {Arguments{"notes.txt", "--force"}, Arguments{"empty"}, Arguments{"old.json"}}) {
-    Arguments arguments{"info", "room.obj", "--json"};
-    arguments.insert(arguments.end(), to.begin(), to.end());
-    const Outcome run = run_brume(folder_.path(), arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+    run_well({"info", "room.obj", "--json"}, to);
     EXPECT_EQ(bytes(to[0]).front(), '{');
   }
 }
 
 TEST_F(OutputFiles, ThatAreNumberedFramesFollowTheSameRules) {
-  const Arguments render{"render", "room.toml", "--size", "16x16", "--frames", "0-3"};
-  const auto with = [&](Arguments more) {
-    more.insert(more.begin(), render.begin(), render.end());
-    return more;
+  const auto with = [&](const Arguments& more) {
+    return joined(words("render room.toml --size 16x16 --frames 0-3"), more);
   };
   save_picture("wall_2.png");
   folder_.write("room.mtl", "newmtl wall\nmap_Kd wall_2.png\n");
@@ -220,8 +212,7 @@ TEST_F(OutputFiles, AreWrittenThroughLinksWithTheirPermissions) {
   folder_.write("old.json", "{}");
   ASSERT_EQ(::chmod((folder_.path() / "old.json").c_str(), 0600), 0);
   fs::create_symlink("old.json", folder_.path() / "link.json");
-  const Outcome run = run_brume(folder_.path(), {"info", "room.obj", "--json", "link.json"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
+  run_well({"info", "room.obj", "--json", "link.json"});
   EXPECT_TRUE(fs::is_symlink(folder_.path() / "link.json"));
   EXPECT_NE(bytes("old.json"), "{}");
   EXPECT_EQ(fs::status(folder_.path() / "old.json").permissions(),

@@ -15,8 +15,7 @@ class PalettesTest : public CommandTest {
 };
 
 TEST_F(PalettesTest, ListsWhatTheProgramHolds) {
-  const Outcome run = run_brume(folder_.path(), {"palettes"});
-  EXPECT_EQ(run.exit_code, 0);
+  const Outcome run = run_well({"palettes"});
   EXPECT_EQ(run.error, "");
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'),
             static_cast<std::ptrdiff_t>(palettes::built_in().size()));
@@ -44,7 +43,7 @@ TEST_F(PalettesTest, Searches) {
 }
 
 TEST_F(PalettesTest, ThatAreNotFoundReplaceNothing) {
-  ASSERT_EQ(run_brume(folder_.path(), {"palettes", "viridis", "-o", "sheet.png"}).exit_code, 0);
+  run_well({"palettes", "viridis", "-o", "sheet.png"});
   const auto before = read_file(folder_.path() / "sheet.png").value_or_throw();
   expect_failure(folder_, {"palettes", "no-such-word"}, 2, {"none of ", " palettes matches"});
   expect_failure(folder_, {"palettes", "no-such-word", "-o", "sheet.png"}, 2, {"none of "});
@@ -54,8 +53,7 @@ TEST_F(PalettesTest, ThatAreNotFoundReplaceNothing) {
 
 TEST_F(PalettesTest, DrawsTheColoursOfEachPalette) {
   folder_.write("two.json", R"({"kind": "qualitative", "colors": ["#ff0000", "#0000ff"]})");
-  const Outcome run = run_brume(folder_.path(), {"palettes", "two.json", "-o", "sheet.png"});
-  EXPECT_EQ(run.exit_code, 0) << run.error;
+  const Outcome run = run_well({"palettes", "two.json", "-o", "sheet.png"});
   EXPECT_EQ(run.out.substr(0, 4), "two ");
   const image::Image8 sheet = png("sheet.png");
   std::size_t red = 0, blue = 0, other = 0;

@@ -24,9 +24,7 @@ class Query : public RoomTest {
   Json answer(const Arguments& more) const { return json_of({"query", "smoke.toml"}, more); }
   // Through the upper half of the room, over the block.
   static Arguments across(const Arguments& more) {
-    Arguments arguments{"--from", "-1.6,2.5,-1.6", "--to", "1.6,2.5,1.6"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined({"--from", "-1.6,2.5,-1.6", "--to", "1.6,2.5,1.6"}, more);
   }
 };
 
@@ -56,11 +54,9 @@ TEST_F(Query, DrawnSmokeIsErodedByTheSceneSNoise) {
   EXPECT_EQ(drawn["first_solid"], smooth["first_solid"]);
   folder_.write("smooth.toml", std::regex_replace(*read_text_file(folder_.path() / "smoke.toml"),
                                                   std::regex("extinction"), "erosion = 0\nextinction"));
-  const Outcome run = run_brume(folder_.path(), {"query", "smooth.toml", "--from", "-1.6,2.5,-1.6", "--to",
-                                                 "1.6,2.5,1.6", "--time", "1", "--drawn", "--json", "-"});
+  const Json without = json_of({"query", "smooth.toml"}, across({"--time", "1", "--drawn"}));
   // Steps of 1.8 cm where the smoke begins and ends.
-  EXPECT_NEAR(Json::parse(run.out)["optical_depth"].get<double>(), smooth["optical_depth"].get<double>(),
-              4 * 0.04);
+  EXPECT_NEAR(without["optical_depth"].get<double>(), smooth["optical_depth"].get<double>(), 4 * 0.04);
   const Json report = answer(across({"--report", "--times", "0.9-1.1", "--drawn"}));
   EXPECT_NEAR(report["intervals"][0]["max_optical_depth"].get<double>(), drawn["optical_depth"].get<double>(),
               4 * 0.2);
@@ -127,9 +123,7 @@ TEST_F(Query, WarnsOfEndsInsideOfWalls) {
 
 TEST_F(Query, CountsTheShotsUntilVisible) {
   const auto shots = [&](const Arguments& more) {
-    Arguments arguments = across({"--report", "--times", "0.5-1.4"});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return answer(arguments)["shots"];
+    return answer(joined(across({"--report", "--times", "0.5-1.4"}), more))["shots"];
   };
   // One shot along the line is enough.
   const Json one = shots({"--shots", "3", "--shots-at", "0.6", "--shots-every", "0.25"});
@@ -149,9 +143,8 @@ TEST_F(Query, CountsTheShotsUntilVisible) {
 }
 
 TEST_F(Query, RejectsInvalidArguments) {
-  const auto refuses = [&](Arguments more, int exit_code, const std::string& part) {
-    more.insert(more.begin(), {"query", "smoke.toml"});
-    expect_failure(folder_, more, exit_code, {part});
+  const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
+    expect_failure(folder_, joined({"query", "smoke.toml"}, more), exit_code, {part});
   };
   refuses(across({}), 2, "--time");
   refuses(across({"--time", "-1"}), 2, "--time");

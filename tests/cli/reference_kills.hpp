@@ -12,6 +12,8 @@
 
 namespace brume::cli {
 
+inline const Arguments kRenderReference = words("render room.toml --mode reference --size 40x24");
+
 class ReferenceFolder : public RoomTest {
  protected:
   ReferenceFolder() {
@@ -21,9 +23,10 @@ class ReferenceFolder : public RoomTest {
         "[[camera]]\ntime = 0.0\nposition = [0.0, 1.7, 1.8]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n"
         "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n");
   }
-  Outcome render(const std::vector<std::string>& more, const RunOptions& options = {}) const {
-    return run({"render", "room.toml", "--mode", "reference", "--size", "40x24"}, more, options);
+  Outcome render(const Arguments& more, const RunOptions& options = {}) const {
+    return run(kRenderReference, more, options);
   }
+  Outcome render_well(const Arguments& more) const { return run_well(kRenderReference, more); }
 
   /// Kills the program so many times, each at one of the calls by which it writes files after a new
   /// checkpoint, at random; compares what the last run writes with the picture of a run that nothing ended.

@@ -3,55 +3,47 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "core/file.hpp"
-#include "image/decode.hpp"
-#include "image/exr.hpp"
 #include "tests/cli/reference_kills.hpp"
 
 namespace brume::cli {
 namespace {
 
-class ReferenceMode : public ReferenceFolder {};
+class ReferenceMode : public ReferenceFolder {
+ protected:
+  Json json_of_render(const Arguments& more) const { return json_of(kRenderReference, more); }
+};
 
 TEST_F(ReferenceMode, WritesTheSamePictureForAnyNumberOfThreads) {
   for (const char* threads : {"1", "3"}) {
-    const Outcome run =
-        render({"-o", std::string(threads) + ".png", "--samples", "4", "--threads", threads, "--json", "-"});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run = render_well(
+        {"-o", std::string(threads) + ".png", "--samples", "4", "--threads", threads, "--json", "-"});
     EXPECT_EQ(run.error, "");
-    const auto statistics = nlohmann::json::parse(run.out);
+    const Json statistics = Json::parse(run.out);
     EXPECT_EQ(statistics["mode"], "reference");
     EXPECT_EQ(statistics["samples_per_pixel"], 4);
   }
   EXPECT_EQ(bytes("1.png"), bytes("3.png"));
-  const auto picture = image::load_image(folder_.path() / "1.png").value_or_throw();
+  const image::Image8 picture = png("1.png");
   EXPECT_EQ(picture.width, 40u);
   EXPECT_EQ(picture.height, 24u);
 }
 
 TEST_F(ReferenceMode, LayersSayWhatIsInThem) {
-  ASSERT_EQ(render({"-o", "a.exr", "--samples", "8"}).exit_code, 0);
-  const auto image =
-      image::decode_exr(read_file(folder_.path() / "a.exr").value_or_throw(), "a.exr").value_or_throw();
+  render_well({"-o", "a.exr", "--samples", "8"});
   std::vector<std::string> names;
-  for (const image::Layer& layer : image.layers) names.push_back(layer.name);
+  for (const image::Layer& layer : exr("a.exr").layers) names.push_back(layer.name);
   for (const char* name : {"R", "single.G", "multiple.B", "albedo.R", "normal.Y", "A", "Z", "error.V",
                            "samples.V", "transmittance.V"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 }
 
 TEST_F(ReferenceMode, EndsAtItsLimits) {
-  Outcome run = render({"-o", "a.png", "--noise", "0.5", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  EXPECT_LE(nlohmann::json::parse(run.out)["largest_relative_error"], 0.5);
-  run = render({"-o", "a.png", "--time-limit", "0.3", "--json", "-"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  EXPECT_GE(nlohmann::json::parse(run.out)["seconds"], 0.3);
+  EXPECT_LE(json_of_render({"-o", "a.png", "--noise", "0.5"})["largest_relative_error"], 0.5);
+  EXPECT_GE(json_of_render({"-o", "a.png", "--time-limit", "0.3"})["seconds"], 0.3);
   // Whichever comes first.
-  run = render({"-o", "a.png", "--noise", "0.0001", "--samples", "2", "--json", "-"});
-  EXPECT_EQ(nlohmann::json::parse(run.out)["samples_per_pixel"], 2);
+  const Json both = json_of_render({"-o", "a.png", "--noise", "0.0001", "--samples", "2"});
+  EXPECT_EQ(both["samples_per_pixel"], 2);
 }
 
 // No path through a volume that scatters all light of an extinction of 1e9 /m ends in time.
@@ -77,22 +69,18 @@ TEST_F(ReferenceMode, EndsAtItsTimeLimitInAMediumOfAnyExtinction) {
 }
 
 TEST_F(ReferenceMode, NumberedFramesResume) {
-  const std::vector<std::string> frames{"-o", "f_%d.png", "--frames", "2-4", "--samples", "2"};
-  ASSERT_EQ(render(frames).exit_code, 0);
+  const Arguments frames{"-o", "f_%d.png", "--frames", "2-4", "--samples", "2"};
+  render_well(frames);
   const std::string third = bytes("f_3.png");
   EXPECT_NE(third, bytes("f_4.png"));
   std::filesystem::remove(folder_.path() / "f_3.png");
-  std::vector<std::string> again = frames;
-  again.emplace_back("--resume");
-  ASSERT_EQ(render(again).exit_code, 0);
+  render_well(joined(frames, {"--resume"}));
   EXPECT_EQ(bytes("f_3.png"), third);
 }
 
 TEST_F(ReferenceMode, RefusesOptionsOfTheOtherMode) {
-  const auto refuse = [&](std::vector<std::string> more, const std::vector<std::string>& parts) {
-    std::vector<std::string> arguments{"render", "room.toml", "-o", "a.png"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_failure(folder_, arguments, 2, parts);
+  const auto refuse = [&](const Arguments& more, const std::vector<std::string>& parts) {
+    expect_failure(folder_, joined({"render", "room.toml", "-o", "a.png"}, more), 2, parts);
   };
   refuse({"--mode", "reference", "--march", "half"}, {"--march", "--mode realtime"});
   refuse({"--mode", "reference", "--device", "0"}, {"--device", "--mode realtime"});
@@ -107,16 +95,14 @@ TEST_F(ReferenceMode, RefusesOptionsOfTheOtherMode) {
 }
 
 TEST_F(ReferenceMode, RefusesCheckpointsOfOtherPictures) {
-  ASSERT_EQ(render({"-o", "a.png", "--samples", "2", "--checkpoint", "a.brc"}).exit_code, 0);
+  render_well({"-o", "a.png", "--samples", "2", "--checkpoint", "a.brc"});
   const std::string before = bytes("a.brc");
-  for (const std::vector<std::string>& other : {std::vector<std::string>{"--time", "0.3"},
-                                                {"--max-bounces", "1"},
-                                                {"--shutter", "0.1"},
-                                                {"--matte"},
-                                                {"--camera", "0,1,1.5 0,1,0 50"}}) {
-    std::vector<std::string> arguments{"-o", "b.png", "--samples", "4", "--checkpoint", "a.brc"};
-    arguments.insert(arguments.end(), other.begin(), other.end());
-    const Outcome run = render(arguments);
+  for (const Arguments& other : {Arguments{"--time", "0.3"},
+                                 {"--max-bounces", "1"},
+                                 {"--shutter", "0.1"},
+                                 {"--matte"},
+                                 {"--camera", "0,1,1.5 0,1,0 50"}}) {
+    const Outcome run = render(joined({"-o", "b.png", "--samples", "4", "--checkpoint", "a.brc"}, other));
     EXPECT_EQ(run.exit_code, 3) << run.error;
     EXPECT_NE(run.error.find("a.brc: is of another picture"), std::string::npos) << run.error;
     EXPECT_EQ(bytes("a.brc"), before);

@@ -20,33 +20,30 @@ class Render : public RoomTest {
   Outcome render(const Arguments& more, const RunOptions& options = {}) const {
     return run({"render", "room.toml"}, more, options);
   }
+  Outcome render_well(const Arguments& more) const { return run_well({"render", "room.toml"}, more); }
+  Json json_of_render(const Arguments& more) const { return json_of({"render", "room.toml"}, more); }
 };
 
 TEST_F(Render, ImagesAreReproducibleAndDependOnTheCamera) {
   for (const char* name : {"a.png", "b.png"}) {
-    const Outcome run = render({"-o", name, "--size", "64x36", "--time", "0.8", "--json", "-"});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run = render_well({"-o", name, "--size", "64x36", "--time", "0.8", "--json", "-"});
     EXPECT_EQ(run.error, "");
-    const auto statistics = nlohmann::json::parse(run.out);
+    const Json statistics = Json::parse(run.out);
     EXPECT_EQ(statistics["frames"], 1);
     EXPECT_NE(statistics["device"], "");
   }
   EXPECT_EQ(png("a.png").width, 64u);
   EXPECT_EQ(png("a.png").height, 36u);
   EXPECT_EQ(png("a.png").rgba, png("b.png").rgba);
-  const Outcome other = render({"-o", "c.png", "--size", "64x36", "--time", "0.8", "--smoke", "0.5,1.5,-0.5",
-                                "--camera", "1.5,1,1.5 -1,1,-1 60"});
-  ASSERT_EQ(other.exit_code, 0) << other.error;
+  render_well({"-o", "c.png", "--size", "64x36", "--time", "0.8", "--smoke", "0.5,1.5,-0.5", "--camera",
+               "1.5,1,1.5 -1,1,-1 60"});
   EXPECT_NE(png("c.png").rgba, png("a.png").rgba);
 }
 
 TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
-  for (const char* step : {"1", "2"}) {
-    const Outcome run =
-        render({"-o", std::string(step) + ".png", "--size", "64x36", "--time", "0.8", "--step", step});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
-  }
-  ASSERT_EQ(render({"-o", "usual.png", "--size", "64x36", "--time", "0.8"}).exit_code, 0);
+  for (const char* step : {"1", "2"})
+    render_well({"-o", std::string(step) + ".png", "--size", "64x36", "--time", "0.8", "--step", step});
+  render_well({"-o", "usual.png", "--size", "64x36", "--time", "0.8"});
   EXPECT_EQ(png("1.png").rgba, png("usual.png").rgba);
   EXPECT_NE(png("2.png").rgba, png("usual.png").rgba);
   for (const char* step : {"0.2", "4.5", "nan"})
@@ -75,11 +72,8 @@ TEST_F(Render, BouncesStandInForThoseOfTheTimeline) {
 
 TEST_F(Render, DebugViewsAndSlices) {
   const Arguments small{"--size", "48x27", "--time", "0.8"};
-  const auto draw = [&](const std::string& name, Arguments more) {
-    more.insert(more.end(), {"-o", name});
-    more.insert(more.end(), small.begin(), small.end());
-    const Outcome run = render(more);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+  const auto draw = [&](const std::string& name, const Arguments& more) {
+    render_well(joined(joined(more, {"-o", name}), small));
     return png(name).rgba;
   };
   const auto depth = draw("depth.png", {"--view", "depth"});
@@ -89,30 +83,22 @@ TEST_F(Render, DebugViewsAndSlices) {
 }
 
 TEST_F(Render, ViewsOfSmokeAreRefusedWithoutSmoke) {
-  ASSERT_EQ(run_brume(folder_.path(), {"bake", "pyroclastic", "--edge", "16", "-o", "puff.brv"}).exit_code,
-            0);
+  run_well({"bake", "pyroclastic", "--edge", "16", "-o", "puff.brv"});
   for (const char* view : {"distance", "density", "light", "holes", "bricks"}) {
-    const Outcome volume =
-        run_brume(folder_.path(), {"render", "puff.brv", "-o", "no.png", "--scale", "10", "--view", view});
+    const Outcome volume = run({"render", "puff.brv", "-o", "no.png", "--scale", "10", "--view", view});
     EXPECT_EQ(volume.exit_code, 2);
     EXPECT_EQ(volume.error, "brume: --view " + std::string(view) +
                                 ": shows smoke, and puff.brv has none; volumes are in --view steps\n");
     EXPECT_EQ(render({"-o", "no.png", "--view", view, "--smoke", "none"}).exit_code, 2);
   }
   for (const char* view : {"steps", "solid", "depth"})
-    EXPECT_EQ(
-        run_brume(folder_.path(), {"render", "puff.brv", "-o", "a.png", "--size", "32x18", "--view", view})
-            .exit_code,
-        0);
+    run_well({"render", "puff.brv", "-o", "a.png", "--size", "32x18", "--view", view});
 }
 
 TEST_F(Render, InvalidViewsAndSlices) {
   const auto refused = [&](const Arguments& more, const std::string& part) {
-    Arguments arguments{"-o", "a.png", "--size", "32x18"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome run = render(arguments);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+    expect_failure(folder_, joined({"render", "room.toml", "-o", "a.png", "--size", "32x18"}, more), 2,
+                   {part});
   };
   refused({"--view", "voxels"}, "solid");
   refused({"--slice", "y=1"}, "--view density");
@@ -122,18 +108,12 @@ TEST_F(Render, InvalidViewsAndSlices) {
 }
 
 TEST_F(Render, ImageSequence) {
-  const Outcome images = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
-  ASSERT_EQ(images.exit_code, 0) << images.error;
+  render_well({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
   EXPECT_EQ(folder_.files(), (Arguments{"p_002.png", "p_003.png", "p_004.png", "room.obj", "room.toml"}));
 }
 
 TEST_F(Render, TheSameTimeIsTheSameImage) {
-  const Arguments size{"--size", "48x27"};
-  const auto draw = [&](Arguments more) {
-    more.insert(more.end(), size.begin(), size.end());
-    const Outcome run = render(more);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
-  };
+  const auto draw = [&](const Arguments& more) { render_well(joined(more, {"--size", "48x27"})); };
   draw({"-o", "still.png", "--time", "0.5"});
   draw({"-o", "a_%d.png", "--fps", "8", "--frames", "3-4"});
   draw({"-o", "b_%d.png", "--fps", "48/2", "--frames", "12-12"});
@@ -145,18 +125,15 @@ TEST_F(Render, TheSameTimeIsTheSameImage) {
 TEST_F(Render, TemporalRangesEqualThoseOfTheWholeFilm) {
   const Arguments film{"--fps", "16", "--size", "48x27", "--temporal"};
   for (const Arguments& range :
-       {Arguments{"-o", "a_%d.png", "--frames", "0-9"}, {"-o", "b_%d.png", "--frames", "8-9"}}) {
-    Arguments arguments = range;
-    arguments.insert(arguments.end(), film.begin(), film.end());
-    ASSERT_EQ(render(arguments).exit_code, 0);
-  }
+       {Arguments{"-o", "a_%d.png", "--frames", "0-9"}, {"-o", "b_%d.png", "--frames", "8-9"}})
+    render_well(joined(range, film));
   for (const char* frame : {"8", "9"})
     EXPECT_EQ(png("a_" + std::string(frame) + ".png").rgba, png("b_" + std::string(frame) + ".png").rgba);
 }
 
 TEST_F(Render, RatesOfTelevisionAreExact) {
   const auto rate_of = [&](const char* option) {
-    EXPECT_EQ(render({"-o", "film.mp4", "--fps", option, "--frames", "0-1", "--size", "16x16"}).exit_code, 0);
+    render_well({"-o", "film.mp4", "--fps", option, "--frames", "0-1", "--size", "16x16"});
     // The media header's time scale and the duration of one sample.
     const std::string bytes = *read_text_file(folder_.path() / "film.mp4");
     const auto number = [&](std::size_t at) {
@@ -173,8 +150,7 @@ TEST_F(Render, RatesOfTelevisionAreExact) {
 }
 
 TEST_F(Render, WarnsOfTimesAfterTheEnd) {
-  const Outcome still = render({"-o", "a.png", "--time", "9", "--size", "16x16"});
-  EXPECT_EQ(still.exit_code, 0);
+  const Outcome still = render_well({"-o", "a.png", "--time", "9", "--size", "16x16"});
   EXPECT_EQ(still.error, "brume: warning: --time 9: is after the end of the timeline at 1 s\n");
   const Outcome frames = render({"-o", "a_%d.png", "--frames", "30-30", "--size", "16x16"});
   EXPECT_EQ(frames.error,
@@ -182,12 +158,8 @@ TEST_F(Render, WarnsOfTimesAfterTheEnd) {
 }
 
 TEST_F(Render, SceneWithoutATimeline) {
-  const Outcome run = run_brume(
-      folder_.path(), {"render", "room.obj", "-o", "a.png", "--size", "32x18", "--smoke", "0,1,-1"});
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const Outcome with = run_brume(
-      folder_.path(), {"render", "room.obj", "--timeline", "room.toml", "-o", "b.png", "--size", "32x18"});
-  ASSERT_EQ(with.exit_code, 0) << with.error;
+  run_well({"render", "room.obj", "-o", "a.png", "--size", "32x18", "--smoke", "0,1,-1"});
+  run_well({"render", "room.obj", "--timeline", "room.toml", "-o", "b.png", "--size", "32x18"});
 }
 
 // The film has no name while it is written: a program called ffmpeg says that the real one starts.
@@ -196,12 +168,10 @@ TEST_F(Render, SmokeIsWhereItIsRequested) {
   for (const Arguments& smoke : {Arguments{"--smoke", "-30,0.3,-3"},
                                  {"--throw", "-20,2,-3 -30,0.3,-3"},
                                  {"--smoke", "-30,0.3,-3", "--voxel", "0.1"}}) {
-    Arguments arguments{"render", "room.obj", "-o", "far.png", "--size", "64x36", "--json", "-"};
-    arguments.insert(arguments.end(), smoke.begin(), smoke.end());
-    const Outcome run = run_brume(folder_.path(), arguments);
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run =
+        run_well({"render", "room.obj", "-o", "far.png", "--size", "64x36", "--json", "-"}, smoke);
     EXPECT_EQ(run.error, "");
-    EXPECT_EQ(nlohmann::json::parse(run.out)["smokes"][0]["fault"], "none") << run.out;
+    EXPECT_EQ(Json::parse(run.out)["smokes"][0]["fault"], "none") << run.out;
   }
 }
 
@@ -214,8 +184,7 @@ TEST_F(Render, TheGroundIsAsBrightBehindAnySubject) {
       box += "v " + std::to_string(4 * (i & 1)) + ' ' + std::to_string(1.4 * (i >> 1 & 1)) + ' ' +
              std::to_string(1.8 * (i >> 2)) + '\n';
     folder_.write("car.obj", box + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
-    const Outcome run = run_brume(folder_.path(), {"render", "car.obj", "-o", "car.png", "--size", "64x36"});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    run_well({"render", "car.obj", "-o", "car.png", "--size", "64x36"});
     const image::Image8 picture = png("car.png");
     for (const std::size_t corner : {std::size_t{64 * 35}, std::size_t{64 * 36 - 1}}) {
       EXPECT_LE(picture.rgba[4 * corner + 1], 153) << color;
@@ -226,11 +195,10 @@ TEST_F(Render, TheGroundIsAsBrightBehindAnySubject) {
 
 TEST_F(Render, WithoutSmoke) {
   for (const char* input : {"room.obj", "room.toml"}) {
-    const Outcome run = run_brume(folder_.path(), {"render", input, "-o", "none.png", "--size", "64x36",
-                                                   "--smoke", "none", "--json", "-"});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run =
+        run_well({"render", input, "-o", "none.png", "--size", "64x36", "--smoke", "none", "--json", "-"});
     EXPECT_EQ(run.error, "");
-    EXPECT_EQ(nlohmann::json::parse(run.out)["smokes"].size(), 0u) << run.out;
+    EXPECT_EQ(Json::parse(run.out)["smokes"].size(), 0u) << run.out;
   }
   EXPECT_EQ(render({"-o", "no.png", "--smoke", "none", "--smoke", "0,1,0"}).exit_code, 2);
 }
@@ -274,8 +242,7 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
   const auto expected = contents(folder_);
   for (const char* name : {"f_04.png", "f_05.png", "f_06.png", "f_07.png", "f_08.png", "f_09.png"})
     std::filesystem::remove(folder_.path() / name);
-  Arguments again = whole;
-  again.push_back("--resume");
+  Arguments again = joined(whole, {"--resume"});
   RunOptions interrupt;
   interrupt.signal = SIGTERM;
   interrupt.signal_when = [&] { return std::filesystem::exists(folder_.path() / "f_06.png"); };
@@ -287,10 +254,9 @@ TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
                            " of 8 frames written; continue with --resume or --frames " +
                            std::to_string(2 + there) + "-9\n");
 
-  again.insert(again.end(), {"--json", "-"});
-  const Outcome rest = render(again, process);
+  const Outcome rest = render(joined(again, {"--json", "-"}), process);
   ASSERT_EQ(rest.exit_code, 0) << rest.error;
-  EXPECT_EQ(nlohmann::json::parse(rest.out)["frames"], 8 - there);
+  EXPECT_EQ(Json::parse(rest.out)["frames"], 8 - there);
   EXPECT_EQ(contents(folder_), expected);
 }
 
@@ -298,10 +264,9 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-5", "--size", "16x16", "--resume", "--json", "-"};
   std::string reasons;
   const auto drawn = [&](const Arguments& arguments) {
-    const Outcome run = render(arguments);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run = render_well(arguments);
     reasons = run.error;
-    return nlohmann::json::parse(run.out)["frames"].get<int>();
+    return Json::parse(run.out)["frames"].get<int>();
   };
   EXPECT_EQ(drawn(whole), 6);
   EXPECT_EQ(drawn(whole), 0);
@@ -325,8 +290,7 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   EXPECT_EQ(contents(folder_), expected);
 
   // Other settings or another scene make other frames.
-  Arguments other = whole;
-  other.insert(other.end(), {"--step", "2"});
+  const Arguments other = joined(whole, {"--step", "2"});
   EXPECT_EQ(drawn(other), 6);
   EXPECT_EQ(reasons, "brume: frames 0-5: of other settings; made again\n");
   folder_.write("room.obj", room_obj() + "# changed\n");
@@ -336,12 +300,8 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
 }
 
 TEST_F(Render, NumbersInLayers) {
-  const Outcome still = render({"-o", "a.exr", "--size", "33x17", "--time", "0.8", "--json", "-"});
-  ASSERT_EQ(still.exit_code, 0) << still.error;
-  EXPECT_EQ(nlohmann::json::parse(still.out)["frames"], 1);
-  const Outcome info = run_brume(folder_.path(), {"info", "a.exr", "--json", "-"});
-  ASSERT_EQ(info.exit_code, 0) << info.error;
-  const auto parts = nlohmann::json::parse(info.out)["parts"];
+  EXPECT_EQ(json_of_render({"-o", "a.exr", "--size", "33x17", "--time", "0.8"})["frames"], 1);
+  const Json parts = json_of({"info", "a.exr"})["parts"];
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0]["width"], 33);
   EXPECT_EQ(parts[0]["height"], 17);
@@ -350,13 +310,12 @@ TEST_F(Render, NumbersInLayers) {
   for (const char* half : {"R", "G", "B", "A", "transmittance.V", "albedo.R", "media.B", "background.G"})
     EXPECT_EQ(layers[half], "half") << half;
   for (const char* number : {"Z", "depth_in.V"}) EXPECT_EQ(layers[number], "float") << number;
-  EXPECT_NE(run_brume(folder_.path(), {"info", "a.exr"}).out.find("\nZ               float\n"),
-            std::string::npos);
+  EXPECT_NE(run({"info", "a.exr"}).out.find("\nZ               float\n"), std::string::npos);
 
   EXPECT_EQ(render({"-o", "b.exr", "--view", "depth"}).exit_code, 2);
   EXPECT_EQ(render({"-o", "b.exr", "--frames", "0-1"}).exit_code, 2);
   folder_.write("cut.exr", read_text_file(folder_.path() / "a.exr")->substr(0, 100));
-  EXPECT_EQ(run_brume(folder_.path(), {"info", "cut.exr"}).exit_code, 3);
+  EXPECT_EQ(run({"info", "cut.exr"}).exit_code, 3);
 }
 
 TEST_F(Render, NumberedLayersResume) {
@@ -364,10 +323,9 @@ TEST_F(Render, NumberedLayersResume) {
                         "--march", "quarter",  "--resume", "--json", "-"};
   std::string reasons;
   const auto drawn = [&] {
-    const Outcome run = render(whole);
-    EXPECT_EQ(run.exit_code, 0) << run.error;
+    const Outcome run = render_well(whole);
     reasons = run.error;
-    return nlohmann::json::parse(run.out)["frames"].get<int>();
+    return Json::parse(run.out)["frames"].get<int>();
   };
   EXPECT_EQ(drawn(), 3);
   const auto expected = contents(folder_);
@@ -388,12 +346,10 @@ TEST_F(Render, NumberedLayersResume) {
 // Such frames depend on those before: resuming draws them again.
 TEST_F(Render, ResumesTemporalFramesExactly) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-5", "--fps", "8", "--size", "32x18", "--temporal"};
-  ASSERT_EQ(render(whole).exit_code, 0);
+  render_well(whole);
   const auto expected = contents(folder_);
   for (const char* name : {"f_2.png", "f_4.png"}) std::filesystem::remove(folder_.path() / name);
-  Arguments again = whole;
-  again.push_back("--resume");
-  ASSERT_EQ(render(again).exit_code, 0);
+  render_well(joined(whole, {"--resume"}));
   EXPECT_EQ(contents(folder_), expected);
 }
 
@@ -403,11 +359,8 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
   const Arguments temporal{"--frames", "1-4", "--fps", "8", "--size", "32x18", "--temporal"};
   const Arguments orbit{"--frames", "0-2", "--fps", "8", "--size", "32x18", "--orbit", "90"};
   for (const Arguments& settings : {temporal, orbit}) {
-    const auto run = [&](Arguments arguments) {
-      arguments.insert(arguments.end(), settings.begin(), settings.end());
-      const Outcome outcome = render(arguments);
-      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-      return outcome.error;
+    const auto run = [&](const Arguments& arguments) {
+      return render_well(joined(arguments, settings)).error;
     };
     run({"-o", "f_%d.png"});
     const auto expected = contents(folder_);
@@ -418,9 +371,7 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
     EXPECT_EQ(run({"-o", "f_%d.png", "--resume"}), "") << "all are complete";
 
     run({"-o", "whole.mp4"});
-    const Outcome film = run_brume(
-        folder_.path(), {"convert", "f_%d.png", "shards.mp4", "--frames", settings[1], "--fps", "8"});
-    EXPECT_EQ(film.exit_code, 0) << film.error;
+    run_well({"convert", "f_%d.png", "shards.mp4", "--frames", settings[1], "--fps", "8"});
     EXPECT_TRUE(*read_text_file(folder_.path() / "whole.mp4") ==
                 *read_text_file(folder_.path() / "shards.mp4"));
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
@@ -431,19 +382,19 @@ TEST_F(Render, ShardsMakeTheFramesAndTheFilmOfTheWhole) {
 
 TEST_F(Render, AFilmIsMadeOfTheFramesOfOneCommand) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-2", "--size", "32x18"};
-  ASSERT_EQ(render(whole).exit_code, 0);
-  const std::string frame = *read_text_file(folder_.path() / "f_1.png");
+  render_well(whole);
+  const std::string frame = bytes("f_1.png");
   Arguments other{"-o", "f_%d.png", "--frames", "1-1", "--size", "32x18", "--step", "2"};
-  ASSERT_EQ(render(other).exit_code, 0);
+  render_well(other);
   const Arguments film{"convert", "f_%d.png", "film.mp4", "--frames", "0-2"};
   expect_failure(folder_, film, 3, {"f_1.png", "of other settings than f_0.png", "--resume"});
   other[5] = "16x18";
-  ASSERT_EQ(render(other).exit_code, 0);
+  render_well(other);
   expect_failure(folder_, film, 3, {"f_1.png", "of another size than f_0.png"});
   std::filesystem::remove(folder_.path() / "f_1.png");
   expect_failure(folder_, film, 3, {"f_1.png"});
   folder_.write("f_1.png", frame);
-  EXPECT_EQ(run_brume(folder_.path(), film).exit_code, 0);
+  run_well(film);
   expect_failure(folder_, {"convert", "f_0.png", "film.mp4", "--frames", "0-2"}, 2, {"f_%04d.png"});
   expect_failure(folder_, {"convert", "f_%d.png", "film.mp4"}, 2, {"--frames"});
   expect_failure(folder_, {"convert", "f_%d.png", "film.mp4", "--frames", "0-2", "--shard", "1/2"}, 2,

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "image/exr.hpp"
 #include "spheres/file.hpp"
 #include "tests/cli/command_test.hpp"
 
@@ -21,15 +20,10 @@ class Tanks : public CommandTest {
   Outcome sense(const Arguments& more) const {
     return run({"query", "two.spheres", "--sense", "0,0,2 0,0,0 60"}, more);
   }
-  std::vector<std::byte> bytes(const std::string& name) const {
-    return read_file(folder_.path() / name).value_or_throw();
-  }
 };
 
 TEST_F(Tanks, AreSensedAsJson) {
-  const Outcome outcome = sense({"--size", "3x1", "--json", "-"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const Json json = Json::parse(outcome.out);
+  const Json json = json_of({"query", "two.spheres", "--sense", "0,0,2 0,0,0 60", "--size", "3x1"});
   EXPECT_EQ(json["size"], (Json{3, 1}));
   ASSERT_EQ(json["color"].size(), 3u);
   ASSERT_EQ(json["depth"].size(), 3u);
@@ -43,7 +37,7 @@ TEST_F(Tanks, AreSensedAsJson) {
 
 TEST_F(Tanks, AreSensedAsPictures) {
   ASSERT_EQ(sense({"--size", "33x17", "-o", "seen.exr"}).exit_code, 0);
-  const auto picture = image::decode_exr(bytes("seen.exr"), "seen.exr").value_or_throw();
+  const image::LayeredImage picture = exr("seen.exr");
   ASSERT_EQ(picture.layers.size(), 5u);  // sorted: A B G R Z
   const auto value = [&](std::size_t layer, std::size_t pixel) {
     return std::get<std::vector<float>>(picture.layers[layer].values)[pixel];
@@ -52,7 +46,7 @@ TEST_F(Tanks, AreSensedAsPictures) {
   EXPECT_NEAR(value(4, 8 * 33 + 16), 1.5, 1e-6);
   EXPECT_TRUE(std::isinf(value(4, 0)));
   ASSERT_EQ(sense({"--size", "33x17", "-o", "seen.png"}).exit_code, 0);
-  const auto colors = image::decode_image(bytes("seen.png"), "seen.png").value_or_throw();
+  const image::Image8 colors = png("seen.png");
   EXPECT_EQ(colors.width, 33u);
   EXPECT_EQ(colors.rgba[4 * (8 * 33 + 16)], 255);
   EXPECT_EQ(colors.rgba[3], 0);
@@ -60,10 +54,8 @@ TEST_F(Tanks, AreSensedAsPictures) {
 
 TEST_F(Tanks, RefuseWhatIsNoSensing) {
   folder_.write("room.obj", room_obj());
-  const auto refuses = [&](const std::vector<std::string>& arguments, int code, const std::string& text) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, code) << outcome.error;
-    EXPECT_NE(outcome.error.find(text), std::string::npos) << outcome.error;
+  const auto refuses = [&](const Arguments& arguments, int code, const std::string& text) {
+    expect_failure(folder_, arguments, code, {text});
   };
   refuses({"query", "room.obj", "--sense", "0,0,2 0,0,0"}, 2, "is no tank");
   refuses({"query", "two.spheres", "--sense", "0,0,2 0,0,2"}, 2, "--sense");
@@ -78,9 +70,7 @@ TEST_F(Tanks, RefuseWhatIsNoSensing) {
 }
 
 TEST_F(Tanks, AreVolumes) {
-  const Outcome convert = run({"convert", "two.spheres", "two.brv", "--json", "-"});
-  ASSERT_EQ(convert.exit_code, 0) << convert.error;
-  EXPECT_EQ(Json::parse(convert.out)["grids"], (Json{"density", "Cd"}));
+  EXPECT_EQ(json_of({"convert", "two.spheres", "two.brv"})["grids"], (Json{"density", "Cd"}));
 }
 
 // In a level, against the same without the tank.
@@ -92,12 +82,10 @@ TEST_F(Tanks, StandInLevels) {
   folder_.write("empty.toml", level);
   folder_.write("tank.toml", level + "[[volume]]\nfile = \"two.spheres\"\nposition = [0.0, 1.2, -0.6]\n");
   for (const char* name : {"empty", "tank"}) {
-    const Outcome outcome = run({"render", name + std::string(".toml"), "-o", name + std::string(".png"),
-                                 "--size", "64x36", "--time", "0.5"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+    run_well({"render", name + std::string(".toml"), "-o", name + std::string(".png"), "--size", "64x36",
+              "--time", "0.5"});
   }
-  const auto without = image::decode_image(bytes("empty.png"), "empty").value_or_throw();
-  const auto with = image::decode_image(bytes("tank.png"), "tank").value_or_throw();
+  const image::Image8 without = png("empty.png"), with = png("tank.png");
   int differing = 0;
   for (std::size_t i = 0; i < with.rgba.size(); i += 4) differing += with.rgba[i] != without.rgba[i];
   // The ball of 0.5 m, 2.4 m away, has 0.5 / 2.4 / tan(35 deg) of half the height as radius: 5 pixels, an

@@ -25,9 +25,7 @@ class Spheres : public CommandTest {
     return spheres::load_tank(folder_.path() / name).value_or_throw();
   }
   void refused(const Arguments& more, const std::vector<std::string>& parts) const {
-    Arguments arguments{"bake", "spheres", "-o", "new.spheres"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_failure(folder_, arguments, 2, parts);
+    expect_failure(folder_, joined({"bake", "spheres", "-o", "new.spheres"}, more), 2, parts);
   }
 };
 
@@ -66,7 +64,7 @@ TEST_F(Spheres, OfEveryArrangementAreTheSameForAnyNumberOfThreads) {
 TEST_F(Spheres, AreSummarized) {
   bake("a.spheres", {"--opacity", "0.2"});
   const spheres::Tank tank = load("a.spheres");
-  const Json info = Json::parse(run({"info", "a.spheres", "--json", "-"}).out);
+  const Json info = json_of({"info", "a.spheres"});
   EXPECT_EQ(info["kind"], "tank");
   EXPECT_EQ(info["spheres"], 300);
   EXPECT_EQ(info["size"], Json({60, 40, 20}));
@@ -87,22 +85,18 @@ TEST_F(Spheres, AreSummarized) {
   EXPECT_NE(run({"info", "a.spheres"}).out.find("\nspheres         300\n"), std::string::npos);
 
   spheres::save_tank(folder_.path() / "none.spheres", {glm::uvec3(4), 1, {}, {}}).value_or_throw();
-  EXPECT_EQ(Json::parse(run({"info", "none.spheres", "--json", "-"}).out)["spheres"], 0);
+  EXPECT_EQ(json_of({"info", "none.spheres"})["spheres"], 0);
 }
 
 TEST_F(Spheres, AreExported) {
-  ASSERT_EQ(
-      run({"bake", "spheres", "-o", "a.spheres", "--size", "30x30x30", "--count", "20", "--radius", "0.5-3"})
-          .exit_code,
-      0);
-  const Outcome points = run({"convert", "a.spheres", "a.ply", "--json", "-"});
-  ASSERT_EQ(points.exit_code, 0) << points.error;
-  EXPECT_EQ(Json::parse(points.out)["spheres"], 20);
-  EXPECT_EQ(Json::parse(points.out)["bytes"], bytes("a.ply").size());
+  run_well(
+      {"bake", "spheres", "-o", "a.spheres", "--size", "30x30x30", "--count", "20", "--radius", "0.5-3"});
+  const Json points = json_of({"convert", "a.spheres", "a.ply"});
+  EXPECT_EQ(points["spheres"], 20);
+  EXPECT_EQ(points["bytes"], bytes("a.ply").size());
   EXPECT_EQ(bytes("a.ply").rfind("ply\nformat binary_little_endian 1.0\n", 0), 0u);
-  ASSERT_EQ(run({"convert", "a.spheres", "A.OBJ"}).exit_code, 0);
-  const Json mesh = Json::parse(run({"info", "A.OBJ", "--json", "-"}).out);
-  EXPECT_EQ(mesh["triangles"], 20 * 1280);
+  run_well({"convert", "a.spheres", "A.OBJ"});
+  EXPECT_EQ(json_of({"info", "A.OBJ"})["triangles"], 20 * 1280);
   ASSERT_EQ(run({"convert", "a.spheres", "a.ply"}).exit_code, 0) << "its own it is";
   expect_failure(folder_, {"convert", "a.spheres", "a.vxl"}, 2, {"a.vxl", ".obj"});
   expect_failure(folder_, {"convert", "a.spheres", "b.ply", "--grid", "a"}, 2, {"--grid is for volumes"});
@@ -136,22 +130,19 @@ TEST_F(Spheres, OfHostileOptionsAreRefused) {
 }
 
 TEST_F(Spheres, ThatDoNotFitAreFewerWithAWarning) {
-  const Outcome full =
-      run({"bake", "spheres", "-o", "a.spheres", "--size", "20x20x20", "--count", "1500", "--radius", "1-4"});
-  EXPECT_EQ(full.exit_code, 0);
+  const Outcome full = run_well(
+      {"bake", "spheres", "-o", "a.spheres", "--size", "20x20x20", "--count", "1500", "--radius", "1-4"});
   EXPECT_NE(full.error.find(" of 1500 spheres are packed: there is no room for more"), std::string::npos)
       << full.error;
   EXPECT_LT(load("a.spheres").spheres.size(), 1500u);
 }
 
 TEST_F(Spheres, OfNoGivenNumberAreAsManyAsTheTankHasRoomFor) {
-  const Outcome one = run({"bake", "spheres", "-o", "one.spheres", "--size", "1x1x1"});
-  EXPECT_EQ(one.exit_code, 0);
+  const Outcome one = run_well({"bake", "spheres", "-o", "one.spheres", "--size", "1x1x1"});
   EXPECT_EQ(one.error, "");
   EXPECT_EQ(one.out.rfind("1 sphere of radius ", 0), 0u) << one.out;
   EXPECT_NE(one.out.find(" fills "), std::string::npos) << one.out;
-  const Outcome large = run({"bake", "spheres", "-o", "large.spheres", "--radius", "40-60"});
-  EXPECT_EQ(large.exit_code, 0);
+  const Outcome large = run_well({"bake", "spheres", "-o", "large.spheres", "--radius", "40-60"});
   EXPECT_EQ(large.error, "");
   EXPECT_GT(load("large.spheres").spheres.size(), 10u);
 }
@@ -167,9 +158,8 @@ TEST_F(Spheres, AreArrangedByNamesOfScenesWithEitherDash) {
 
 TEST_F(Spheres, OfATimeLimitAreThosePackedByThen) {
   // More than any machine packs in a millisecond.
-  const Outcome run = this->run({"bake", "spheres", "-o", "a.spheres", "--count", "8000000", "--radius",
-                                 "0.5-2", "--time-limit", "0.001", "--json", "-"});
-  EXPECT_EQ(run.exit_code, 0) << run.error;
+  const Outcome run = run_well({"bake", "spheres", "-o", "a.spheres", "--count", "8000000", "--radius",
+                                "0.5-2", "--time-limit", "0.001", "--json", "-"});
   EXPECT_NE(run.error.find("--time-limit ended it"), std::string::npos) << run.error;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json["timed_out"], true);

@@ -45,9 +45,8 @@ TEST_F(TransferOptions, ValuesBelowZeroAreDrawn) {
   folder_.write("signed.json",
                 R"({"format": "brume raw volume", "version": 1, "raw": "signed.raw", "size": [16, 16, 16]})");
   const std::vector<std::string> view{"--ground", "none", "--camera", "0,8,60 0,8,0 30"};
-  const auto draw = [&](const std::string& name, std::vector<std::string> more) {
-    more.insert(more.end(), view.begin(), view.end());
-    const Outcome run = render("signed.json", name, more);
+  const auto draw = [&](const std::string& name, const Arguments& more) {
+    const Outcome run = render("signed.json", name, joined(more, view));
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return run.error;
   };
@@ -86,10 +85,7 @@ TEST_F(TransferOptions, MistakesAreOneLine) {
            {"t.toml", {"--color-map", "grey"}, of_timeline},
            {"t.toml", {"--range", "0,1"}, of_timeline},
            {"room.obj", {"--opacity", "0:0,1:1"}, "is for a volume; room.obj is a scene"}}) {
-    const Outcome run = render(input, "x.png", more);
-    EXPECT_EQ(run.exit_code, 2) << more[1];
-    EXPECT_NE(run.error.find(message), std::string::npos) << run.error;
-    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+    expect_failure(folder_, joined({"render", input, "-o", "x.png"}, more), 2, {message});
   }
 }
 

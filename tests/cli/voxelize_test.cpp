@@ -39,8 +39,7 @@ TEST_F(Voxelize, ScalesTheScene) {
 }
 
 TEST_F(Voxelize, WarnsOfAGridBesideTheScene) {
-  const Outcome done = run({"voxelize", "room.obj", "--grid", "10x10x10", "--origin", "1000,0,0"});
-  EXPECT_EQ(done.exit_code, 0);
+  const Outcome done = run_well({"voxelize", "room.obj", "--grid", "10x10x10", "--origin", "1000,0,0"});
   EXPECT_NE(done.error.find("warning: no voxel is solid"), std::string::npos) << done.error;
 }
 
@@ -66,8 +65,7 @@ TEST_F(Voxelize, RebuildsADamagedCache) {
 }
 
 TEST_F(Voxelize, ExportsASceneThatLoads) {
-  const Outcome done = run({"voxelize", "room.obj", "--voxel", "0.5", "--obj", "cubes.obj"});
-  EXPECT_EQ(done.exit_code, 0) << done.error;
+  run_well({"voxelize", "room.obj", "--voxel", "0.5", "--obj", "cubes.obj"});
   const Json room = json_of({"info", "room.obj"});
   const Json cubes = json_of({"info", "cubes.obj"});
   EXPECT_GT(cubes["triangles"], 12);
@@ -89,9 +87,8 @@ TEST_F(Voxelize, AcceptsOriginsThatBeginWithAMinus) {
 TEST_F(Voxelize, IsIndependentOfTheNumberOfThreads) {
   std::string one;
   for (const char* threads : {"1", "2", "7"}) {
-    const Outcome done = run({"voxelize", "room.obj", "-o", std::string(threads) + ".vxl", "--voxel", "0.1",
-                              "--threads", threads});
-    ASSERT_EQ(done.exit_code, 0) << done.error;
+    run_well({"voxelize", "room.obj", "-o", std::string(threads) + ".vxl", "--voxel", "0.1", "--threads",
+              threads});
     const std::string made = this->bytes((std::string(threads) + ".vxl"));
     if (one.empty()) one = made;
     EXPECT_EQ(made, one);
