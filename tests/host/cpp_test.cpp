@@ -10,14 +10,8 @@ namespace {
 
 TEST(CppInterface, IsTheCInterface) {
   gpu::HostApplication application(1);
-  const gpu::HostDevice& host = application.device();
   const api::Context context;
-  brume_device_params params = brume_device_defaults();
-  params.get_instance_proc_addr = host.get_instance_proc_addr;
-  params.instance = host.instance;
-  params.physical_device = host.physical_device;
-  params.device = host.device;
-  api::Device device(context, params);
+  api::Device device(context, params_of(application.device()));
   api::Renderer renderer(device, brume_renderer_defaults());
 
   // What has no frame.

@@ -1,25 +1,14 @@
 // The renderer and the interface, which draw the same decals.
 #pragma once
 
-#include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "grids/files/grid_files.hpp"
 #include "scenario/slice_volumes.hpp"
 #include "tests/host/hosted_pair.hpp"
-#include "tests/passes/half.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
-
-using Pixels = std::vector<glm::dvec4>;
-
-inline Pixels pixels_of(const gpu::Buffer& halves) {
-  Pixels pixels;
-  for (const std::uint64_t texel : texels_of(halves))
-    pixels.emplace_back(passes::from_half(std::bit_cast<passes::Half4>(texel)));
-  return pixels;
-}
 
 /// Of an object in the middle of a box: less the further away, more of what faces up.
 inline grids::DenseVolume occlusion_volume(glm::uvec3 size, double radius) {

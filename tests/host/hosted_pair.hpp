@@ -1,6 +1,7 @@
 // The renderer and the interface, which draw the same frames on a host's device.
 #pragma once
 
+#include <bit>
 #include <deque>
 #include <functional>
 #include <glm/gtc/packing.hpp>
@@ -10,6 +11,7 @@
 #include "scenario/frame.hpp"
 #include "scenario/simulation.hpp"
 #include "tests/host/hosted_smoke.hpp"
+#include "tests/passes/half.hpp"
 
 namespace brume::host {
 
@@ -22,6 +24,15 @@ inline gpu::Buffer readback_buffer(gpu::Context& context) {
 inline Texels texels_of(const gpu::Buffer& buffer) {
   const auto texels = gpu::values_of<Texels::value_type>(buffer);
   return {texels.begin(), texels.end()};
+}
+
+using Pixels = std::vector<glm::dvec4>;
+
+inline Pixels pixels_of(const gpu::Buffer& halves) {
+  Pixels pixels;
+  for (const std::uint64_t texel : gpu::values_of<Texels::value_type>(halves))
+    pixels.emplace_back(passes::from_half(std::bit_cast<passes::Half4>(texel)));
+  return pixels;
 }
 
 /// The largest difference of two images of half floats.

@@ -22,6 +22,21 @@ constexpr std::uint32_t kTicks = 64;  // a second
 #define ASSERT_OK(call) ASSERT_EQ(call, BRUME_OK) << brume_last_error()
 #define EXPECT_OK(call) EXPECT_EQ(call, BRUME_OK) << brume_last_error()
 
+/// A call is refused, with an error that has these words.
+inline void expect_refused(brume_result result, brume_result expected, const std::string& words) {
+  EXPECT_EQ(result, expected) << words;
+  EXPECT_NE(std::string(brume_last_error()).find(words), std::string::npos) << brume_last_error();
+}
+
+inline brume_device_params params_of(const gpu::HostDevice& host) {
+  brume_device_params params = brume_device_defaults();
+  params.get_instance_proc_addr = host.get_instance_proc_addr;
+  params.instance = host.instance;
+  params.physical_device = host.physical_device;
+  params.device = host.device;
+  return params;
+}
+
 inline brume_point point_of(glm::vec3 p) {
   return {p.x, p.y, p.z};
 }
@@ -38,6 +53,14 @@ struct Mesh {
         points.push_back(point_of(corner));
       }
   }
+  /// Into the parameters of a level or a renderer.
+  template <typename Params>
+  void write_to(Params& params) const {
+    params.points = points.data();
+    params.point_count = points.size();
+    params.indices = indices.data();
+    params.index_count = indices.size();
+  }
   std::vector<brume_point> points;
   std::vector<std::uint32_t> indices;
 };
@@ -48,10 +71,7 @@ inline api::Level level_of(const api::Context& context, const scenario::Scenario
   brume_triangles_params params = brume_triangles_defaults();
   params.layout = {
       {layout.size.x, layout.size.y, layout.size.z}, layout.voxel_size, point_of(layout.origin_world)};
-  params.points = mesh.points.data();
-  params.point_count = mesh.points.size();
-  params.indices = mesh.indices.data();
-  params.index_count = mesh.indices.size();
+  mesh.write_to(params);
   return {context, params};
 }
 
@@ -97,17 +117,14 @@ struct HostedSmoke {
       : mesh(scenario),
         level(level_of(context, scenario, mesh)),
         world(level),
-        field(level, field_params(scenario)) {
+        field(level, field_params(scenario)),
+        on(params_of(host)) {
     std::vector<brume_event> events;
     for (const sim::Event& event : scenario::events_of(scenario, kTicks).value_or_throw()) {
       if (const auto* smoke = std::get_if<sim::ThrowSmoke>(&event)) events.push_back(event_of(*smoke));
       if (const auto* shot = std::get_if<sim::Shot>(&event)) events.push_back(event_of(*shot));
     }
     world.append(events);
-    on.get_instance_proc_addr = host.get_instance_proc_addr;
-    on.instance = host.instance;
-    on.physical_device = host.physical_device;
-    on.device = host.device;
     const bool is_made = made(scenario, march_scale);
     EXPECT_TRUE(is_made || failure == Failure::allowed) << brume_last_error();
   }
@@ -131,10 +148,7 @@ struct HostedSmoke {
     const std::vector<brume_light> lights = lights_of(scenario.scene);
     params.lights = lights.data();
     params.light_count = lights.size();
-    params.points = mesh.points.data();
-    params.point_count = mesh.points.size();
-    params.indices = mesh.indices.data();
-    params.index_count = mesh.indices.size();
+    mesh.write_to(params);
     return brume_renderer_create(device, &params, &renderer) == BRUME_OK;
   }
   /// The field at a time.
@@ -153,7 +167,7 @@ struct HostedSmoke {
   api::Level level;
   api::World world;
   api::Field field;
-  brume_device_params on = brume_device_defaults();
+  brume_device_params on;
   brume_device* device = nullptr;
   brume_renderer* renderer = nullptr;
 };

@@ -1,12 +1,10 @@
 // Volumes in a host's frames, and the shadows of all media on its surfaces.
-#include <bit>
 #include <set>
 
 #include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "scene/options.hpp"
 #include "tests/host/hosted_pair.hpp"
-#include "tests/passes/half.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::host {
@@ -84,16 +82,13 @@ class MediaTest : public HostedPair {
   /// themselves, and (p - o) / (a p0) is t within (u p / (a p0) + u t) / (1 - u). The interface's t is off by
   /// u t. Floats add less than a hundredth of that.
   void expect_shadows() const {
-    const auto pixel = [](const Texels& of, std::size_t i) {
-      return glm::dvec4(passes::from_half(std::bit_cast<passes::Half4>(of[i])));
-    };
-    const Texels media = texels_of(copies_[0]), lit = texels_of(radiances_[0]),
-                 clear = texels_of(radiances_[1]), shadows = texels_of(shadows_[0]);
+    const Pixels media = pixels_of(copies_[0]), lit = pixels_of(radiances_[0]),
+                 clear = pixels_of(radiances_[1]), shadows = pixels_of(shadows_[0]);
     int compared = 0, shadowed = 0, outside = 0;
     for (std::size_t i = 0; i < media.size(); ++i) {
-      const glm::dvec4 through = pixel(media, i), given = pixel(shadows, i);
+      const glm::dvec4 through = media[i], given = shadows[i];
       EXPECT_EQ(glm::dvec3(given.y, given.z, given.w), glm::dvec3(1)) << "of no light";
-      const double p = pixel(lit, i).r, p0 = pixel(clear, i).r;
+      const double p = lit[i].r, p0 = clear[i].r;
       outside += p0 == 0 && given.x == 1;
       if (p0 < 0.01 || through.a < 0.05) continue;
       constexpr double kRound = 1 / 1024.0;
@@ -200,8 +195,7 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
 
   brume_volume* volume = nullptr;
   const auto refused = [&](brume_result expected, const char* words) {
-    EXPECT_EQ(brume_volume_create(context_.get(), &params, &volume), expected);
-    EXPECT_NE(std::string(brume_last_error()).find(words), std::string::npos) << brume_last_error();
+    expect_refused(brume_volume_create(context_.get(), &params, &volume), expected, words);
     EXPECT_EQ(volume, nullptr);
   };
   params.density = "nothing";
@@ -234,8 +228,8 @@ TEST_F(MediaTest, LooksAreRefusedBeyondTheRangesOfTimelines) {
     for (const float bad : {std::nextafter(static_cast<float>(info.low), -INFINITY),
                             std::nextafter(static_cast<float>(info.high), INFINITY), NAN}) {
       member = bad;
-      EXPECT_EQ(brume_renderer_record(smoke_->renderer, smoke_->field.get(), &params), BRUME_ERROR_ARGUMENT);
-      EXPECT_NE(std::string(brume_last_error()).find(words), std::string::npos) << brume_last_error();
+      expect_refused(brume_renderer_record(smoke_->renderer, smoke_->field.get(), &params),
+                     BRUME_ERROR_ARGUMENT, words);
     }
     member = before;
   };

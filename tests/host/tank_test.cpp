@@ -1,10 +1,7 @@
 // Tanks of spheres in a host's frames: over its surfaces, under the smoke.
-#include <bit>
-
 #include "render/tank_picture.hpp"
 #include "spheres/file.hpp"
 #include "tests/host/hosted_pair.hpp"
-#include "tests/passes/half.hpp"
 #include "tests/path_tracer/tank_fixture.hpp"
 #include "tests/work_folder.hpp"
 
@@ -73,8 +70,8 @@ class TankTest : public HostedPair {
   /// Draws tanks over surfaces whose distances along the camera's axis `distance_of` has; what the interface
   /// drew.
   template <std::invocable<glm::ivec2> DistanceOf>
-  std::vector<glm::dvec4> draw(std::vector<brume_shown_tank> tanks, DistanceOf distance_of,
-                               const brume_field* field = nullptr) {
+  Pixels draw(std::vector<brume_shown_tank> tanks, DistanceOf distance_of,
+              const brume_field* field = nullptr) {
     host_->frame([&](VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed) {
       recording_->begin(commands, frame, completed);
       upload_depth(distance_of);
@@ -100,14 +97,14 @@ class TankTest : public HostedPair {
       host_->copy(commands, image, {kSize.x, kSize.y}, copies_.back().handle());
     });
     host_->wait();
-    return halves(copies_.back());
+    return pixels_of(copies_.back());
   }
-  std::vector<glm::dvec4> draw(std::vector<brume_shown_tank> tanks, float distance = kFar) {
+  Pixels draw(std::vector<brume_shown_tank> tanks, float distance = kFar) {
     return draw(std::move(tanks), [&](glm::ivec2) { return distance; });
   }
 
   /// The picture of the tank alone, behind which all has the radiance `behind`.
-  std::vector<glm::dvec4> reference(std::uint32_t samples, scene::TankView view, const glm::vec3& behind) {
+  Pixels reference(std::uint32_t samples, scene::TankView view, const glm::vec3& behind) {
     scene::TankScene scene = scene_;
     scene.sky.zenith = scene.sky.horizon = behind;
     scene.view = view;
@@ -125,12 +122,11 @@ class TankTest : public HostedPair {
       recording_->end();
     });
     host_->wait();
-    return halves(copies_.back());
+    return pixels_of(copies_.back());
   }
   /// Expects that what the interface drew, over that radiance, is the tank's picture: halves that are rounded
   /// or truncated three times, of the layer, in it and in the picture, each by 2^-10 of itself at most.
-  static void expect_over(const std::vector<glm::dvec4>& layer, const glm::vec3& behind,
-                          const std::vector<glm::dvec4>& picture) {
+  static void expect_over(const Pixels& layer, const glm::vec3& behind, const Pixels& picture) {
     for (std::size_t i = 0; i < layer.size(); ++i)
       for (int c = 0; c < 3; ++c) {
         const double over = layer[i][c] + layer[i].a * double{behind[c]};
@@ -138,12 +134,6 @@ class TankTest : public HostedPair {
       }
   }
 
-  static std::vector<glm::dvec4> halves(const gpu::Buffer& buffer) {
-    std::vector<glm::dvec4> pixels;
-    for (const std::uint64_t texel : texels_of(buffer))
-      pixels.emplace_back(passes::from_half(std::bit_cast<passes::Half4>(texel)));
-    return pixels;
-  }
   template <typename DistanceOf>
   void upload_depth(DistanceOf distance_of) {
     if (depth_.handle() == VK_NULL_HANDLE) {
@@ -186,7 +176,7 @@ TEST_F(TankTest, IsThePictureOfTheTankOverWhatIsBehind) {
   for (const bool foggy : {false, true}) {
     if (foggy) scene_.fog = {0.3f, {0.2f, 0.3f, 0.5f}};
     set_lighting();
-    const std::vector<glm::dvec4> layer = draw({shown(4)});
+    const Pixels layer = draw({shown(4)});
     expect_over(layer, behind, reference(4, scene::TankView::spheres, behind));
     // Not all of it is behind, nor all before it.
     const auto clear = std::ranges::count_if(layer, [](const glm::dvec4& pixel) { return pixel.a > 0.9; });
@@ -208,7 +198,7 @@ TEST_F(TankTest, IsItsPictureThroughGlassAndByVoxels) {
 }
 
 TEST_F(TankTest, AFileIsTheSameAsItsArrays) {
-  const std::vector<glm::dvec4> arrays = draw({shown()});
+  const Pixels arrays = draw({shown()});
   const cli::WorkFolder folder;
   const std::string file = (folder.path() / "tank.spheres").string();
   spheres::save_tank(file, tank_).value_or_throw();
@@ -221,7 +211,7 @@ TEST_F(TankTest, AFileIsTheSameAsItsArrays) {
 }
 
 TEST_F(TankTest, SurfacesHideIt) {
-  const std::vector<glm::dvec4> whole = draw({shown()});
+  const Pixels whole = draw({shown()});
   EXPECT_EQ(draw({shown()}, 20), whole) << "a wall behind it";
   for (const glm::dvec4& pixel : draw({shown()}, 1)) EXPECT_EQ(pixel, glm::dvec4(0, 0, 0, 1)) << "before it";
   // Half of the picture.
@@ -243,27 +233,27 @@ TEST_F(TankTest, AWallThroughItHidesWhatIsBehindTheWall) {
 }
 
 TEST_F(TankTest, SamplesOfFramesThatContinueAreThoseOfOne) {
-  const std::vector<glm::dvec4> one = draw({shown(12)});
+  const Pixels one = draw({shown(12)});
   brume_shown_tank tank = shown(4);
   tank.continues_previous = 1;
   jitter_index_ = 4096;  // the same as 0: that of the first frame counts
   draw({shown(4)});
   for (const std::uint32_t jitter : {7u, 9u}) {
     jitter_index_ = jitter;
-    const std::vector<glm::dvec4> more = draw({tank});
+    const Pixels more = draw({tank});
     EXPECT_EQ(more == one, jitter == 9u) << jitter;
   }
   // Anything else begins again.
   camera_.position_world.x += 0.1f;
   jitter_index_ = 0;
-  const std::vector<glm::dvec4> moved = draw({tank});
+  const Pixels moved = draw({tank});
   EXPECT_EQ(moved, draw({shown(4)}));
   jitter_index_ = 1;
   EXPECT_NE(moved, draw({shown(4)})) << "the noise of another frame";
 }
 
 TEST_F(TankTest, TurnedMovedAndScaledWithTheCameraItLooksTheSame) {
-  const std::vector<glm::dvec4> before = draw({shown(16)});
+  const Pixels before = draw({shown(16)});
   const glm::vec3 x = glm::normalize(glm::vec3(1, 2, 3)), y = glm::normalize(glm::vec3(-2, 1, 0)),
                   z = glm::cross(x, y), moved(20, -3, 7);
   constexpr float kScale = 2.5f;
@@ -276,7 +266,7 @@ TEST_F(TankTest, TurnedMovedAndScaledWithTheCameraItLooksTheSame) {
   camera_.position_world = world(camera_.position_world);
   camera_.target_world = world(camera_.target_world);
   camera_.up_world = y;
-  const std::vector<glm::dvec4> after = draw({tank});
+  const Pixels after = draw({tank});
   // Rounding moves rays by about 10^-6 of the picture: a path that meets the rim of a sphere may change.
   std::size_t apart = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {

@@ -99,11 +99,8 @@ class YardTest : public testing::Test {
     brume_field_params field = brume_field_defaults();
     ASSERT_OK(brume_field_create(level_, &field, &field_));
 
-    brume_device_params on = brume_device_defaults();
-    on.get_instance_proc_addr = gpu::Interposer::over(host_.device().get_instance_proc_addr, replacements_);
-    on.instance = host_.device().instance;
-    on.physical_device = host_.device().physical_device;
-    on.device = host_.device().device;
+    brume_device_params on = params_of(host_.device());
+    on.get_instance_proc_addr = gpu::Interposer::over(on.get_instance_proc_addr, replacements_);
     on.memory_user = &memory_;
     on.allocate_memory = HostMemory::allocate;
     on.free_memory = HostMemory::free;
