@@ -10,6 +10,8 @@
 
 #include "core/file.hpp"
 
+#include "tests/work_folder.hpp"
+
 namespace brume {
 namespace {
 
@@ -21,14 +23,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 
 class AtomicFileTest : public testing::TestWithParam<AtomicFile::Naming> {
  protected:
-  AtomicFileTest() {
-    folder_ = fs::temp_directory_path() / ("brume_atomic_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  ~AtomicFileTest() override { fs::remove_all(folder_); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
+  std::size_t files() const { return work_folder_.files().size(); }
   void write(const fs::path& path, const std::string& text) const {
     auto file = AtomicFile::open(path, GetParam());
     ASSERT_TRUE(file) << file.failure().message;
@@ -41,7 +36,8 @@ class AtomicFileTest : public testing::TestWithParam<AtomicFile::Naming> {
     EXPECT_EQ(::stat(path.c_str(), &info), 0);
     return info.st_mode & 07777u;
   }
-  fs::path folder_;
+  const cli::WorkFolder work_folder_;
+  const fs::path folder_ = work_folder_.path();
 };
 
 INSTANTIATE_TEST_SUITE_P(BothKinds, AtomicFileTest,

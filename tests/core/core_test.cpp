@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <barrier>
@@ -18,22 +17,16 @@
 #include "core/similar.hpp"
 #include "core/tasks.hpp"
 #include "core/utf8.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume {
 namespace {
 
 class FileTest : public testing::Test {
  protected:
-  FileTest() {
-    folder_ = std::filesystem::temp_directory_path() / ("brume_core_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~FileTest() override { std::filesystem::remove_all(folder_); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
-  }
-  std::filesystem::path folder_;
+  std::size_t files() const { return work_folder_.files().size(); }
+  const cli::WorkFolder work_folder_;
+  const std::filesystem::path folder_ = work_folder_.path();
 };
 
 TEST_F(FileTest, WritesAndReadsBack) {

@@ -1,7 +1,6 @@
 #include "spheres/export.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -13,6 +12,7 @@
 
 #include "core/file.hpp"
 #include "spheres/pack.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::spheres {
 namespace {
@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 class Export : public testing::Test {
  protected:
-  Export() { fs::create_directories(folder_); }
-  ~Export() override { fs::remove_all(folder_); }
   static Tank tank(std::uint32_t count) {
     PackOptions options;
     options.size = {60, 40, 20};
@@ -33,8 +31,7 @@ class Export : public testing::Test {
     options.palette = {0x336699, 0xffcc00};
     return pack(options).value_or_throw();
   }
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) / ("brume_spheres_export_" + std::to_string(::getpid()));
+  const cli::WorkFolder folder_;
 };
 
 glm::dvec3 world_of(const Tank& tank, const Sphere& sphere) {
@@ -43,7 +40,7 @@ glm::dvec3 world_of(const Tank& tank, const Sphere& sphere) {
 
 TEST_F(Export, PointsArePlacedInTheWorld) {
   const Tank tank = Export::tank(100);
-  const fs::path path = folder_ / "a.ply";
+  const fs::path path = folder_.path() / "a.ply";
   ASSERT_TRUE(save_tank_ply(path, tank));
   const std::string text = read_text_file(path).value_or_throw();
   const std::string end = "end_header\n";
@@ -67,7 +64,7 @@ TEST_F(Export, MeshesAreClosedAndLieOnTheSpheres) {
   for (const std::uint32_t count : {0u, 1u, 100u, 1500u}) {
     const Tank tank = Export::tank(count);
     ASSERT_EQ(tank.spheres.size(), count);
-    const fs::path path = folder_ / "a.obj";
+    const fs::path path = folder_.path() / "a.obj";
     ASSERT_TRUE(save_tank_obj(path, tank));
     const std::uint64_t faces = 20ull << 2 * obj_subdivisions(count), vertices = faces / 2 + 2;
 
@@ -119,11 +116,11 @@ TEST_F(Export, MeshesHaveASizeLimit) {
   Tank many = tank(1);
   many.spheres.resize(500'001, many.spheres[0]);
   many.colors.resize(500'001);
-  const auto written = save_tank_obj(folder_ / "a.obj", many);
+  const auto written = save_tank_obj(folder_.path() / "a.obj", many);
   EXPECT_EQ(written.failure().code, ErrorCode::resource_limit);
   EXPECT_NE(written.failure().message.find("a.obj: 500001 spheres; at most 500000 are written as meshes"),
             std::string::npos);
-  EXPECT_FALSE(fs::exists(folder_ / "a.obj"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "a.obj"));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "fuzz/spheres_checks.hpp"
 #include "spheres/pack.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::spheres {
 namespace {
@@ -67,17 +68,14 @@ TEST(TankFile, HoldsTheTank) {
 }
 
 TEST(TankFile, IsSavedAndLoaded) {
-  const auto folder =
-      std::filesystem::path(testing::TempDir()) / ("brume_tank_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  const auto path = folder / "a.spheres";
+  const cli::WorkFolder folder;
+  const auto path = folder.path() / "a.spheres";
   const Tank tank = small_tank();
   ASSERT_TRUE(save_tank(path, tank));
   EXPECT_EQ(load_tank(path).value_or_throw().spheres, tank.spheres);
   ASSERT_TRUE(write_file_atomic(path, std::string("no spheres")));
   EXPECT_EQ(load_tank(path).failure().message, path.string() + ": not a .spheres file");
-  EXPECT_EQ(load_tank(folder / "b.spheres").failure().code, ErrorCode::bad_input);
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(load_tank(folder.path() / "b.spheres").failure().code, ErrorCode::bad_input);
   EXPECT_TRUE(is_tank_file("a.SPHERES"));
   EXPECT_FALSE(is_tank_file("spheres"));
 }

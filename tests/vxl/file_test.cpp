@@ -1,12 +1,12 @@
 #include "vxl/file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "tests/work_folder.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::vxl {
@@ -157,9 +157,8 @@ TEST_P(VxlDamage, SurvivesFlippedBitsWithAMatchingChecksum) {
 }
 
 TEST(VxlFile, LoadsWhatWasSavedAndNamesAFileThatIsDamaged) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("brume_vxl_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  const auto path = folder / "room.vxl";
+  const cli::WorkFolder folder;
+  const auto path = folder.path() / "room.vxl";
   const Contents contents = small_contents();
   ASSERT_TRUE(save(path, contents, kKey));
   EXPECT_EQ(*read_file(path), encode(contents, kKey));
@@ -171,7 +170,6 @@ TEST(VxlFile, LoadsWhatWasSavedAndNamesAFileThatIsDamaged) {
   const auto damaged = load(path, kKey);
   ASSERT_FALSE(damaged);
   EXPECT_NE(damaged.failure().message.find("room.vxl: "), std::string::npos) << damaged.failure().message;
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
