@@ -45,20 +45,37 @@ float value_at(const Grid& grid, glm::ivec3 at) {
   return value;
 }
 
+template <typename Change>
+void change_values(Grid& grid, Change change) {
+  for (std::size_t i = 0; i < grid.values.size(); i += sizeof(float)) {
+    float value = 0;
+    std::memcpy(&value, &grid.values[i], sizeof value);
+    value = change(value);
+    std::memcpy(&grid.values[i], &value, sizeof value);
+  }
+}
+
+/// What filtering gives at a point among values at whole numbers.
+template <typename At>
+float trilinear(glm::vec3 p, At at) {
+  const glm::ivec3 first = glm::ivec3(glm::floor(p));
+  const glm::vec3 weight = p - glm::vec3(first);
+  float sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
+    sum += w.x * w.y * w.z * at(first + side);
+  }
+  return sum;
+}
+
 /// What filtering gives at a point of a brick [voxels from its low corner], as the device does.
 float filtered_in(const volume::SparseVolume& volume, std::uint32_t slot, glm::vec3 p) {
   const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
-  const glm::vec3 q = p + 0.5f;  // texel centres at whole numbers, the apron's at 0
-  const glm::ivec3 first = glm::ivec3(glm::floor(q));
-  const glm::vec3 weight = q - glm::vec3(first);
-  float sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2), texel = first + side;
-    const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
-    sum += w.x * w.y * w.z *
-           glm::unpackHalf1x16(texels[static_cast<std::size_t>(texel.x + 10 * (texel.y + 10 * texel.z))]);
-  }
-  return sum;
+  // Texel centres are at whole numbers, the apron's at 0.
+  return trilinear(p + 0.5f, [&](glm::ivec3 texel) {
+    return glm::unpackHalf1x16(texels[static_cast<std::size_t>(texel.x + 10 * (texel.y + 10 * texel.z))]);
+  });
 }
 
 /// The same at a point of voxel space.
@@ -78,15 +95,7 @@ TEST(BrickVolume, FiltersAsTheGridEverywhere) {
   for (int i = 0; i < 20000; ++i) {
     const glm::vec3 p(draw(random), draw(random), draw(random));
     // Index i has its centre at voxel space i + 1/2.
-    const glm::vec3 index = p - 0.5f;
-    const glm::ivec3 first = glm::ivec3(glm::floor(index));
-    const glm::vec3 weight = index - glm::vec3(first);
-    float expected = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
-      const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
-      expected += w.x * w.y * w.z * value_at(grid, first + side);
-    }
+    const float expected = trilinear(p - 0.5f, [&](glm::ivec3 voxel) { return value_at(grid, voxel); });
     EXPECT_NEAR(filtered(*bricks.volume, p), expected, 2.0f / 1024) << p.x << ' ' << p.y << ' ' << p.z;
     const shared::VolumeLayout& layout = bricks.volume->layout();
     if (expected > 0) {
@@ -102,12 +111,8 @@ TEST(BrickVolume, AShiftKeepsValuesBelowZero) {
   constexpr ValueShift kShift{-1.5f, -1.6f};
   for (const float background : {0.0f, -0.5f}) {
     Grid grid = random_grid(8);
-    for (std::size_t i = 0; i < grid.values.size(); i += sizeof(float)) {
-      float value = 0;
-      std::memcpy(&value, &grid.values[i], sizeof value);
-      value = value > 0 ? 4 * (value - 1) : background;  // -4 to 4
-      std::memcpy(&grid.values[i], &value, sizeof value);
-    }
+    // From -4 to 4.
+    change_values(grid, [&](float value) { return value > 0 ? 4 * (value - 1) : background; });
     std::memcpy(grid.background.data(), &background, sizeof background);
     const BrickVolume volume = make_brick_volume(grid, {.shift = kShift}).value_or_throw();
     EXPECT_EQ(volume.offset, kShift.offset);
@@ -121,13 +126,7 @@ TEST(BrickVolume, AShiftKeepsValuesBelowZero) {
     for (int i = 0; i < 4000; ++i) {
       const glm::vec3 part(random() % 1000, random() % 1000, random() % 1000);
       const glm::vec3 p = glm::mix(layout.bounds_min, layout.bounds_max, (part + 0.5f) / 1000.0f);
-      const glm::vec3 low = glm::floor(p - 0.5f), weight = p - 0.5f - low;
-      float expected = 0;
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
-        const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
-        expected += w.x * w.y * w.z * at(glm::ivec3(low) + side);
-      }
+      const float expected = trilinear(p - 0.5f, at);
       // Halves below 8 are off by 2^-9 at most.
       EXPECT_NEAR(volume.unit * filtered(*volume.volume, p) + volume.offset, expected, 1.0f / 512 + 1e-5f)
           << i;
@@ -153,12 +152,7 @@ TEST(BrickVolume, HalvesUntilItFitsAndKeepsTheSum) {
 TEST(BrickVolume, ValuesThatHalfFloatsLackHaveAUnit) {
   for (const float factor : {1e-8f, 1e-3f, 1.0f, 300.0f, 1e6f, 1e20f}) {
     Grid grid = random_grid(3);
-    for (std::size_t i = 0; i < grid.values.size(); i += 4) {
-      float value = 0;
-      std::memcpy(&value, &grid.values[i], sizeof value);
-      value *= factor;
-      std::memcpy(&grid.values[i], &value, sizeof value);
-    }
+    change_values(grid, [&](float value) { return value * factor; });
     const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
     EXPECT_EQ(bricks.unit == 1, factor > 0.01f && factor < 500) << factor;
     for (int x = -16; x < 8; ++x) {
@@ -360,12 +354,7 @@ TEST(BrickVolume, TheRangeOfABrickIsThatOfItsSamples) {
   std::uniform_real_distribution<float> inside(0, 8);
   for (const float factor : {1.0f, 1e-6f}) {
     Grid grid = random_grid(9);
-    for (std::size_t i = 0; i < grid.values.size(); i += 4) {
-      float value = 0;
-      std::memcpy(&value, &grid.values[i], sizeof value);
-      value *= factor * (random() % 64 == 0 ? 50.0f : 1.0f);
-      std::memcpy(&grid.values[i], &value, sizeof value);
-    }
+    change_values(grid, [&](float value) { return value * factor * (random() % 64 == 0 ? 50.0f : 1.0f); });
     const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
     ASSERT_EQ(bricks.ranges.size(), bricks.volume->slot_count());
     for (std::uint32_t slot = 0; slot < bricks.volume->slot_count(); ++slot) {

@@ -1,15 +1,12 @@
-// Where tests find brume-vdb, what it costs, and where its files go.
+// Where tests find brume-vdb, and what it costs.
 #pragma once
 
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <vector>
+
+#include "tests/work_folder.hpp"
 
 namespace brume::grids {
 
@@ -23,33 +20,7 @@ class ChildProgram {
   ~ChildProgram() { ::unsetenv("BRUME_VDB"); }
 };
 
-/// A temporary folder, removed with its contents.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "brume-grids-XXXXXX").string();
-    path_ = ::mkdtemp(path.data());
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  ~WorkFolder() { std::filesystem::remove_all(path_); }
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file in it and returns its name.
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return name;
-  }
-  /// The names of its files, sorted.
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using cli::WorkFolder;
 
 /// Of the children that have ended.
 struct ChildCosts {

@@ -7,12 +7,12 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/log.hpp"
-#include "grids/files/grid_files.hpp"
+#include "grids/files.hpp"
 #include "grids/metadata.hpp"
 #include "spheres/color.hpp"
 #include "spheres/file.hpp"
 #include "spheres/paint.hpp"
+#include "tests/log_lines.hpp"
 
 namespace brume::grids {
 namespace {
@@ -49,10 +49,9 @@ void for_each_index(const glm::ivec3& size, const Visit& visit) {
 
 TEST(TankGrids, HoldTheExtinctionAndColoursOfPaintedVoxels) {
   const Tank tank = small_tank();
-  const auto file = tank_grids(tank, "tank");
-  ASSERT_TRUE(file) << file.failure().message;
-  ASSERT_EQ(file->grids.size(), 2u);
-  const Grid &density = file->grids[0], &colors = file->grids[1];
+  const auto file = tank_grids(tank, "tank").value_or_throw();
+  ASSERT_EQ(file.grids.size(), 2u);
+  const Grid &density = file.grids[0], &colors = file.grids[1];
   EXPECT_EQ(density.name, "density");
   EXPECT_EQ(colors.name, "Cd");
   EXPECT_TRUE(is_extinction_per_metre(density));
@@ -85,15 +84,11 @@ TEST(TankGrids, LieInTheWorldAsTanksDo) {
 
 TEST(TankGrids, AreReducedToMeansThatFit) {
   const Tank tank = small_tank();
-  std::string warning;
-  set_log_callback([&](LogLevel, const std::string& line) { warning = line; });
+  const LogLines log;
   GridLimits limits;
   limits.tank_voxels = 6 * 3 * 4;  // a quarter along each axis, rounded up
   const GridFile coarse = tank_grids(tank, "tank.spheres", limits).value_or_throw();
-  set_log_callback({});
-  EXPECT_NE(warning.find("tank.spheres: as a volume it is shown at 1/4 of its resolution, 6x3x4 voxels"),
-            std::string::npos)
-      << warning;
+  EXPECT_TRUE(log.has("tank.spheres: as a volume it is shown at 1/4 of its resolution, 6x3x4 voxels"));
   const GridFile fine = tank_grids(tank, "tank").value_or_throw();
   double sum = 0, expected = 0;
   glm::dvec3 color_sum(0), color_expected(0);
@@ -139,12 +134,11 @@ TEST(TankGrids, AreLoadedFromFilesOfTanks) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "small.spheres";
   ASSERT_TRUE(spheres::save_tank(path, small_tank()));
   EXPECT_TRUE(is_grid_file(path));
-  const auto file = load_grid_file(path);
-  ASSERT_TRUE(file) << file.failure().message;
+  const auto file = load_grid_file(path).value_or_throw();
   const GridFile expected = tank_grids(small_tank(), "tank").value_or_throw();
-  ASSERT_EQ(file->grids.size(), 2u);
-  EXPECT_EQ(file->grids[0].values, expected.grids[0].values);
-  EXPECT_EQ(file->grids[1].values, expected.grids[1].values);
+  ASSERT_EQ(file.grids.size(), 2u);
+  EXPECT_EQ(file.grids[0].values, expected.grids[0].values);
+  EXPECT_EQ(file.grids[1].values, expected.grids[1].values);
   std::filesystem::remove(path);
   EXPECT_EQ(load_grid_file(path).failure().code, ErrorCode::bad_input);
 }

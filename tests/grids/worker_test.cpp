@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "core/log.hpp"
-#include "grids/files/grid_files.hpp"
+#include "grids/files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
+#include "tests/log_lines.hpp"
 
 namespace brume::grids {
 namespace {
@@ -92,11 +92,10 @@ TEST_F(Worker, NamesMissingAndForeignFiles) {
 }
 
 TEST_F(Worker, PassesWarningsOn) {
-  std::vector<std::string> lines;
-  set_log_callback([&](LogLevel, const std::string& line) { lines.push_back(line); });
+  const LogLines log;
   failure_with("echo 'brume-vdb: warning: grid \"a\" is skipped' >&2; exit 0");
-  EXPECT_TRUE(lines.size() == 1 && lines[0].find("a.vdb: grid \"a\" is skipped") != std::string::npos);
-  set_log_callback({});
+  EXPECT_EQ(log.lines.size(), 1u);
+  EXPECT_TRUE(log.has("a.vdb: grid \"a\" is skipped"));
 }
 
 }  // namespace

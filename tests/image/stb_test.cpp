@@ -66,9 +66,8 @@ TEST(Tga, RowsAreFromTheBottomOrFromTheTop) {
 TEST(Tga, AlphaAndRunLengths) {
   // Three texels alike, then three one by one.
   const Bytes packets{0x82, 7, 8, 9, 128, 0x02, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-  const auto image = decode_image(span_of(tga(10, 32, true, packets)), "a.tga");
-  ASSERT_TRUE(image) << image.failure().message;
-  EXPECT_EQ(image->rgba,
+  const auto image = decode_image(span_of(tga(10, 32, true, packets)), "a.tga").value_or_throw();
+  EXPECT_EQ(image.rgba,
             (Bytes{9, 8, 7, 128, 9, 8, 7, 128, 9, 8, 7, 128, 3, 2, 1, 4, 7, 6, 5, 8, 11, 10, 9, 12}));
 }
 

@@ -43,7 +43,7 @@ bool no_children() {
 }
 
 TEST(Video, KeepsSizeCountAndColours) {
-  const TemporaryFolder folder("film");
+  const cli::WorkFolder folder;
   const auto film = folder.path() / "a film.mp4";
   auto writer = VideoWriter::open(film, {64, 34, 24, 1});
   ASSERT_TRUE(writer) << writer.failure().message;
@@ -51,30 +51,29 @@ TEST(Video, KeepsSizeCountAndColours) {
   EXPECT_FALSE(std::filesystem::exists(film));
   const auto finished = writer->finish();
   ASSERT_TRUE(finished) << finished.failure().message;
-  EXPECT_EQ(folder.files(), 1u);
+  EXPECT_EQ(folder.files().size(), 1u);
   EXPECT_TRUE(no_children());
 
   // ffmpeg decodes it again, each frame to an image.
   const std::string command =
       "ffmpeg -nostdin -loglevel error -i '" + film.string() + "' '" + folder.path().string() + "/%02d.png'";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(folder.files(), 13u);
-  const auto frame = load_image(folder.path() / "12.png");
-  ASSERT_TRUE(frame) << frame.failure().message;
-  EXPECT_EQ(frame->width, 64u);
-  EXPECT_EQ(frame->height, 34u);
+  EXPECT_EQ(folder.files().size(), 13u);
+  const auto frame = load_image(folder.path() / "12.png").value_or_throw();
+  EXPECT_EQ(frame.width, 64u);
+  EXPECT_EQ(frame.height, 34u);
   // Studio range has 219 steps of luma and 224 of chroma; BT.709 gives blue the largest factor, 1.86: half a
   // step of each and of the conversion back is at most 0.5 * (255 / 219 + 1.86 * 255 / 224) + 0.5 < 2.2, for
   // the quantizer of crf 16 on a plain image two more.
-  for (std::size_t i = 0; i < frame->rgba.size(); i += 4) {
-    ASSERT_NEAR(frame->rgba[i], 200, 4);
-    ASSERT_NEAR(frame->rgba[i + 1], 90, 4);
-    ASSERT_NEAR(frame->rgba[i + 2], 30, 4);
+  for (std::size_t i = 0; i < frame.rgba.size(); i += 4) {
+    ASSERT_NEAR(frame.rgba[i], 200, 4);
+    ASSERT_NEAR(frame.rgba[i + 1], 90, 4);
+    ASSERT_NEAR(frame.rgba[i + 2], 30, 4);
   }
 }
 
 TEST(Video, RejectsOddSizes) {
-  const TemporaryFolder folder("odd");
+  const cli::WorkFolder folder;
   for (const auto& options : {VideoOptions{33, 18}, VideoOptions{32, 17}}) {
     const auto writer = VideoWriter::open(folder.path() / "a.mp4", options);
     ASSERT_FALSE(writer);
@@ -83,7 +82,7 @@ TEST(Video, RejectsOddSizes) {
   }
   EXPECT_EQ(VideoWriter::open(folder.path() / "a.mp4", {0, 2}).failure().code, ErrorCode::bad_input);
   EXPECT_EQ(VideoWriter::open(folder.path() / "a.mp4", {2, 2, 0}).failure().code, ErrorCode::usage);
-  EXPECT_EQ(folder.files(), 0u);
+  EXPECT_EQ(folder.files().size(), 0u);
 }
 
 TEST(Video, NamesTheMissingFolder) {
@@ -93,16 +92,16 @@ TEST(Video, NamesTheMissingFolder) {
 }
 
 TEST(Video, NamesTheMissingProgramAndTheFix) {
-  const TemporaryFolder folder("noffmpeg");
+  const cli::WorkFolder folder;
   const SearchPath search(folder.path().string());
   const auto writer = VideoWriter::open(folder.path() / "a.mp4", {2, 2});
   ASSERT_FALSE(writer);
   EXPECT_NE(writer.failure().message.find("require the program ffmpeg"), std::string::npos);
-  EXPECT_EQ(folder.files(), 0u);
+  EXPECT_EQ(folder.files().size(), 0u);
 }
 
 TEST(Video, ReportsTheLastMessageOfFfmpeg) {
-  const TemporaryFolder folder("fails");
+  const cli::WorkFolder folder;
   write_program(folder.path() / "ffmpeg", "echo first >&2; echo 'the last line' >&2; exit 3");
   const SearchPath search(folder.path().string());
   auto writer = VideoWriter::open(folder.path() / "a.mp4", {64, 64});
@@ -117,7 +116,7 @@ TEST(Video, ReportsTheLastMessageOfFfmpeg) {
 }
 
 TEST(Video, FailsAtTheEndWhenFfmpegDoes) {
-  const TemporaryFolder folder("failsend");
+  const cli::WorkFolder folder;
   write_program(folder.path() / "ffmpeg", "/bin/cat > /dev/null; exit 3");
   {
     const SearchPath search(folder.path().string());
@@ -128,19 +127,19 @@ TEST(Video, FailsAtTheEndWhenFfmpegDoes) {
     ASSERT_FALSE(finished);
     EXPECT_NE(finished.failure().message.find("exit code 3"), std::string::npos);
   }
-  EXPECT_EQ(folder.files(), 1u) << "only the program";
+  EXPECT_EQ(folder.files().size(), 1u) << "only the program";
 }
 
 TEST(Video, LeavesNothingWhenDropped) {
-  const TemporaryFolder folder("dropped");
+  const cli::WorkFolder folder;
   {
     auto writer = VideoWriter::open(folder.path() / "a.mp4", {64, 64});
     ASSERT_TRUE(writer) << writer.failure().message;
     ASSERT_TRUE(writer->add_frame(plain(64, 64, 1, 2, 3)));
     const VideoWriter moved = std::move(*writer);
-    EXPECT_EQ(folder.files(), 0u) << "has no name before it is complete";
+    EXPECT_EQ(folder.files().size(), 0u) << "has no name before it is complete";
   }
-  EXPECT_EQ(folder.files(), 0u);
+  EXPECT_EQ(folder.files().size(), 0u);
   EXPECT_TRUE(no_children());
 }
 
@@ -151,7 +150,7 @@ TEST(Video, ReportsAFullDisk) {
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
   for (const auto handler : {SIG_DFL, SIG_IGN}) {
     for (const unsigned frames : {2u, 40u}) {
-      const TemporaryFolder folder("full");
+      const cli::WorkFolder folder;
       const auto old_handler = ::signal(SIGXFSZ, handler);
       const rlimit small{400, old.rlim_max};
       ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
@@ -167,7 +166,7 @@ TEST(Video, ReportsAFullDisk) {
       }
       ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
       ::signal(SIGXFSZ, old_handler);
-      EXPECT_EQ(folder.files(), 0u);
+      EXPECT_EQ(folder.files().size(), 0u);
     }
   }
 }

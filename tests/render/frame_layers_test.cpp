@@ -27,7 +27,7 @@ using Floats = std::vector<float>;
 class Layers {
  public:
   explicit Layers(const image::LayeredImage& image) {
-    const image::TemporaryFolder folder("layers");
+    const cli::WorkFolder folder;
     image::save_exr(folder.path() / "a.exr", image).value_or_throw();
     image_ = image::decode_exr(*read_file(folder.path() / "a.exr"), "a.exr").value_or_throw();
   }

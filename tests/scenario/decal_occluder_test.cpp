@@ -48,7 +48,7 @@ class DecalOccluderTest : public testing::Test {
     timeline.decals[0].grid = grid;
     return load_slice_volumes(timeline).value_or_throw().of_decals.at(0);
   }
-  const image::TemporaryFolder folder_{"occluder"};
+  const cli::WorkFolder folder_;
 };
 
 // The deviation of places in a ball is sqrt(3 / 5) of its radius. Voxels on its surface are inside or

@@ -1,7 +1,6 @@
 #include "scenario/editable_scenario.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <ctime>
@@ -14,6 +13,7 @@
 #include "scene/files/timeline_writer.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scenario/two_rooms.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -105,7 +105,7 @@ class Player {
 
 class EditableScenarioTest : public testing::Test {
  protected:
-  EditableScenarioTest() : folder(fs::temp_directory_path() / ("brume_live_" + std::to_string(::getpid()))) {
+  EditableScenarioTest() {
     fs::create_directories(folder / "out");
     for (int i = 0; i < 3; ++i) {
       image::Image8 picture{6, 6, std::vector<std::uint8_t>(144, 255)};
@@ -113,7 +113,6 @@ class EditableScenarioTest : public testing::Test {
       image::save_png(folder / (std::to_string(i) + ".png"), picture).value_or_throw();
     }
   }
-  ~EditableScenarioTest() override { fs::remove_all(folder); }
 
   static Scenario empty_rooms() {
     Scenario scenario = two_rooms();
@@ -169,7 +168,8 @@ class EditableScenarioTest : public testing::Test {
     EXPECT_EQ(densities, 0);
   }
 
-  fs::path folder;
+  const cli::WorkFolder work_folder;
+  const fs::path folder = work_folder.path();
 };
 
 TEST_F(EditableScenarioTest, MatchesItsTimelineAtEveryTime) {

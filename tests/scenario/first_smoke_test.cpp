@@ -7,9 +7,10 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/log.hpp"
 #include "scenario/scenario.hpp"
-#include "scene/files/load.hpp"
+#include "scene/load.hpp"
+#include "tests/log_lines.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -17,14 +18,6 @@ namespace {
 /// Boxes and tori in an OBJ file of its own.
 class FirstSmokeTest : public testing::Test {
  protected:
-  FirstSmokeTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("brume_first_smoke_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~FirstSmokeTest() override { std::filesystem::remove_all(folder_); }
-
   void add_box(glm::vec3 low, glm::vec3 high) {
     const int first = count_ + 1;
     for (int corner = 0; corner < 8; ++corner)
@@ -60,9 +53,9 @@ class FirstSmokeTest : public testing::Test {
   }
 
   Scenario load(const FirstViewOptions& options, std::vector<std::string>& said) const {
-    set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
+    const LogLines log;
     auto loaded = load_scenario(path(), {}, options);
-    set_log_callback({});
+    said = log.lines;
     return std::move(loaded).value_or_throw();
   }
 
@@ -85,7 +78,8 @@ class FirstSmokeTest : public testing::Test {
     ++count_;
   }
 
-  std::filesystem::path folder_;
+  const cli::WorkFolder work_folder_;
+  const std::filesystem::path folder_ = work_folder_.path();
   std::ostringstream vertices_, faces_;
   int count_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "scene/files/load.hpp"
 #include "scene/files/timeline_writer.hpp"
 #include "tests/scene/scene_test_tools.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -17,14 +18,6 @@ namespace {
 /// A folder of its own, with a room of `size` units: a box of six walls.
 class FirstViewTest : public testing::Test {
  protected:
-  FirstViewTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("brume_first_view_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~FirstViewTest() override { std::filesystem::remove_all(folder_); }
-
   /// A box of 1 x 0.5 x 0.7 times `size`, 0.2 `size` above the origin and `east` of it.
   std::filesystem::path box(float size, float east = 0) const {
     const auto path = folder_ / "box.obj";
@@ -38,7 +31,8 @@ class FirstViewTest : public testing::Test {
     return path;
   }
 
-  std::filesystem::path folder_;
+  const cli::WorkFolder work_folder_;
+  const std::filesystem::path folder_ = work_folder_.path();
 };
 
 TEST_F(FirstViewTest, ScalesByPowersOfTenIntoTheRange) {
@@ -121,7 +115,7 @@ TEST_F(FirstViewTest, VolumesAreLitByTheGround) {
   options.has_ground = false;
   EXPECT_EQ(first_view(cloud, options).sky.bounce, usual);
   EXPECT_EQ(first_view(scene::load_scene(box(4)).value_or_throw(), {}).sky.bounce, usual);
-  const scene::Warnings warnings;
+  const LogLines warnings;
   options.bounces = 8;
   first_view(cloud, options);
   EXPECT_EQ(warnings.lines, std::vector<std::string>{"cloud.vdb: bounces change nothing without a level"});

@@ -1,34 +1,22 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 
-#include "core/log.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/tank.hpp"
+#include "tests/log_lines.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
 
 class LoadScenario : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::path(testing::TempDir()) / ("brume_load_scenario_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-    set_log_callback([this](LogLevel, const std::string& line) { log_.push_back(line); });
-  }
-  void TearDown() override {
-    set_log_callback({});
-    std::filesystem::remove_all(folder_);
-  }
   std::filesystem::path write(const char* name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    return folder_.path() / folder_.write(name, text);
   }
-  std::filesystem::path folder_;
-  std::vector<std::string> log_;
+  const cli::WorkFolder folder_;
+  LogLines log_;
 };
 
 constexpr const char* kTriangle = "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -37,7 +25,7 @@ TEST_F(LoadScenario, ASceneWithoutATimelineIsReadOnce) {
   const auto scenario = load_scenario(write("a.obj", kTriangle), {});
   ASSERT_TRUE(scenario) << scenario.failure().message;
   const auto warns = [](const std::string& line) { return line.find("gone.mtl") != std::string::npos; };
-  EXPECT_EQ(std::count_if(log_.begin(), log_.end(), warns), 1);
+  EXPECT_EQ(std::ranges::count_if(log_.lines, warns), 1);
 }
 
 TEST_F(LoadScenario, SuffixesMayBeInCapitals) {
@@ -47,16 +35,15 @@ TEST_F(LoadScenario, SuffixesMayBeInCapitals) {
 }
 
 TEST_F(LoadScenario, OnlyAThrownGrenadeIsMissedInASceneTxt) {
-  std::filesystem::create_directories(folder_ / "Meshes");
-  std::ofstream(folder_ / "Meshes/Box.obj") << kTriangle;
+  std::filesystem::create_directories(folder_.path() / "Meshes");
+  write("Meshes/Box.obj", kTriangle);
   write("a.txt", "Box 0 0 0 0 0 0 1 1 1\n");
   const auto warns = [&](const std::string& events) {
-    log_.clear();
+    log_.lines.clear();
     const auto scenario = load_scenario(write("a.toml", "version = 1\nscene = \"a.txt\"\n" + events), {});
     EXPECT_TRUE(scenario) << scenario.failure().message;
     EXPECT_TRUE(scenario && scenario->scene.grenade);
-    return std::ranges::any_of(
-        log_, [](const std::string& line) { return line.find("no object is called Grenade") != line.npos; });
+    return log_.has("no object is called Grenade");
   };
   const std::string smoke = "[[event]]\ntype = \"smoke\"\ntime = 0\nat = [0.3, 0.3, 1]\nfrom = ";
   EXPECT_FALSE(warns(""));

@@ -30,9 +30,8 @@ std::filesystem::path motel() {
 TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
   if (!std::filesystem::exists(motel()))
     GTEST_SKIP() << motel() << " is not there; set BRUME_MOTEL to its folder";
-  const auto scene = scene::load_scene(motel());
-  ASSERT_TRUE(scene) << scene.failure().message;
-  const std::vector<Triangle> triangles = world_triangles(*scene);
+  const auto scene = scene::load_scene(motel()).value_or_throw();
+  const std::vector<Triangle> triangles = world_triangles(scene);
   const GridLayout layout{{120, 20, 120}, 0.5f, glm::vec3(-30, 0, -30)};
   const auto grid = voxel::voxelize(triangles, layout);
   ASSERT_TRUE(grid);

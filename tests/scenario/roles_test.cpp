@@ -1,6 +1,5 @@
 // Roles of a scene's objects in its level: voxels, cache, doors and sight.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "core/file.hpp"
 #include "scenario/aim.hpp"
@@ -10,6 +9,7 @@
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "tests/scenario/two_rooms.hpp"
+#include "tests/work_folder.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::scenario {
@@ -147,10 +147,8 @@ TEST(Roles, BodiesStopAtAGrilleAndAimsPassIt) {
 }
 
 TEST(Roles, TheCacheHasThemAndItsKeyDependsOnThem) {
-  const auto folder =
-      std::filesystem::path(testing::TempDir()) / ("brume_roles_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  const auto path = folder / "rooms.vxl";
+  const cli::WorkFolder folder;
+  const auto path = folder.path() / "rooms.vxl";
   const voxel::GridLayout layout = two_rooms().voxels.grid.layout();
   for (const Role role : {Role::wall, Role::glass, Role::grille, Role::ghost, Role::glass}) {
     const Scenario scenario = rooms_with_door(role);
@@ -160,7 +158,6 @@ TEST(Roles, TheCacheHasThemAndItsKeyDependsOnThem) {
     EXPECT_TRUE(read.cached) << name_of(role);
     expect_role_of_objects(read.solids(), scenario.scene, {});
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Roles, TrianglesOfALevelByRole) {

@@ -1,7 +1,6 @@
 #include "scenario/shot_masks.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "image/png.hpp"
 #include "scenario/simulation.hpp"
 #include "smoke/holes.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -207,9 +207,8 @@ TEST(ShotMasks, AreTheLuminanceTimesAlphaCentredInASquare) {
 }
 
 TEST(ShotMasks, AreLoadedOnceEach) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("brume_masks_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const cli::WorkFolder work_folder;
+  const std::filesystem::path folder = work_folder.path();
   image::Image8 picture{8, 8, std::vector<std::uint8_t>(256, 255)};
   ASSERT_TRUE(image::save_png(folder / "a.png", picture));
   picture.rgba[0] = 0;
@@ -241,7 +240,6 @@ TEST(ShotMasks, AreLoadedOnceEach) {
   const auto failed = load_masks(timeline);
   EXPECT_EQ(failed.failure().code, ErrorCode::bad_input);
   EXPECT_EQ(failed.failure().message.rfind("t.toml:3:1: " + (folder / "c.png").string(), 0), 0u);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -2,27 +2,19 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "grids/files/grid_files.hpp"
+#include "grids/files.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 
 class VolumeFolder : public testing::Test {
  protected:
-  VolumeFolder() {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("brume_" + std::to_string(::getpid()) + "_" + test.test_suite_name() + "_" + test.name());
-    std::filesystem::create_directories(folder_);
-  }
-  ~VolumeFolder() override { std::filesystem::remove_all(folder_); }
-
   /// A brick full of one value.
   static grids::Grid cube(const std::string& name, float value) {
     grids::Grid grid;
@@ -40,7 +32,8 @@ class VolumeFolder : public testing::Test {
     return path;
   }
 
-  std::filesystem::path folder_;
+  const cli::WorkFolder work_folder_;
+  const std::filesystem::path folder_ = work_folder_.path();
 };
 
 }  // namespace brume::scenario

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "core/log.hpp"
-#include "grids/files/grid_files.hpp"
+#include "grids/files.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/volume_view.hpp"
+#include "tests/log_lines.hpp"
 #include "tests/scenario/volume_folder.hpp"
 #include "volumes/volume_extent.hpp"
 #include "volumes/volumes.hpp"
@@ -176,11 +176,9 @@ TEST_F(VolumeValuesTest, TwoOfThreeChannelsAreNamed) {
 /// What is logged while a frame loads.
 std::vector<std::string> said_of(const scene::VolumeOptions& options,
                                  std::shared_ptr<const volumes::VolumeFrame>& frame) {
-  std::vector<std::string> said;
-  set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
+  const LogLines log;
   frame = volumes::load_volume_frame(options.file, options).value_or_throw();
-  set_log_callback({});
-  return said;
+  return log.lines;
 }
 
 // Grids whose own indices lie far out, but whose transforms bring them together, give the same bricks.
@@ -269,10 +267,9 @@ TEST_F(VolumeValuesTest, FarGridsAreRefusedWithALine) {
 // A voxel a hundred times as far away as a cloud is wide: the same place, size and light as without it.
 TEST_F(VolumeValuesTest, AStrayVoxelChangesNoFirstPicture) {
   const auto view_of = [&](const std::vector<grids::Grid>& grids, std::vector<std::string>& said) {
-    said.clear();
-    set_log_callback([&](LogLevel, const std::string& line) { said.push_back(line); });
+    const LogLines log;
     const auto scenario = load_scenario(save("a.brv", grids), {}, {}).value_or_throw();
-    set_log_callback({});
+    said = log.lines;
     return std::pair(scenario.timeline.volumes[0], scenario.camera);
   };
   grids::Grid cloud = cube("density", 1);

@@ -7,23 +7,37 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/log.hpp"
-#include "grids/files/grid_files.hpp"
+#include "grids/files.hpp"
 #include "scenario/scenario.hpp"
+#include "tests/log_lines.hpp"
 #include "tests/scenario/volume_folder.hpp"
 
 namespace brume::scenario {
 namespace {
 
-class VolumesTest : public VolumeFolder {};
+class VolumesTest : public VolumeFolder {
+ protected:
+  /// Frames whose files have this pattern; each is full of its number plus `more`.
+  void save_frames(const std::string& pattern, std::initializer_list<int> numbers, float more = 0) const {
+    for (const int number : numbers) {
+      std::string name = pattern;
+      name.replace(name.find('#'), 1, std::to_string(number));
+      save(name, {cube("density", static_cast<float>(number) + more)});
+    }
+  }
+  /// The options of one volume of this file.
+  std::vector<scene::VolumeOptions> options_of(const std::string& file, float frame_rate = 1) const {
+    std::vector<scene::VolumeOptions> options(1);
+    options[0].file = folder_ / file;
+    options[0].frame_rate = frame_rate;
+    return options;
+  }
+};
 
 TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
-  for (const int number : {3, 4, 6})
-    save("f_000" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
+  save_frames("f_000#.brv", {3, 4, 6});
   save("f_x.brv", {cube("density", 9)});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%04d.brv";
-  options[0].frame_rate = 10;
+  auto options = options_of("f_%04d.brv", 10);
   options[0].start = 1;
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->files().size(), 3u);
@@ -37,11 +51,8 @@ TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
 }
 
 TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
-  for (const int number : {3, 4, 5, 6, 9})
-    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
-  options[0].frame_rate = 10;
+  save_frames("f_#.brv", {3, 4, 5, 6, 9});
+  auto options = options_of("f_%d.brv", 10);
   options[0].first = 4;
   options[0].last = 7;
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
@@ -84,9 +95,7 @@ TEST_F(VolumesTest, TheTypicalFrameIsTheDeepestOfThoseWithAnything) {
   save("f_1.brv", {cubes(2, 1)});
   save("f_2.brv", {cubes(3, 1)});
   save("f_3.brv", {cubes(0.5f, 6)});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_#.brv";
-  options[0].frame_rate = 1;
+  const auto options = options_of("f_#.brv");
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->typical_frame(0).density.high, 2) << "the first in which there is anything";
   EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 0);
@@ -103,10 +112,8 @@ TEST_F(VolumesTest, TheTypicalFrameIsTheDeepestOfThoseWithAnything) {
 
 // Starts and rates are float32, and written with fewer digits still.
 TEST_F(VolumesTest, ARoundedStartShowsItsFrame) {
-  for (const int number : {0, 1})
-    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number + 1))});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
+  save_frames("f_#.brv", {0, 1}, 1);
+  auto options = options_of("f_%d.brv");
   options[0].clip = true;
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   for (const double rate : {24.0, 24000 / 1001.0, 60.0})
@@ -120,23 +127,10 @@ TEST_F(VolumesTest, ARoundedStartShowsItsFrame) {
     }
 }
 
-TEST_F(VolumesTest, ADamagedFrameShowsTheOneBefore) {
-  save("f_1.brv", {cube("density", 1)});
-  std::ofstream(folder_ / "f_2.brv") << "not a volume";
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
-  options[0].frame_rate = 1;
-  const auto volumes = volumes::Volumes::load(options).value_or_throw();
-  EXPECT_EQ(volumes->at(options, 1.5)[0].frame->density.high, 1);
-}
-
 // The next frame is read ahead; a viewer that does not wait ends at the same frames.
 TEST_F(VolumesTest, WithoutWaitingItEndsAtTheSameFrame) {
-  for (const int number : {1, 2, 3, 4})
-    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
-  options[0].frame_rate = 1;
+  save_frames("f_#.brv", {1, 2, 3, 4});
+  const auto options = options_of("f_%d.brv");
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   for (const double seconds : {0.5, 2.5, 1.5, 3.5, 0.5}) {
     float shown = 0;
@@ -147,30 +141,23 @@ TEST_F(VolumesTest, WithoutWaitingItEndsAtTheSameFrame) {
   }
 }
 
-TEST_F(VolumesTest, AnUnreadableFrameWarnsOnce) {
-  save("f_1.brv", {cube("density", 1)});
+TEST_F(VolumesTest, ADamagedFrameShowsTheOneBeforeAndWarnsOnce) {
+  save_frames("f_#.brv", {1, 3});
   std::ofstream(folder_ / "f_2.brv") << "not a volume";
-  save("f_3.brv", {cube("density", 3)});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
-  options[0].frame_rate = 1;
-  std::vector<std::string> warnings;
-  set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
+  const auto options = options_of("f_%d.brv");
+  const LogLines log;
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
-  for (const double seconds : {1.5, 0.5, 1.5, 2.5, 1.5, 0.5, 1.5}) volumes->at(options, seconds);
-  set_log_callback({});
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("f_2.brv: not a .brv file; the frame before it is shown"), std::string::npos)
-      << warnings[0];
+  EXPECT_EQ(volumes->at(options, 1.5)[0].frame->density.high, 1);
+  for (const double seconds : {0.5, 1.5, 2.5, 1.5, 0.5, 1.5}) volumes->at(options, seconds);
+  EXPECT_EQ(log.lines.size(), 1u);
+  EXPECT_TRUE(log.has("f_2.brv: not a .brv file; the frame before it is shown"));
 }
 
 // Quitting in the middle of any of it.
 TEST_F(VolumesTest, EndsWhileItLoads) {
   for (int number = 1; number <= 30; ++number)
     save("f_" + std::to_string(number) + ".brv", {cube("density", 1)});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "f_%d.brv";
-  options[0].frame_rate = 1;
+  const auto options = options_of("f_%d.brv");
   for (int i = 0; i < 20; ++i) {
     const auto volumes = volumes::Volumes::load(options).value_or_throw();
     for (int frame = 0; frame <= i; ++frame) volumes->at(options, frame, volumes::VolumeWait::never);
@@ -208,13 +195,11 @@ TEST_F(VolumesTest, VolumesThatDoNotFitTogetherAreReducedAlike) {
   options[0].file = save("large.brv", {cubes(8)});   // 10^3 bricks with those around
   options[1].file = save("small.brv", {cubes(1)});   // 3^3
   options[2].file = save("larger.brv", {cubes(9)});  // 11^3
-  std::vector<std::string> warnings;
-  set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
+  const LogLines log;
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   volumes->limit({3000, 1u << 20}).value_or_throw();
-  EXPECT_TRUE(warnings.empty()) << "all fit";
+  EXPECT_TRUE(log.lines.empty()) << "all fit";
   volumes->limit({1200, 1u << 20}).value_or_throw();
-  set_log_callback({});
   std::uint64_t bricks = 0;
   std::vector<int> levels;
   for (const volumes::VolumeAt& at : volumes->at(options, 0)) {
@@ -223,9 +208,9 @@ TEST_F(VolumesTest, VolumesThatDoNotFitTogetherAreReducedAlike) {
   }
   EXPECT_LE(bricks, 1200u);
   EXPECT_EQ(levels, (std::vector<int>{1, 0, 1}));
-  ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].find("large.brv: grid density is shown at 1/2"), std::string::npos) << warnings[0];
-  EXPECT_NE(warnings[1].find("larger.brv: grid density is shown at 1/2"), std::string::npos) << warnings[1];
+  EXPECT_EQ(log.lines.size(), 2u);
+  EXPECT_TRUE(log.has("large.brv: grid density is shown at 1/2"));
+  EXPECT_TRUE(log.has("larger.brv: grid density is shown at 1/2"));
 }
 
 TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
@@ -301,8 +286,7 @@ TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
   colors.type = grids::ValueType::vec3f;
   colors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
   save("a.brv", {cube("density", 2), cube("fuel", 3), colors});
-  std::vector<scene::VolumeOptions> options(1);
-  options[0].file = folder_ / "a.brv";
+  auto options = options_of("a.brv");
   const auto volumes = volumes::Volumes::load(options).value_or_throw();
   ASSERT_TRUE(volumes->typical_frame(0).colors);
   EXPECT_EQ(volumes->typical_frame(0).colors->slot_count(),

@@ -1,10 +1,10 @@
 #include "scenario/voxel_cache.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "core/file.hpp"
-#include "core/log.hpp"
+#include "tests/log_lines.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -35,32 +35,14 @@ void expect_same(const BitGrid& a, const BitGrid& b) {
       for (int x = 0; x < a.size().x; ++x) ASSERT_EQ(a.solid({x, y, z}), b.solid({x, y, z}));
 }
 
-// Counts warnings in a scope.
-class Warnings {
- public:
-  Warnings() {
-    set_log_callback([this](LogLevel level, const std::string& line) {
-      if (level == LogLevel::warning) ++count, last = line;
-    });
-  }
-  ~Warnings() { set_log_callback({}); }
-  int count = 0;
-  std::string last;
-};
-
 class VoxelCache : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("brume_voxel_cache_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-    path_ = folder_ / "scene.vxl";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_, path_;
+  const cli::WorkFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "scene.vxl";
 };
 
 TEST_F(VoxelCache, SecondRunLoadsTheCache) {
-  const Warnings warnings;
+  const LogLines log(LogLevel::warning);
   const auto first = load_or_voxelize(small_scene(), kFrame, path_);
   const auto second = load_or_voxelize(small_scene(), kFrame, path_);
   ASSERT_TRUE(first && second);
@@ -70,11 +52,11 @@ TEST_F(VoxelCache, SecondRunLoadsTheCache) {
   EXPECT_EQ(second->triangles, 3u);
   expect_same(first->grid, second->grid);
   EXPECT_EQ(first->planes, second->planes);
-  EXPECT_EQ(warnings.count, 0);
+  EXPECT_TRUE(log.lines.empty());
 }
 
 TEST_F(VoxelCache, RebuildsWhenAVertexObjectOrGridMoves) {
-  const Warnings warnings;
+  const LogLines log(LogLevel::warning);
   const auto cached = [&](const scene::Scene& scene, const GridLayout& layout) {
     const auto voxels = load_or_voxelize(scene, layout, path_);
     return voxels && voxels->cached;
@@ -95,7 +77,7 @@ TEST_F(VoxelCache, RebuildsWhenAVertexObjectOrGridMoves) {
   layout.origin_world.z += 0.1f;
   EXPECT_FALSE(cached(scene, layout));
   EXPECT_TRUE(cached(scene, layout));
-  EXPECT_EQ(warnings.count, 0);
+  EXPECT_TRUE(log.lines.empty());
 }
 
 TEST_F(VoxelCache, RebuildsDamagedAndForeignFilesWithOneWarning) {
@@ -109,21 +91,21 @@ TEST_F(VoxelCache, RebuildsDamagedAndForeignFilesWithOneWarning) {
   bad[3].assign(500, std::byte{'x'});
   for (const auto& bytes : bad) {
     ASSERT_TRUE(write_file_atomic(path_, bytes));
-    const Warnings warnings;
+    const LogLines log(LogLevel::warning);
     const auto voxels = load_or_voxelize(small_scene(), kFrame, path_);
     ASSERT_TRUE(voxels);
     EXPECT_FALSE(voxels->cached);
-    EXPECT_EQ(warnings.count, 1);
-    EXPECT_NE(warnings.last.find("scene.vxl"), std::string::npos);
+    EXPECT_EQ(log.lines.size(), 1u);
+    EXPECT_TRUE(log.has("scene.vxl"));
     EXPECT_EQ(*read_file(path_), *whole);
   }
 }
 
 TEST_F(VoxelCache, FailsWhereTheCacheCannotBeWritten) {
-  const auto voxels = load_or_voxelize(small_scene(), kFrame, folder_ / "none" / "scene.vxl");
+  const auto voxels = load_or_voxelize(small_scene(), kFrame, folder_.path() / "none" / "scene.vxl");
   ASSERT_FALSE(voxels);
   EXPECT_NE(voxels.failure().message.find("none"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 }  // namespace

@@ -344,11 +344,13 @@ TEST(Walker, IgnoresNan) {
   EXPECT_FALSE(is_stuck(grid, body_of(walker)));
 }
 
+double real_within(std::mt19937& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+}
+
 TEST(BodySweep, MatchesTestingEveryVoxelAlongThePath) {
   std::mt19937 random(2);
-  const auto real = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
-  };
+  const auto real = [&](double low, double high) { return real_within(random, low, high); };
   int blocked = 0;
   for (int i = 0; i < 4000; ++i) {
     static BitGrid grid = random_rooms(random, 0.5f);
@@ -376,9 +378,7 @@ TEST(BodySweep, MatchesTestingEveryVoxelAlongThePath) {
 
 TEST(BodySweep, FindsTheShortestWayOutOfSolidVoxels) {
   std::mt19937 random(3);
-  const auto real = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
-  };
+  const auto real = [&](double low, double high) { return real_within(random, low, high); };
   int stuck = 0;
   for (int i = 0; i < 40; ++i) {
     const BitGrid grid = random_rooms(random, 0.5f);

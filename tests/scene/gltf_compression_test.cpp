@@ -68,12 +68,11 @@ Document draco_document(const std::string& compressed, int vertices = 4, int cor
 
 TEST(Draco, BothMethodsKeepTheMesh) {
   for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
-    const auto scene = draco_document(draco_square(method)).load();
-    ASSERT_TRUE(scene) << scene.failure().message;
-    expect_sound(*scene);
-    EXPECT_EQ(scene->meshes[0].indices.size(), 6u);
-    EXPECT_NEAR(area(*scene), 4, 1e-3);
-    EXPECT_EQ(scene->meshes[0].vertices[0].color, glm::vec4(1, 0, 0, 1));
+    const auto scene = draco_document(draco_square(method)).load().value_or_throw();
+    expect_sound(scene);
+    EXPECT_EQ(scene.meshes[0].indices.size(), 6u);
+    EXPECT_NEAR(area(scene), 4, 1e-3);
+    EXPECT_EQ(scene.meshes[0].vertices[0].color, glm::vec4(1, 0, 0, 1));
   }
 }
 
@@ -242,12 +241,11 @@ TEST(Meshopt, FiltersAreUndone) {
   Document document = meshopt_document({meshopt_attribute(exponents.data(), 4, 12, "EXPONENTIAL"),
                                         meshopt_indices("TRIANGLES", 4),
                                         meshopt_attribute(octahedra.data(), 4, 4, "OCTAHEDRAL")});
-  const auto scene = load_meshopt(document);
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_NEAR(area(*scene), 4, 1e-4);
+  const auto scene = load_meshopt(document).value_or_throw();
+  EXPECT_NEAR(area(scene), 4, 1e-4);
   document.uri = "";
   keep_as_seed("meshopt_filters.glb", glb_of(with_fallback(document), document.binary.data));
-  EXPECT_LT(glm::distance(scene->meshes[0].vertices[2].normal, glm::vec3(1, 2, 2) / 3.0f), 0.02f);
+  EXPECT_LT(glm::distance(scene.meshes[0].vertices[2].normal, glm::vec3(1, 2, 2) / 3.0f), 0.02f);
 }
 
 TEST(Meshopt, ParametersAreChecked) {
@@ -330,17 +328,16 @@ TEST(Quantization, IntegersAreScaledAsTheirAccessorsSay) {
     {"bufferView": 3, "componentType": 5120, "normalized": true, "count": 3, "type": "VEC4"}])";
   document.nodes = R"([{"mesh": 0, "scale": [0.002, 0.002, 0.002], "translation": [5, 0, 0]}])";
   document.more = R"(, "extensionsRequired": ["KHR_mesh_quantization"])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_sound(*scene);
+  const auto scene = document.load().value_or_throw();
+  expect_sound(scene);
   document.uri = "";
   keep_as_seed("quantized.glb", glb_of(document.json(), document.binary.data));
-  EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(7, 0, 0)), 1e-5f);
-  const Vertex& vertex = scene->meshes[0].vertices[0];
+  EXPECT_LT(glm::distance(world_corner(scene, 0, 1), glm::vec3(7, 0, 0)), 1e-5f);
+  const Vertex& vertex = scene.meshes[0].vertices[0];
   EXPECT_EQ(vertex.normal, glm::vec3(0, 0, 1));
   EXPECT_EQ(vertex.tangent, glm::vec4(1, 0, 0, -1));
   EXPECT_EQ(vertex.uv, glm::vec2(-1, 16384 / 32767.0f));
-  EXPECT_EQ(scene->meshes[0].vertices[2].uv.x, -1) << "-32768 counts as -32767";
+  EXPECT_EQ(scene.meshes[0].vertices[2].uv.x, -1) << "-32768 counts as -32767";
 }
 
 }  // namespace

@@ -44,16 +44,15 @@ TEST(GltfTexture, WebpInABufferViewAndAsAFile) {
   MemoryFiles files;
   files.add_text("data.bin", document.binary.data);
   files.add_text("b.webp", webp_of(10, 20, 30));
-  const auto scene = load_gltf(document.json(), files);
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_sound(*scene);
-  const Material& material = scene->materials[0];
-  ASSERT_EQ(scene->images.size(), 2u) << "the PNG that WebP replaces is not read";
+  const auto scene = load_gltf(document.json(), files).value_or_throw();
+  expect_sound(scene);
+  const Material& material = scene.materials[0];
+  ASSERT_EQ(scene.images.size(), 2u) << "the PNG that WebP replaces is not read";
   document.uri = "";
   keep_as_seed("webp.glb", glb_of(document.json(), document.binary.data));
-  EXPECT_EQ(scene->images[material.base_color_image].pixels.rgba,
+  EXPECT_EQ(scene.images[material.base_color_image].pixels.rgba,
             (std::vector<std::uint8_t>{255, 0, 0, 255, 255, 0, 0, 255}));
-  EXPECT_EQ(scene->images[material.normal_image].pixels.rgba[2], 30);
+  EXPECT_EQ(scene.images[material.normal_image].pixels.rgba[2], 30);
 }
 
 TEST(GltfTexture, SamplersSayHowImagesContinue) {
@@ -65,15 +64,14 @@ TEST(GltfTexture, SamplersSayHowImagesContinue) {
   MemoryFiles files;
   files.add_text("data.bin", document.binary.data);
   files.add_text("a.webp", webp_of(10, 20, 30));
-  const Warnings warnings;
-  const auto scene = load_gltf(document.json(), files);
-  ASSERT_TRUE(scene) << scene.failure().message;
+  const LogLines warnings;
+  const auto scene = load_gltf(document.json(), files).value_or_throw();
   EXPECT_EQ(warnings.lines, std::vector<std::string>());
-  ASSERT_EQ(scene->images.size(), 2u) << "one for each way";
-  const Material& material = scene->materials[0];
-  EXPECT_EQ(scene->images[material.base_color_image].wraps, (Wraps{Wrap::clamp, Wrap::mirror}));
-  EXPECT_EQ(scene->images[material.roughness_image].wraps, Wraps());
-  EXPECT_EQ(scene->images[material.roughness_image].pixels.rgba[2], 30);
+  ASSERT_EQ(scene.images.size(), 2u) << "one for each way";
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(scene.images[material.base_color_image].wraps, (Wraps{Wrap::clamp, Wrap::mirror}));
+  EXPECT_EQ(scene.images[material.roughness_image].wraps, Wraps());
+  EXPECT_EQ(scene.images[material.roughness_image].pixels.rgba[2], 30);
   EXPECT_EQ(material.normal_image, material.roughness_image);
   document.more.replace(document.more.find("\"sampler\": 1"), 12, "\"sampler\": 2");
   EXPECT_HAS(document.error(), "textures[1].sampler");
@@ -87,7 +85,7 @@ TEST(GltfTexture, DataUrisOfAnyMediaType) {
     Document document = textured(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
                                  R"(, "textures": [{"source": 0}], "images": [{"uri": "data:)" +
                                      std::string(type) + ";base64," + png + "\"}]");
-    const Warnings warnings;
+    const LogLines warnings;
     const auto scene = document.load();
     ASSERT_TRUE(scene) << type << scene.failure().message;
     EXPECT_TRUE(warnings.lines.empty()) << type << warnings.lines.front();
@@ -99,25 +97,23 @@ TEST(GltfTexture, SpecularGlossinessIsRoughnessWithoutMetal) {
       R"("extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.5, 0.25, 1, 1],
          "glossinessFactor": 0.75, "diffuseTexture": {"index": 0}}})";
   Document document = textured("{" + glossy + "}", R"(, "textures": [{}])");
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  const Material& material = scene->materials[scene->objects[0].material];
+  const auto scene = document.load().value_or_throw();
+  const Material& material = scene.materials[scene.objects[0].material];
   EXPECT_EQ(material.base_color, glm::vec3(0.5f, 0.25f, 1));
   EXPECT_EQ(material.roughness, 0.25f);
   EXPECT_EQ(material.metallic, 0);
   EXPECT_NE(material.base_color_image, kNone);
   document =
       textured(R"({"pbrMetallicRoughness": {"metallicFactor": 1}, )" + glossy + "}", R"(, "textures": [{}])");
-  EXPECT_EQ(document.load().value_or_throw().materials.at(scene->objects[0].material).metallic, 1);
+  EXPECT_EQ(document.load().value_or_throw().materials.at(scene.objects[0].material).metallic, 1);
   document = textured("{" + glossy + "}", "");
   EXPECT_HAS(document.error(), "diffuseTexture.index: names textures[0]");
 }
 
 TEST(GltfTexture, MissingNormalsAreNone) {
   Document document = textured(R"({"normalTexture": {"index": 0}})", R"(, "textures": [{}])");
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(scene->materials[scene->objects[0].material].normal_image, kNone);
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(scene.materials[scene.objects[0].material].normal_image, kNone);
 }
 
 TEST(GltfTexture, ExtensionsMustNameAnImage) {
@@ -133,11 +129,10 @@ TEST(GltfTexture, TransformsMoveTheCoordinates) {
     {"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5], "texCoord": 0}}, "texCoord": 3})";
   Document document = textured(R"({"pbrMetallicRoughness": {"baseColorTexture": )" + transform + "}}",
                                R"(, "textures": [{}])");
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
+  const auto scene = document.load().value_or_throw();
   document.uri = "";
   keep_as_seed("texture_transform.glb", glb_of(document.json(), document.binary.data));
-  const std::vector<Vertex>& vertices = scene->meshes[0].vertices;
+  const std::vector<Vertex>& vertices = scene.meshes[0].vertices;
   EXPECT_LT(glm::distance(vertices[0].uv, glm::vec2(0, 1)), 1e-6f);
   EXPECT_LT(glm::distance(vertices[1].uv, glm::vec2(0, 0.5f)), 1e-6f);
   EXPECT_LT(glm::distance(vertices[2].uv, glm::vec2(0.5f, 1)), 1e-6f);
@@ -151,11 +146,10 @@ TEST(GltfTexture, TexturesThatDisagreeAreAWarning) {
                     R"(, "textures": [{}])")
         .load();
   };
-  const Warnings warnings;
-  const auto agree = load(scaled);
-  ASSERT_TRUE(agree) << agree.failure().message;
+  const LogLines warnings;
+  const auto agree = load(scaled).value_or_throw();
   EXPECT_FALSE(warnings.has("differ")) << "both textures move alike";
-  EXPECT_EQ(agree->meshes[0].vertices[2].uv, glm::vec2(0, 3));
+  EXPECT_EQ(agree.meshes[0].vertices[2].uv, glm::vec2(0, 3));
   ASSERT_TRUE(load(R"({"index": 0})"));
   EXPECT_TRUE(warnings.has("materials[0]: its textures differ in texCoord or KHR_texture_transform"));
 }
@@ -184,10 +178,9 @@ TEST(GltfColor, VertexColoursOfAllTypes) {
     document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
       {"bufferView": 0, "byteOffset": 36, "count": 3, )" +
                          c.type + "}]";
-    const auto scene = document.load();
-    ASSERT_TRUE(scene) << scene.failure().message;
-    EXPECT_LT(glm::distance(scene->meshes[0].vertices[0].color, c.expected), 1e-6f) << c.type;
-    EXPECT_EQ(scene->meshes[0].vertices[1].color.g, 0) << c.type;
+    const auto scene = document.load().value_or_throw();
+    EXPECT_LT(glm::distance(scene.meshes[0].vertices[0].color, c.expected), 1e-6f) << c.type;
+    EXPECT_EQ(scene.meshes[0].vertices[1].color.g, 0) << c.type;
     document.uri = "";
     keep_as_seed("vertex_colors.glb", glb_of(document.json(), document.binary.data));
   }
@@ -200,9 +193,9 @@ TEST(GltfSeeds, EveryGlbLoads) {
   for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/fuzz/corpus/gltf")) {
     if (entry.path().extension() != ".glb") continue;  // whose buffers the fuzzer makes up
     const auto scene =
-        parse_gltf(read_file(entry.path()).value_or_throw(), entry.path().filename().string(), MemoryFiles());
-    ASSERT_TRUE(scene) << scene.failure().message;
-    expect_sound(*scene);
+        parse_gltf(read_file(entry.path()).value_or_throw(), entry.path().filename().string(), MemoryFiles())
+            .value_or_throw();
+    expect_sound(scene);
     ++count;
   }
   EXPECT_GE(count, 9);

@@ -7,11 +7,10 @@ namespace brume::scene {
 namespace {
 
 TEST(Gltf, TheSmallestDocument) {
-  const auto scene = Document().load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_sound(*scene);
-  EXPECT_EQ(scene->objects.size(), 1u);
-  EXPECT_EQ(scene->meshes[0].vertices[0].normal, glm::vec3(0, 0, 1)) << "computed";
+  const auto scene = Document().load().value_or_throw();
+  expect_sound(scene);
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].vertices[0].normal, glm::vec3(0, 0, 1)) << "computed";
 }
 
 TEST(Gltf, NodesMultiplyDownTheTree) {
@@ -20,12 +19,11 @@ TEST(Gltf, NodesMultiplyDownTheTree) {
   document.nodes = R"([{"children": [1, 2], "translation": [10, 0, 0], "scale": [2, 2, 2]},
     {"mesh": 0, "rotation": [0, 0.70710678, 0, 0.70710678], "translation": [0, 1, 0]},
     {"mesh": 0, "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 5,6,7,1]}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  ASSERT_EQ(scene->objects.size(), 2u);
-  EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(10, 2, -2)), 1e-5f);
-  EXPECT_LT(glm::distance(world_corner(*scene, 1, 1), glm::vec3(20, 14, 14)), 1e-5f);
-  EXPECT_EQ(scene->objects[0].mesh, scene->objects[1].mesh) << "instanced";
+  const auto scene = document.load().value_or_throw();
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_LT(glm::distance(world_corner(scene, 0, 1), glm::vec3(10, 2, -2)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(scene, 1, 1), glm::vec3(20, 14, 14)), 1e-5f);
+  EXPECT_EQ(scene.objects[0].mesh, scene.objects[1].mesh) << "instanced";
 }
 
 TEST(Gltf, MirroringNodesKeepTrianglesOutward) {
@@ -49,9 +47,8 @@ TEST(Gltf, AllIndexTypes) {
     document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
       {"bufferView": 0, "byteOffset": 36, "count": 3, "type": "SCALAR", "componentType": )" +
                          std::to_string(type) + "}]";
-    const auto scene = document.load();
-    ASSERT_TRUE(scene) << scene.failure().message;
-    EXPECT_EQ(world_corner(*scene, 0, 1), glm::vec3(0, 1, 0)) << type;
+    const auto scene = document.load().value_or_throw();
+    EXPECT_EQ(world_corner(scene, 0, 1), glm::vec3(0, 1, 0)) << type;
   }
 }
 
@@ -73,10 +70,9 @@ TEST(Gltf, StripsAndFansKeepTheirWinding) {
                                 : Bytes().add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}])";
     document.primitive = R"({"attributes": {"POSITION": 0}, "mode": )" + std::to_string(mode) + "}";
-    const auto scene = document.load();
-    ASSERT_TRUE(scene) << scene.failure().message;
-    ASSERT_EQ(scene->meshes[0].indices.size(), 6u);
-    for (const Vertex& vertex : scene->meshes[0].vertices)
+    const auto scene = document.load().value_or_throw();
+    ASSERT_EQ(scene.meshes[0].indices.size(), 6u);
+    for (const Vertex& vertex : scene.meshes[0].vertices)
       EXPECT_EQ(vertex.normal, glm::vec3(0, 0, 1)) << mode;
   }
 }
@@ -93,10 +89,9 @@ TEST(Gltf, NormalizedTextureCoordinatesAndStrides) {
   document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
     {"bufferView": 0, "byteOffset": 12, "componentType": 5123, "normalized": true, "count": 3, "type": "VEC2"}])";
   document.primitive = R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}})";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(scene->meshes[0].vertices[1].uv, glm::vec2(32767 / 65535.0f, 1));
-  EXPECT_EQ(scene->meshes[0].vertices[2].position, glm::vec3(0, 1, 0));
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(scene.meshes[0].vertices[1].uv, glm::vec2(32767 / 65535.0f, 1));
+  EXPECT_EQ(scene.meshes[0].vertices[2].position, glm::vec3(0, 1, 0));
 }
 
 TEST(Gltf, SparseAccessorsReplaceElements) {
@@ -107,10 +102,9 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
   document.accessors =
       R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
     "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 2}}}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(world_corner(*scene, 0, 1), glm::vec3(1, 0, 0));
-  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(7, 8, 9));
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(world_corner(scene, 0, 1), glm::vec3(1, 0, 0));
+  EXPECT_EQ(world_corner(scene, 0, 2), glm::vec3(7, 8, 9));
 }
 
 TEST(Gltf, RejectsTruncatedAndOverreachingBuffers) {
@@ -154,9 +148,8 @@ TEST(Gltf, RejectsUrisOutsideOfTheFolder) {
 TEST(Gltf, DataUrisAndPercentEscapes) {
   Document document;
   document.uri = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(0, 1, 0));
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(world_corner(scene, 0, 2), glm::vec3(0, 1, 0));
   document.uri = "data:application/octet-stream;base64,A*";
   EXPECT_HAS(document.error(), "expected a data: URI in base64");
   document.uri = "d%61ta.bin";
@@ -178,18 +171,17 @@ TEST(Gltf, LightsKeepTheirUnitsAndFollowTheirNodes) {
   document.more = R"(, "extensions": {"KHR_lights_punctual": {"lights": [
     {"type": "spot", "color": [1, 0.5, 0], "intensity": 13660, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
     {"type": "directional", "intensity": 2049}, {"type": "point"}]}})";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  ASSERT_EQ(scene->lights.size(), 3u);
-  const Light& spot = scene->lights[0];
+  const auto scene = document.load().value_or_throw();
+  ASSERT_EQ(scene.lights.size(), 3u);
+  const Light& spot = scene.lights[0];
   EXPECT_EQ(spot.kind, LightKind::spot);
   EXPECT_EQ(spot.intensity, glm::vec3(20, 10, 0));
   EXPECT_EQ(spot.position_world, glm::vec3(1, 2, 3));
   EXPECT_LT(glm::distance(spot.direction_world, glm::vec3(0, -1, 0)), 1e-6f) << "-z turned down";
   EXPECT_FLOAT_EQ(spot.cos_inner, std::cos(0.2f));
   EXPECT_FLOAT_EQ(spot.cos_outer, std::cos(0.4f));
-  EXPECT_EQ(scene->lights[1].kind, LightKind::directional);
-  EXPECT_EQ(scene->lights[2].kind, LightKind::point);
+  EXPECT_EQ(scene.lights[1].kind, LightKind::directional);
+  EXPECT_EQ(scene.lights[2].kind, LightKind::point);
   document.nodes = R"([{"mesh": 0}, {"extensions": {"KHR_lights_punctual": {"light": 3}}}])";
   EXPECT_HAS(document.error(), "nodes[1].extensions.KHR_lights_punctual.light: names lights[3]");
 }
@@ -202,7 +194,7 @@ TEST(Gltf, WhatContradictsItselfIsNamedOnce) {
   document.more = R"(, "extensions": {"KHR_lights_punctual": {"lights": [
     {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.4}},
     {"type": "spot", "spot": {"innerConeAngle": 0.4, "outerConeAngle": 0.4}}]}})";
-  const Warnings warnings;
+  const LogLines warnings;
   const Scene scene = document.load().value_or_throw();
   EXPECT_EQ(world_corner(scene, 0, 0), glm::vec3(5, 0, 0));
   EXPECT_EQ(scene.lights.at(1).cos_inner, scene.lights[1].cos_outer);
@@ -223,18 +215,17 @@ TEST(Gltf, MaterialsAndCameras) {
     "metallicFactor": 0.1, "roughnessFactor": 0.3},
     "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.4,
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 10}}}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  const Material& material = scene->materials[scene->objects[0].material];
+  const auto scene = document.load().value_or_throw();
+  const Material& material = scene.materials[scene.objects[0].material];
   EXPECT_EQ(material.base_color, glm::vec3(1, 0.5f, 0.25f));
   EXPECT_EQ(material.emission, glm::vec3(10, 5, 0));
   EXPECT_FLOAT_EQ(material.roughness, 0.3f);
   EXPECT_FLOAT_EQ(material.metallic, 0.1f);
   EXPECT_FLOAT_EQ(material.alpha_cutoff, 0.5f) << "of the texel: the factor is on its side";
-  ASSERT_TRUE(scene->camera);
-  EXPECT_EQ(scene->camera->position_world, glm::vec3(0, 0, 5));
-  EXPECT_LT(glm::distance(scene->camera->target_world, glm::vec3(0, 0, 0)), 1e-5f);
-  EXPECT_FLOAT_EQ(scene->camera->vertical_fov, 0.8f);
+  ASSERT_TRUE(scene.camera);
+  EXPECT_EQ(scene.camera->position_world, glm::vec3(0, 0, 5));
+  EXPECT_LT(glm::distance(scene.camera->target_world, glm::vec3(0, 0, 0)), 1e-5f);
+  EXPECT_FLOAT_EQ(scene.camera->vertical_fov, 0.8f);
 }
 
 TEST(Gltf, PanesAreWhatBlendsOrTransmits) {
@@ -275,13 +266,12 @@ TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
     "textures": [{"source": 0}, {"source": 1}],
     "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
     "normalTexture": {"index": 1}}])";
-  const Warnings warnings;
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_sound(*scene);
+  const LogLines warnings;
+  const auto scene = document.load().value_or_throw();
+  expect_sound(scene);
   EXPECT_TRUE(warnings.has("a.gltf: images[0]: the image \"gone.png\" does not exist"));
   EXPECT_TRUE(warnings.has("a.gltf: images[1]"));
-  EXPECT_NE(scene->materials[0].base_color_image, kNone);
+  EXPECT_NE(scene.materials[0].base_color_image, kNone);
 }
 
 // One line for each file, with all that it asks for in vain.
@@ -291,7 +281,7 @@ TEST(Gltf, SaysWhatIsNotSupported) {
     Document document;
     document.more = more;
     if (!nodes.empty()) document.nodes = nodes;
-    const Warnings warnings;
+    const LogLines warnings;
     document.load().value_or_throw();
     return warnings.lines.empty() ? std::string() : warnings.lines.at(0);
   };
@@ -335,13 +325,12 @@ TEST(Gltf, InstancesAreObjectsOfOneMesh) {
   };
   document.nodes = node(R"("TRANSLATION": 1, "ROTATION": 2)");
   document.more = R"(, "extensionsRequired": ["EXT_mesh_gpu_instancing"])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  ASSERT_EQ(scene->objects.size(), 3u);
-  EXPECT_EQ(scene->meshes.size(), 1u);
-  EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(2, 0, 0)), 1e-5f);
-  EXPECT_LT(glm::distance(world_corner(*scene, 1, 1), glm::vec3(8, 0, 0)), 1e-5f);
-  EXPECT_LT(glm::distance(world_corner(*scene, 2, 1), glm::vec3(0, 12, 0)), 1e-5f);
+  const auto scene = document.load().value_or_throw();
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_LT(glm::distance(world_corner(scene, 0, 1), glm::vec3(2, 0, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(scene, 1, 1), glm::vec3(8, 0, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(scene, 2, 1), glm::vec3(0, 12, 0)), 1e-5f);
   document.nodes = node("");
   EXPECT_EQ(document.load().value_or_throw().objects.size(), 1u);
   document.nodes = node(R"("TRANSLATION": 9)");
@@ -358,12 +347,11 @@ TEST(Gltf, MorphTargetsCountByTheirWeights) {
     {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC3"}])";
   document.primitive = R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}, {"POSITION": 1}]})";
   document.nodes = R"([{"mesh": 0}, {"mesh": 0, "weights": [0.5, 1]}, {"mesh": 0, "weights": [0.5, 1]}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(0, 1, 0));
-  EXPECT_EQ(world_corner(*scene, 1, 0), glm::vec3(0, 0, 1.5f));
-  EXPECT_EQ(world_corner(*scene, 1, 2), glm::vec3(0, 1, 6));
-  EXPECT_EQ(scene->objects[1].mesh, scene->objects[2].mesh);
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(world_corner(scene, 0, 2), glm::vec3(0, 1, 0));
+  EXPECT_EQ(world_corner(scene, 1, 0), glm::vec3(0, 0, 1.5f));
+  EXPECT_EQ(world_corner(scene, 1, 2), glm::vec3(0, 1, 6));
+  EXPECT_EQ(scene.objects[1].mesh, scene.objects[2].mesh);
   document.nodes = R"([{"mesh": 0, "weights": [0.5, 1e300]}])";
   EXPECT_HAS(document.error(), "nodes[0].weights[1]");
   document.nodes = R"([{"mesh": 0, "weights": [1e6]}])";
@@ -379,15 +367,14 @@ TEST(Gltf, MarksThatExcludeObjectsFromTheVoxels) {
   document.nodes =
       R"([{"mesh": 0}, {"mesh": 0, "name": "IGNORE_x"}, {"extras": {"brume_ignore": true}, "children": [3]},
     {"mesh": 0}, {"mesh": 0, "extras": [1]}, {"mesh": 0, "name": "Grenade", "translation": [3, 3, 3]}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  ASSERT_EQ(scene->objects.size(), 4u);
-  EXPECT_EQ(scene->objects[0].role, Role::wall);
-  EXPECT_EQ(scene->objects[1].role, Role::ghost);
-  EXPECT_EQ(scene->objects[2].role, Role::ghost) << "handed down";
-  EXPECT_EQ(scene->objects[3].role, Role::wall);
-  EXPECT_EQ(scene->grenade->name, "Grenade");
-  EXPECT_EQ(glm::vec3(scene->grenade->world_from_mesh[3]), glm::vec3(0));
+  const auto scene = document.load().value_or_throw();
+  ASSERT_EQ(scene.objects.size(), 4u);
+  EXPECT_EQ(scene.objects[0].role, Role::wall);
+  EXPECT_EQ(scene.objects[1].role, Role::ghost);
+  EXPECT_EQ(scene.objects[2].role, Role::ghost) << "handed down";
+  EXPECT_EQ(scene.objects[3].role, Role::wall);
+  EXPECT_EQ(scene.grenade->name, "Grenade");
+  EXPECT_EQ(glm::vec3(scene.grenade->world_from_mesh[3]), glm::vec3(0));
 }
 
 TEST(Gltf, RejectsBrokenStructure) {
@@ -473,9 +460,8 @@ TEST(Glb, LoadsAndRejectsEveryTruncation) {
   const auto load = [&](std::size_t size) {
     return parse_gltf(std::as_bytes(std::span(glb).first(size)), "a.glb", files);
   };
-  const auto whole = load(glb.size());
-  ASSERT_TRUE(whole) << whole.failure().message;
-  EXPECT_EQ(world_corner(*whole, 0, 2), glm::vec3(0, 1, 0));
+  const auto whole = load(glb.size()).value_or_throw();
+  EXPECT_EQ(world_corner(whole, 0, 2), glm::vec3(0, 1, 0));
   for (std::size_t size = 0; size < glb.size(); ++size) EXPECT_FALSE(load(size)) << size;
 }
 

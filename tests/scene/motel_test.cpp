@@ -17,7 +17,7 @@ std::filesystem::path motel_folder() {
 TEST(Motel, LoadsCompletely) {
   const std::filesystem::path path = motel_folder() / "Scene.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the motel is not here; set BRUME_MOTEL to its folder";
-  const Warnings warnings;
+  const LogLines warnings;
   const auto start = std::chrono::steady_clock::now();
   const auto scene = load_scene(path);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

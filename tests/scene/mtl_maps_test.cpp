@@ -31,7 +31,7 @@ const image::Image8& color_image(const Scene& scene) {
 TEST(MtlMaps, ScaleAndOffsetMoveTheTexture) {
   MemoryFiles files;
   files.files["t.png"] = png_of(grey({0, 255}));
-  const Warnings warnings;
+  const LogLines warnings;
   const Scene scene = square_with("map_Kd -s 2 -3 1 -o .25 0.5 t.png\n", files);
   EXPECT_TRUE(warnings.lines.empty());
   expect_sound(scene);
@@ -57,7 +57,7 @@ TEST(MtlMaps, AnOpacityMapBecomesTheAlphaOfTheColours) {
   files.files["color.png"] = png_of({2, 1, {10, 20, 30, 255, 40, 50, 60, 255}});
   files.files["mask.png"] = png_of(grey({0, 255, 255, 0}));
   files.files["alpha.png"] = png_of({2, 1, {255, 255, 255, 200, 255, 255, 255, 100}});
-  const Warnings warnings;
+  const LogLines warnings;
   const Scene both = square_with("map_Kd color.png\nmap_d mask.png\n", files);
   EXPECT_EQ(color_image(both).rgba,
             (std::vector<std::uint8_t>{10, 20, 30, 0, 10, 20, 30, 255, 40, 50, 60, 255, 40, 50, 60, 0}));
@@ -82,7 +82,7 @@ TEST(MtlMaps, AnOpacityMapBecomesTheAlphaOfTheColours) {
 TEST(MtlMaps, WithoutItsOpacityMapAMaterialIsOpaque) {
   MemoryFiles files;
   files.add_text("text.png", "no image");
-  const Warnings warnings;
+  const LogLines warnings;
   for (const char* map : {"text.png", "gone.png"}) {
     const Scene scene = square_with(std::string("map_d ") + map + "\n", files);
     EXPECT_EQ(scene.objects.at(0).role, Role::wall) << map;
@@ -98,7 +98,7 @@ TEST(MtlMaps, WhatIsNotUsedIsNotMissed) {
   MemoryFiles files;
   files.add_text("m.mtl", "newmtl a\nmap_Kd gone.png\nbump gone.png\nmap_d mask.png\n");
   const auto warnings_of = [&](ImageUse use) {
-    const Warnings warnings;
+    const LogLines warnings;
     parse_obj_scene(kTexturedSquare, "s.obj", files, use).value_or_throw();
     return warnings.lines.size();
   };

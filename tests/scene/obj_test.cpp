@@ -77,14 +77,14 @@ TEST(Obj, NegativeIndicesCountFromTheEnd) {
 
 TEST(Obj, CornersWithEqualIndicesShareAVertex) {
   const auto model = parse_obj(
-      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 2\n"
-      "f 1/1/1 2/1/1 3/1/1\nf 1/1/1 3/1/1 4/2/1\n",
-      "a.obj");
-  ASSERT_TRUE(model) << model.failure().message;
-  EXPECT_EQ(model->vertices.size(), 4u);
-  EXPECT_EQ(model->vertices[0].normal, glm::vec3(0, 0, 1)) << "made unit length";
-  EXPECT_EQ(model->vertices[0].uv, glm::vec2(0, 1)) << "v runs down";
-  EXPECT_EQ(model->vertices[3].uv, glm::vec2(1, 0));
+                         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 2\n"
+                         "f 1/1/1 2/1/1 3/1/1\nf 1/1/1 3/1/1 4/2/1\n",
+                         "a.obj")
+                         .value_or_throw();
+  EXPECT_EQ(model.vertices.size(), 4u);
+  EXPECT_EQ(model.vertices[0].normal, glm::vec3(0, 0, 1)) << "made unit length";
+  EXPECT_EQ(model.vertices[0].uv, glm::vec2(0, 1)) << "v runs down";
+  EXPECT_EQ(model.vertices[3].uv, glm::vec2(1, 0));
 }
 
 TEST(Obj, MissingNormalsAreComputedPerFace) {
@@ -95,9 +95,8 @@ TEST(Obj, MissingNormalsAreComputedPerFace) {
 }
 
 TEST(Obj, LinesMayBeContinued) {
-  const auto model = parse_obj("v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "a.obj");
-  ASSERT_TRUE(model) << model.failure().message;
-  EXPECT_EQ(model->vertices.size(), 3u);
+  const auto model = parse_obj("v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "a.obj").value_or_throw();
+  EXPECT_EQ(model.vertices.size(), 3u);
 }
 
 TEST(Obj, ErrorsNameFileLineAndColumn) {
@@ -115,15 +114,15 @@ TEST(Obj, ErrorsNameFileLineAndColumn) {
 
 // Exporters write indices of attributes that they leave out.
 TEST(Obj, AttributesThatDoNotExistCountAsNone) {
-  const Warnings warnings;
+  const LogLines warnings;
   const auto model = parse_obj(
-      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1/1/1 2/0/1 3/-4/1\nf 1//2 2//9 3//-2\n"
-      "f 1/99999999999999999999 2 3\n",
-      "a.obj");
-  ASSERT_TRUE(model) << model.failure().message;
-  ASSERT_EQ(model->parts.at(0).indices.size(), 9u);
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1/1/1 2/0/1 3/-4/1\nf 1//2 2//9 3//-2\n"
+                         "f 1/99999999999999999999 2 3\n",
+                         "a.obj")
+                         .value_or_throw();
+  ASSERT_EQ(model.parts.at(0).indices.size(), 9u);
   for (std::size_t i = 0; i < 9; ++i) {
-    const Vertex& vertex = model->vertices[model->parts[0].indices[i]];
+    const Vertex& vertex = model.vertices[model.parts[0].indices[i]];
     EXPECT_EQ(vertex.normal, i < 3 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)) << i;
     EXPECT_EQ(vertex.uv, glm::vec2(0)) << i;
   }
@@ -135,7 +134,7 @@ TEST(Obj, AttributesThatDoNotExistCountAsNone) {
 TEST(Obj, FacesMayStandAboveTheirVertices) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n";
   const std::string faces = "o a\nf 1/1 2/2 3/3\no b\nf 2/1 3/2 4/3\n";
-  const Warnings warnings;
+  const LogLines warnings;
   const ObjModel below = parse_obj(vertices + faces, "a.obj").value_or_throw();
   // All above; texture coordinates alone below; and one face between that could be added at once.
   const std::string split = "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1/1 2/2 3/3\n";
@@ -158,7 +157,7 @@ TEST(Obj, FacesMayStandAboveTheirVertices) {
 TEST(Obj, UnknownStatementsAreNamedOnce) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   {
-    const Warnings warnings;
+    const LogLines warnings;
     ASSERT_TRUE(parse_obj(triangle + "s off\nl 1 2\np 1\nvp 0 0\nlod 1\nshadow_obj a\n# ff\n\n", "a.obj"));
     EXPECT_TRUE(warnings.lines.empty());
     ASSERT_TRUE(parse_obj(triangle + "ff 1 2 3\nvertex 1 2 3\nff 1 2 3\n", "a.obj"));
@@ -168,7 +167,7 @@ TEST(Obj, UnknownStatementsAreNamedOnce) {
   }
   std::string prose = triangle;
   for (int i = 0; i < 100; ++i) prose += "word" + std::to_string(i) + " 1\n";
-  const Warnings warnings;
+  const LogLines warnings;
   ASSERT_TRUE(parse_obj(prose, "a.obj"));
   ASSERT_EQ(warnings.lines.size(), 9u);
   EXPECT_EQ(warnings.lines.back(), "a.obj:13: more unknown statements from here on are ignored");
@@ -190,20 +189,19 @@ TEST(ObjScene, OneObjectPerMaterial) {
   const std::string text =
       "mtllib M.MTL\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl old map\nf 1 2 "
       "4\nusemtl red\nf 1 3 4\nusemtl lost\nf 2 3 4\n";
-  const Warnings warnings;
-  const auto scene = parse_obj_scene(text, "a.obj", files);
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_sound(*scene);
-  ASSERT_EQ(scene->objects.size(), 3u);
-  EXPECT_EQ(scene->meshes[scene->objects[0].mesh].indices.size(), 6u);
-  EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1, 0, 0));
-  EXPECT_EQ(scene->materials[0].emission, glm::vec3(0, 2, 0));
-  EXPECT_EQ(scene->materials[1].base_color, glm::vec3(0.5f));
-  EXPECT_FLOAT_EQ(scene->materials[1].roughness, 1);
+  const LogLines warnings;
+  const auto scene = parse_obj_scene(text, "a.obj", files).value_or_throw();
+  expect_sound(scene);
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.meshes[scene.objects[0].mesh].indices.size(), 6u);
+  EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene.materials[0].emission, glm::vec3(0, 2, 0));
+  EXPECT_EQ(scene.materials[1].base_color, glm::vec3(0.5f));
+  EXPECT_FLOAT_EQ(scene.materials[1].roughness, 1);
   EXPECT_TRUE(warnings.has("m.mtl:7: the image \"gone.png\" does not exist"));
   EXPECT_TRUE(warnings.has("a.obj:12: no material is called \"lost\"; it is grey"));
-  EXPECT_EQ(scene->materials[2].base_color, glm::vec3(0.6f));
-  EXPECT_EQ(scene->materials[2].base_color_image, kNone);
+  EXPECT_EQ(scene.materials[2].base_color, glm::vec3(0.6f));
+  EXPECT_EQ(scene.materials[2].base_color_image, kNone);
 }
 
 TEST(ObjScene, OneObjectPerNameAndMaterial) {
@@ -229,13 +227,12 @@ TEST(ObjScene, NamesMakeALimitedNumberOfObjects) {
 TEST(ObjScene, AMissingMaterialFileIsOneWarningAndGrey) {
   const std::string text =
       "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
-  const Warnings warnings;
-  const auto scene = parse_obj_scene(text, "a.obj", MemoryFiles());
-  ASSERT_TRUE(scene) << scene.failure().message;
+  const LogLines warnings;
+  const auto scene = parse_obj_scene(text, "a.obj", MemoryFiles()).value_or_throw();
   ASSERT_EQ(warnings.lines.size(), 1u);
   EXPECT_EQ(warnings.lines[0],
             "a.obj:1: the material file \"gone.mtl\" does not exist; its materials are grey");
-  for (const Material& material : scene->materials) {
+  for (const Material& material : scene.materials) {
     EXPECT_EQ(material.base_color, glm::vec3(0.6f));
     EXPECT_EQ(material.base_color_image, kNone);
   }
@@ -255,7 +252,7 @@ TEST(ObjScene, FilesAreFoundWhereExportersMeanThem) {
   files.add_text("b.mtl", "newmtl b\nKd 0 1 0\n");
   files.add_text("both of them.mtl", "newmtl a\nKd 0 0 1\nnewmtl b\nKd 0 0 1\n");
   const std::pair two(glm::vec3(1, 0, 0), glm::vec3(0, 1, 0));
-  const Warnings warnings;
+  const LogLines warnings;
   EXPECT_EQ(colors_of("a.mtl b.mtl", files), two);
   EXPECT_EQ(colors_of("both of them.mtl", files), std::pair(glm::vec3(0, 0, 1), glm::vec3(0, 0, 1)));
   EXPECT_EQ(colors_of("C:\\Users\\me\\both of them.mtl", files).first, glm::vec3(0, 0, 1));
@@ -273,7 +270,7 @@ TEST(ObjScene, ImagesAreFoundFromTheirMaterialFile) {
   for (const char* name : {"quad.png", "sub/own.png"}) files.files[name] = png;
   const auto is_found = [&](const std::string& map) {
     files.add_text("sub/m.mtl", "newmtl a\nmap_Kd " + map + "\n");
-    const Warnings warnings;
+    const LogLines warnings;
     const Scene scene =
         parse_obj_scene("mtllib sub/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "s.obj", files)
             .value_or_throw();
@@ -290,7 +287,7 @@ TEST(ObjScene, ImagesAreFoundFromTheirMaterialFile) {
 TEST(ObjScene, AMissingNormalMapIsLeftOut) {
   MemoryFiles files;
   files.add_text("m.mtl", "newmtl a\nmap_Bump gone.png\n");
-  const Warnings warnings;
+  const LogLines warnings;
   const Scene scene =
       parse_obj_scene("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "s.obj", files)
           .value_or_throw();
@@ -300,17 +297,17 @@ TEST(ObjScene, AMissingNormalMapIsLeftOut) {
 
 TEST(ObjScene, VertexColours) {
   const auto scene =
-      parse_obj_scene("v 0 0 0 1 0 0.5\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj", MemoryFiles());
-  ASSERT_TRUE(scene) << scene.failure().message;
-  const std::vector<Vertex>& vertices = scene->meshes[0].vertices;
+      parse_obj_scene("v 0 0 0 1 0 0.5\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj", MemoryFiles())
+          .value_or_throw();
+  const std::vector<Vertex>& vertices = scene.meshes[0].vertices;
   EXPECT_LT(glm::distance(vertices[0].color, glm::vec4(1, 0, 0.21404f, 1)), 1e-5f) << "decoded from sRGB";
   EXPECT_EQ(vertices[1].color, glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(vertices[2].color, glm::vec4(1)) << "without one";
-  EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1)) << "no grey on top";
+  EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1)) << "no grey on top";
   const auto weights =
-      parse_obj_scene("v 0 0 0 0.5\nv 1 0 0 a b c\nv 0 1 0 1 1\nf 1 2 3\n", "a.obj", MemoryFiles());
-  ASSERT_TRUE(weights) << weights.failure().message;
-  EXPECT_EQ(weights->meshes[0].vertices[0].color, glm::vec4(1)) << "other values are no colours";
+      parse_obj_scene("v 0 0 0 0.5\nv 1 0 0 a b c\nv 0 1 0 1 1\nf 1 2 3\n", "a.obj", MemoryFiles())
+          .value_or_throw();
+  EXPECT_EQ(weights.meshes[0].vertices[0].color, glm::vec4(1)) << "other values are no colours";
 }
 
 TEST(ObjScene, Utf16InBothByteOrders) {
@@ -327,10 +324,9 @@ TEST(ObjScene, Utf16InBothByteOrders) {
     };
     MemoryFiles files;
     files.add_text("m.mtl", encoded(u"\ufeffnewmtl \u00e4\U0001f32b\nKd 1 0 0\n"));
-    const auto scene = parse_obj_scene(encoded(text), "a.obj", files);
-    ASSERT_TRUE(scene) << scene.failure().message;
-    EXPECT_EQ(scene->materials[0].name, "\xc3\xa4\xf0\x9f\x8c\xab");
-    EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1, 0, 0));
+    const auto scene = parse_obj_scene(encoded(text), "a.obj", files).value_or_throw();
+    EXPECT_EQ(scene.materials[0].name, "\xc3\xa4\xf0\x9f\x8c\xab");
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec3(1, 0, 0));
   }
 }
 

@@ -124,9 +124,8 @@ TEST(Roles, OfNodesReachTheirChildren) {
   document.nodes = R"([{"mesh": 0, "extras": {"brume_role": "glass"}, "children": [1, 2, 3, 4]},
     {"mesh": 0}, {"mesh": 0, "name": "GRILLE_x"}, {"mesh": 0, "extras": {"brume_ignore": 1}},
     {"mesh": 0, "name": "IGNORE_y", "extras": {"brume_role": "wall"}}])";
-  const auto scene = document.load();
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(roles_of(*scene),
+  const auto scene = document.load().value_or_throw();
+  EXPECT_EQ(roles_of(scene),
             (std::vector<Role>{Role::glass, Role::glass, Role::grille, Role::ghost, Role::wall}));
 }
 
@@ -134,7 +133,7 @@ TEST(Roles, AnUnknownOneIsOneWarning) {
   Document document;
   document.nodes =
       R"([{"mesh": 0, "extras": {"brume_role": "fence"}}, {"mesh": 0, "extras": {"brume_role": 3}}])";
-  const Warnings warnings;
+  const LogLines warnings;
   const auto scene = document.load();
   ASSERT_TRUE(scene);
   EXPECT_EQ(roles_of(*scene), (std::vector<Role>{Role::wall, Role::wall}));
@@ -184,7 +183,7 @@ TEST(Roles, OfObjFiles) {
        {"clear", "halo", "see", "full", "odd", "leaf", "GLASS_x", "bare", "bald", "blank"})
     text += std::string("usemtl ") + material + "\nf 1 2 3\n";
   text += "o GRILLE_gate\nusemtl clear\nf 1 2 3\n";
-  const Warnings warnings;
+  const LogLines warnings;
   const Scene scene = parse_obj_scene(text, "a.obj", files).value_or_throw();
   EXPECT_EQ(roles_of(scene),
             (std::vector<Role>{Role::glass, Role::glass, Role::glass, Role::wall, Role::wall, Role::glass,
@@ -201,15 +200,16 @@ std::string timeline_error(const std::string& lines) {
 }
 
 TEST(Roles, OfTimelines) {
-  const auto timeline = parse_timeline(
-      "version = 1\nscene = \"a.glb\"\n[[role]]\nobject = \"fence\"\nrole = \"grille\"\n"
-      "[[role]]\nobject = \"pane\"\nrole = \"glass\"\n",
-      "t.toml");
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  ASSERT_EQ(timeline->roles.size(), 2u);
-  EXPECT_EQ(timeline->roles[0].object, "fence");
-  EXPECT_EQ(timeline->roles[0].role, Role::grille);
-  EXPECT_EQ(timeline->roles[1].role, Role::glass);
+  const auto timeline =
+      parse_timeline(
+          "version = 1\nscene = \"a.glb\"\n[[role]]\nobject = \"fence\"\nrole = \"grille\"\n"
+          "[[role]]\nobject = \"pane\"\nrole = \"glass\"\n",
+          "t.toml")
+          .value_or_throw();
+  ASSERT_EQ(timeline.roles.size(), 2u);
+  EXPECT_EQ(timeline.roles[0].object, "fence");
+  EXPECT_EQ(timeline.roles[0].role, Role::grille);
+  EXPECT_EQ(timeline.roles[1].role, Role::glass);
   EXPECT_HAS(timeline_error("[[role]]\nobject = \"a\"\nrole = \"fence\"\n"),
              "t.toml:5:8: \"role\": expected \"wall\", \"glass\", \"grille\" or \"ghost\"");
   EXPECT_HAS(timeline_error("[[role]]\nobject = \"a\"\n"), "role");
@@ -223,10 +223,10 @@ TEST(Roles, OfTimelines) {
   Scene scene;
   scene.objects.resize(2);
   scene.objects[0].name = "fence";
-  EXPECT_HAS(check_objects(*timeline, scene).failure().message,
+  EXPECT_HAS(check_objects(timeline, scene).failure().message,
              "t.toml:7:10: the scene has no object \"pane\"");
   scene.objects[1].name = "pane";
-  EXPECT_TRUE(check_objects(*timeline, scene));
+  EXPECT_TRUE(check_objects(timeline, scene));
 }
 
 TEST(Roles, OfSceneTxt) {

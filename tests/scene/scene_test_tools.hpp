@@ -8,32 +8,13 @@
 #include <vector>
 
 #include "core/file.hpp"
-#include "core/log.hpp"
 #include "image/png.hpp"
 #include "scene/files/scene_files.hpp"
 #include "scene/scene.hpp"
+#include "tests/log_lines.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::scene {
-
-/// Collects warnings in a scope.
-class Warnings {
- public:
-  Warnings() {
-    set_log_callback([this](LogLevel level, const std::string& line) {
-      if (level == LogLevel::warning) lines.push_back(line);
-    });
-  }
-  ~Warnings() { set_log_callback({}); }
-  Warnings(const Warnings&) = delete;
-  bool has(const std::string& part) const {
-    for (const std::string& line : lines) {
-      if (line.find(part) != std::string::npos) return true;
-    }
-    return false;
-  }
-  std::vector<std::string> lines;
-};
 
 /// A text with a mistake: where its message says that it is, and what else the message names.
 struct Mistake {

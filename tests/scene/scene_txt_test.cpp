@@ -1,7 +1,5 @@
 #include "scene/files/scene_txt.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <numbers>
 
@@ -42,9 +40,8 @@ void expect_near(glm::vec3 a, glm::vec3 b) {
 TEST(SceneTxt, Utf16) {
   std::string text = "\xff\xfe";
   for (const char letter : std::string("Box 1 2 3 0 0 0 1 1 1\r\n")) text += {letter, '\0'};
-  const auto scene = parse(text);
-  ASSERT_TRUE(scene) << scene.failure().message;
-  expect_near(image_of(*scene, {0, 0, 0}), {1, 2, 3});
+  const auto scene = parse(text).value_or_throw();
+  expect_near(image_of(scene, {0, 0, 0}), {1, 2, 3});
 }
 
 TEST(SceneTxt, Utf16MayEndInHalfALetter) {
@@ -107,9 +104,9 @@ TEST(SceneTxt, LightsSpreadTheirPowerOverTheSphere) {
 }
 
 TEST(SceneTxt, AcceptsCommentsBlankLinesAndCarriageReturns) {
-  const auto scene = parse("\xef\xbb\xbf# head\r\n\r\n  Box  0 0 0  0 0 0  1 1 1 \r\n\t# end");
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_EQ(scene->objects.size(), 1u);
+  const auto scene =
+      parse("\xef\xbb\xbf# head\r\n\r\n  Box  0 0 0  0 0 0  1 1 1 \r\n\t# end").value_or_throw();
+  EXPECT_EQ(scene.objects.size(), 1u);
 }
 
 TEST(SceneTxt, IgnoredObjectsAreDrawnButNotVoxelized) {
@@ -140,7 +137,7 @@ TEST(SceneTxt, WithoutGrenadeTakesABuiltInOne) {
 }
 
 TEST(SceneTxt, MissingFilesAreWarningsWithStandIns) {
-  const Warnings warnings;
+  const LogLines warnings;
   const auto scene = parse("# one\nNoSuchMesh 0 0 0 0 0 0 1 1 1 NoSuchImage 0\n");
   ASSERT_TRUE(scene);
   EXPECT_TRUE(warnings.has("Scene.txt:2: the mesh \"Meshes/NoSuchMesh.obj\""));
@@ -153,7 +150,7 @@ TEST(SceneTxt, MissingFilesAreWarningsWithStandIns) {
 }
 
 TEST(SceneTxt, RejectsNamesOutsideOfTheFolder) {
-  const Warnings warnings;
+  const LogLines warnings;
   const auto scene = parse("../../secret 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
   EXPECT_TRUE(warnings.has("does not exist; a cube stands in"));
@@ -182,7 +179,7 @@ TEST(SceneTxt, RejectsDistantScenes) {
 }
 
 TEST(SceneTxt, SkipsAnObjectScaledToZero) {
-  const Warnings warnings;
+  const LogLines warnings;
   const auto scene = parse("Box 0 0 0 0 0 0 1 0 1\nBox 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->objects.size(), 1u);
@@ -200,16 +197,13 @@ TEST(LoadScene, MissingAndUnknownFiles) {
 }
 
 TEST(LoadScene, FindsFilesIgnoringLetterCase) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("brume_scene_test_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder / "meshes");
-  ASSERT_TRUE(write_file_atomic(folder / "meshes" / "bOx.OBJ", std::string(kCubeObj)));
-  ASSERT_TRUE(write_file_atomic(folder / "Scene.TXT", std::string("Box 0 0 0 0 0 0 1 1 1\n")));
-  const Warnings warnings;
-  const auto scene = load_scene(folder / "Scene.TXT");
-  std::filesystem::remove_all(folder);
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_NEAR(signed_volume(*scene, scene->objects[0]), 8, 1e-6);
+  const cli::WorkFolder folder;
+  std::filesystem::create_directories(folder.path() / "meshes");
+  folder.write("meshes/bOx.OBJ", kCubeObj);
+  folder.write("Scene.TXT", "Box 0 0 0 0 0 0 1 1 1\n");
+  const LogLines warnings;
+  const auto scene = load_scene(folder.path() / "Scene.TXT").value_or_throw();
+  EXPECT_NEAR(signed_volume(scene, scene.objects[0]), 8, 1e-6);
   EXPECT_FALSE(warnings.has("does not exist"));
 }
 

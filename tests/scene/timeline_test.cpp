@@ -30,12 +30,11 @@ std::string event(const std::string& type, const std::string& rest) {
 }
 
 TEST(Timeline, DefaultsAndRelativeScenePath) {
-  const auto timeline = parse(kHead);
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  EXPECT_EQ(timeline->scene, std::filesystem::path("scenes/demo.gltf"));
-  EXPECT_EQ(timeline->smoke.voxels, 1800u);
-  EXPECT_EQ(timeline->duration, 4.0f);
-  EXPECT_FALSE(timeline->grid.size);
+  const auto timeline = parse(kHead).value_or_throw();
+  EXPECT_EQ(timeline.scene, std::filesystem::path("scenes/demo.gltf"));
+  EXPECT_EQ(timeline.smoke.voxels, 1800u);
+  EXPECT_EQ(timeline.duration, 4.0f);
+  EXPECT_FALSE(timeline.grid.size);
 }
 
 TEST(Timeline, ReadsEverything) {
@@ -81,35 +80,33 @@ type = "smoke"
 time = 0.25
 from = [0, 1, 5]
 at = [0, 0, 0]
-)");
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  EXPECT_EQ(timeline->duration, 5.5f);
-  EXPECT_EQ(timeline->exposure, -1.0f);
-  EXPECT_EQ(*timeline->grid.size, glm::ivec3(120, 20, 120));
-  EXPECT_EQ(*timeline->grid.origin_world, glm::vec3(-30, 0, -30.5f));
-  EXPECT_EQ(timeline->smoke.albedo, glm::vec3(0.9f, 0.8f, 0.7f));
-  EXPECT_EQ(timeline->smoke.multiple_scattering, 0.5f);
-  EXPECT_EQ(timeline->sky.ambient, glm::vec3(0.6f, 0.7f, 0.8f));
-  EXPECT_EQ(timeline->sky.stars, 2.0f);
-  ASSERT_EQ(timeline->camera.size(), 1u);
-  EXPECT_NEAR(timeline->camera[0].camera.vertical_fov, 0.785398f, 1e-5f);
-  ASSERT_EQ(timeline->shots.size(), 2u);
-  EXPECT_EQ(timeline->shots[0].time, 1.5) << "by time";
-  EXPECT_EQ(timeline->shots[1].times.stay, 0.75f);
-  EXPECT_EQ(timeline->shots[1].times.reach, 0.25f);
-  EXPECT_EQ(timeline->shots[0].flash, 25.0f);
-  EXPECT_EQ(timeline->shots[1].flash, 3.0f);
-  ASSERT_EQ(timeline->smokes.size(), 1u);
-  EXPECT_EQ(timeline->smokes[0].from_world, glm::vec3(0, 1, 5));
+)")
+                            .value_or_throw();
+  EXPECT_EQ(timeline.duration, 5.5f);
+  EXPECT_EQ(timeline.exposure, -1.0f);
+  EXPECT_EQ(timeline.grid.size, glm::ivec3(120, 20, 120));
+  EXPECT_EQ(timeline.grid.origin_world, glm::vec3(-30, 0, -30.5f));
+  EXPECT_EQ(timeline.smoke.albedo, glm::vec3(0.9f, 0.8f, 0.7f));
+  EXPECT_EQ(timeline.smoke.multiple_scattering, 0.5f);
+  EXPECT_EQ(timeline.sky.ambient, glm::vec3(0.6f, 0.7f, 0.8f));
+  EXPECT_EQ(timeline.sky.stars, 2.0f);
+  ASSERT_EQ(timeline.camera.size(), 1u);
+  EXPECT_NEAR(timeline.camera[0].camera.vertical_fov, 0.785398f, 1e-5f);
+  ASSERT_EQ(timeline.shots.size(), 2u);
+  EXPECT_EQ(timeline.shots[0].time, 1.5) << "by time";
+  EXPECT_EQ(timeline.shots[1].times.stay, 0.75f);
+  EXPECT_EQ(timeline.shots[1].times.reach, 0.25f);
+  EXPECT_EQ(timeline.shots[0].flash, 25.0f);
+  EXPECT_EQ(timeline.shots[1].flash, 3.0f);
+  ASSERT_EQ(timeline.smokes.size(), 1u);
+  EXPECT_EQ(timeline.smokes[0].from_world, glm::vec3(0, 1, 5));
 }
 
 TEST(Timeline, SmokeHasEitherAnAnisotropyOrDroplets) {
-  const auto drops = parse(std::string(kHead) + "[smoke]\ndroplet = 8\n");
-  ASSERT_TRUE(drops) << drops.failure().message;
-  EXPECT_EQ(drops->smoke.droplet, 8.0f);
-  const auto neither = parse(std::string(kHead));
-  ASSERT_TRUE(neither) << neither.failure().message;
-  EXPECT_EQ(neither->smoke.droplet, std::nullopt);
+  const auto drops = parse(std::string(kHead) + "[smoke]\ndroplet = 8\n").value_or_throw();
+  EXPECT_EQ(drops.smoke.droplet, 8.0f);
+  const auto neither = parse(std::string(kHead)).value_or_throw();
+  EXPECT_EQ(neither.smoke.droplet, std::nullopt);
 }
 
 TEST(Timeline, NonAsciiOnlyInCommentsAndTexts) {
@@ -133,26 +130,26 @@ TEST(Timeline, ReadsBlastsMovesEditsAndDoors) {
             event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
             event("move", "time = 2\nbody = \"runner\"\nto = [4, 0, -1]") +
             event("edit", "time = 5\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = false") +
-            event("door", "time = 6\nobject = \"front door\"\nopen = true"));
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  ASSERT_EQ(timeline->blasts.size(), 2u);
-  EXPECT_EQ(timeline->blasts[0].time, 1);  // sorted by time
-  EXPECT_EQ(timeline->blasts[0].radius, 5.0f);
-  EXPECT_EQ(timeline->blasts[0].refill_middle, 2.0f);
-  EXPECT_EQ(timeline->blasts[1].at_world, glm::vec3(1, 2, 3));
-  EXPECT_EQ(timeline->blasts[1].remaining, 0.5f);
-  EXPECT_EQ(timeline->blasts[0].flash, 250.0f);
-  EXPECT_EQ(timeline->blasts[1].flash, 0.0f);
-  ASSERT_EQ(timeline->moves.size(), 1u);
-  EXPECT_EQ(timeline->moves[0].body, "runner");
-  EXPECT_EQ(timeline->moves[0].to_world, glm::vec3(4, 0, -1));
-  ASSERT_EQ(timeline->edits.size(), 1u);
-  EXPECT_EQ(timeline->edits[0].high_world, glm::vec3(1, 2, 3));
-  EXPECT_FALSE(timeline->edits[0].solid);
-  ASSERT_EQ(timeline->doors.size(), 1u);
-  EXPECT_EQ(timeline->doors[0].object, "front door");
-  EXPECT_TRUE(timeline->doors[0].open);
-  EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:30:10");
+            event("door", "time = 6\nobject = \"front door\"\nopen = true"))
+          .value_or_throw();
+  ASSERT_EQ(timeline.blasts.size(), 2u);
+  EXPECT_EQ(timeline.blasts[0].time, 1);  // sorted by time
+  EXPECT_EQ(timeline.blasts[0].radius, 5.0f);
+  EXPECT_EQ(timeline.blasts[0].refill_middle, 2.0f);
+  EXPECT_EQ(timeline.blasts[1].at_world, glm::vec3(1, 2, 3));
+  EXPECT_EQ(timeline.blasts[1].remaining, 0.5f);
+  EXPECT_EQ(timeline.blasts[0].flash, 250.0f);
+  EXPECT_EQ(timeline.blasts[1].flash, 0.0f);
+  ASSERT_EQ(timeline.moves.size(), 1u);
+  EXPECT_EQ(timeline.moves[0].body, "runner");
+  EXPECT_EQ(timeline.moves[0].to_world, glm::vec3(4, 0, -1));
+  ASSERT_EQ(timeline.edits.size(), 1u);
+  EXPECT_EQ(timeline.edits[0].high_world, glm::vec3(1, 2, 3));
+  EXPECT_FALSE(timeline.edits[0].solid);
+  ASSERT_EQ(timeline.doors.size(), 1u);
+  EXPECT_EQ(timeline.doors[0].object, "front door");
+  EXPECT_TRUE(timeline.doors[0].open);
+  EXPECT_EQ(timeline.doors[0].place, "scenes/t.toml:30:10");
 }
 
 TEST(Timeline, ReadsShotShapesAndTexts) {
@@ -190,16 +187,16 @@ spacing = 0.25
 interval = 0.125
 stay = 5
 roll = -45
-)");
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  EXPECT_EQ(timeline->smoke.hole_rim, 0.02f);
-  ASSERT_EQ(timeline->shots.size(), 2u);
-  EXPECT_EQ(timeline->shots[0].shape, ShotShape::mask);
-  EXPECT_EQ(timeline->shots[0].mask, std::filesystem::path("scenes/masks/star.png"));
-  EXPECT_NEAR(timeline->shots[0].roll, 1.5707963f, 1e-6f);
-  EXPECT_EQ(timeline->shots[1].shape, ShotShape::box);
-  ASSERT_EQ(timeline->texts.size(), 2u);
-  const TextEvent& text = timeline->texts[0];
+)")
+                            .value_or_throw();
+  EXPECT_EQ(timeline.smoke.hole_rim, 0.02f);
+  ASSERT_EQ(timeline.shots.size(), 2u);
+  EXPECT_EQ(timeline.shots[0].shape, ShotShape::mask);
+  EXPECT_EQ(timeline.shots[0].mask, std::filesystem::path("scenes/masks/star.png"));
+  EXPECT_NEAR(timeline.shots[0].roll, 1.5707963f, 1e-6f);
+  EXPECT_EQ(timeline.shots[1].shape, ShotShape::box);
+  ASSERT_EQ(timeline.texts.size(), 2u);
+  const TextEvent& text = timeline.texts[0];
   EXPECT_EQ(text.time, 2) << "by time";
   EXPECT_EQ(text.text, "a");
   EXPECT_EQ(text.from_world, glm::vec3(0, 1, 4));
@@ -211,8 +208,8 @@ roll = -45
   EXPECT_EQ(text.times.stay, 5);
   EXPECT_EQ(text.times.reach, 0.25f);
   EXPECT_NEAR(text.roll, -0.7853982f, 1e-6f);
-  EXPECT_EQ(timeline->texts[1].text, "BRUME \xc3\xa9");
-  EXPECT_TRUE(timeline->texts[1].font.empty());
+  EXPECT_EQ(timeline.texts[1].text, "BRUME \xc3\xa9");
+  EXPECT_TRUE(timeline.texts[1].font.empty());
 }
 
 /// Each kind of mistake, in full.

@@ -1,9 +1,7 @@
 #include "scene/files/timeline_writer.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <bit>
 #include <cmath>
 #include <fstream>
 
@@ -11,39 +9,14 @@
 #include "scene/event_fields.hpp"
 #include "scene/files/timeline_reader.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/scene/bits.hpp"
 #include "tests/scene/random_timeline.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The bits of all numbers of a timeline, for exact comparison.
-class Bits {
- public:
-  template <typename Member>
-  void operator()(const OptionInfo&, const Member& member) {
-    add(member);
-  }
-  void add(float v) { bits.push_back(std::bit_cast<std::uint32_t>(v)); }
-  void add(double v) { bits.push_back(std::bit_cast<std::uint64_t>(v)); }
-  void add(std::uint32_t v) { bits.push_back(v); }
-  void add(bool v) { bits.push_back(v); }
-  void add(const glm::vec3& v) { add(v.x), add(v.y), add(v.z); }
-  void add(const glm::ivec3& v) {
-    for (int axis = 0; axis < 3; ++axis) bits.push_back(static_cast<std::uint64_t>(v[axis]));
-  }
-  void add(const std::string& text) {
-    bits.push_back(text.size());
-    for (const char c : text) bits.push_back(static_cast<unsigned char>(c));
-  }
-  template <typename T>
-  void add(const std::optional<T>& v) {
-    add(v.has_value());
-    if (v) add(*v);
-  }
-  std::vector<std::uint64_t> bits;
-};
 
 /// The fields of an event: a visitor of scene/event_fields.hpp.
 struct EventBits {
@@ -144,12 +117,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
     b.add(static_cast<std::uint32_t>(list.size()));
     for (const auto& event : list) b.add(event.time), add_event(b, event);
   };
-  b.add(static_cast<std::uint32_t>(timeline.camera.size()));
-  for (const CameraKey& key : timeline.camera) {
-    b.add(key.time), b.add(key.camera.position_world), b.add(key.camera.target_world);
-    visit_camera_options(key.camera, b);
-    b.add(key.camera.lens.opening.string());
-  }
+  add_camera(b, timeline.camera);
   add_all(timeline.smokes), add_all(timeline.shots), add_all(timeline.texts), add_all(timeline.blasts);
   add_all(timeline.moves), add_all(timeline.edits), add_all(timeline.doors);
   return b.bits;
@@ -159,10 +127,9 @@ TEST(TimelineWriter, RandomTimelinesRoundTripBitForBit) {
   for (std::uint32_t seed = 0; seed < (kSanitized ? 400 : 2000); ++seed) {
     const Timeline timeline = random_timeline(seed);
     const std::string text = format_timeline(timeline, "scenes");
-    const auto read = parse_timeline(text, "scenes/t.toml");
-    ASSERT_TRUE(read) << read.failure().message << "\n" << text;
-    ASSERT_EQ(bits_of(*read), bits_of(timeline)) << "seed " << seed << "\n" << text;
-    ASSERT_EQ(format_timeline(*read, "scenes"), text);
+    const auto read = parse_timeline(text, "scenes/t.toml").value_or_throw();
+    ASSERT_EQ(bits_of(read), bits_of(timeline)) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(format_timeline(read, "scenes"), text);
   }
 }
 
@@ -176,9 +143,8 @@ TEST(TimelineWriter, TheExtinctionOfAVolumeWithMasksRoundTrips) {
     timeline.volumes[0].extinction = extinction;
     timeline.volumes[0].masks.resize(1);
     timeline.volumes[0].masks[0].grid = "fire";
-    const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml");
-    ASSERT_TRUE(read) << read.failure().message;
-    EXPECT_EQ(read->volumes[0].extinction, extinction);
+    const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml").value_or_throw();
+    EXPECT_EQ(read.volumes[0].extinction, extinction);
   }
 }
 
@@ -188,9 +154,8 @@ TEST(TimelineWriter, ADisturbanceWithoutStrengthKeepsItsOtherSettings) {
   timeline.volumes.resize(1);
   timeline.volumes[0].file = "a.vdb";
   timeline.volumes[0].disturbance.size = 0.5f;
-  const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml");
-  ASSERT_TRUE(read) << read.failure().message;
-  EXPECT_EQ(read->volumes[0].disturbance, timeline.volumes[0].disturbance);
+  const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml").value_or_throw();
+  EXPECT_EQ(read.volumes[0].disturbance, timeline.volumes[0].disturbance);
 }
 
 TEST(TimelineWriter, EveryAngleRoundTripsBitForBit) {
@@ -211,11 +176,10 @@ TEST(TimelineWriter, EveryAngleRoundTripsBitForBit) {
     shot.roll = static_cast<float>((draw.share() - 0.5) * 12.56);
     timeline.shots.push_back(shot);
   }
-  const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml");
-  ASSERT_TRUE(read) << read.failure().message;
-  ASSERT_EQ(read->shots.size(), timeline.shots.size());
+  const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml").value_or_throw();
+  ASSERT_EQ(read.shots.size(), timeline.shots.size());
   for (std::size_t i = 0; i < timeline.shots.size(); ++i)
-    ASSERT_EQ(read->shots[i].roll, timeline.shots[i].roll) << i;
+    ASSERT_EQ(read.shots[i].roll, timeline.shots[i].roll) << i;
 }
 
 TEST(TimelineWriter, WritesReadableText) {
@@ -269,11 +233,9 @@ roll = 12.5
 )");
 }
 
-/// A temporary folder, removed with its contents.
 class TimelineFile : public testing::Test {
  protected:
-  TimelineFile()
-      : folder(fs::canonical(fs::temp_directory_path()) / ("brume_timelines_" + std::to_string(::getpid()))) {
+  TimelineFile() {
     fs::create_directories(folder / "out");
     fs::create_directories(folder / "one");
     fs::create_directories(folder / "two");
@@ -281,7 +243,6 @@ class TimelineFile : public testing::Test {
     put(folder / "two/star.png", "second");
     put(folder / "out/near.png", "third");
   }
-  ~TimelineFile() override { fs::remove_all(folder); }
   static void put(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
   static std::string contents(const fs::path& path) { return read_text_file(path).value_or_throw(); }
   static ShotEvent masked(const fs::path& mask) {
@@ -290,7 +251,8 @@ class TimelineFile : public testing::Test {
     shot.mask = mask;
     return shot;
   }
-  fs::path folder;
+  const cli::WorkFolder work_folder;
+  const fs::path folder = fs::canonical(work_folder.path());
 };
 
 TEST_F(TimelineFile, CopiesItsImagesAndFonts) {

@@ -101,9 +101,9 @@ opacity = [[0, 0], [0.5, 0.25], [0.5, 1]]
 color_map = [[0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.5, 1.0]]
 glow = 0.75
 )",
-                                       "t.toml");
-  ASSERT_TRUE(timeline) << timeline.failure().message;
-  const VolumeOptions& volume = timeline->volumes.at(0);
+                                       "t.toml")
+                            .value_or_throw();
+  const VolumeOptions& volume = timeline.volumes.at(0);
   EXPECT_EQ(volume.color, "Cd");
   EXPECT_EQ(volume.range, glm::vec2(10, 20.5f));
   EXPECT_EQ(volume.opacity, (Curve{{0, 0}, {0.5f, 0.25f}, {0.5f, 1}}));
