@@ -111,6 +111,13 @@ inline sim::World world_of(const voxel::BitGrid& level, const std::vector<sim::E
   return world;
 }
 
+/// The smoke of one throw in a yard of at least 24 x 12 x 24 voxels, and more.
+inline sim::World one_smoke(const voxel::BitGrid& level, std::vector<sim::Event> more = {}) {
+  more.insert(more.begin(),
+              sim::ThrowSmoke{0, centre_of(level, {12, 3, 4}), centre_of(level, {12, 1, 12}), {300}});
+  return world_of(level, more);
+}
+
 /// Whether hashes and the densities of all voxels are equal.
 inline void expect_same(const sim::State& got, const sim::State& expected) {
   ASSERT_EQ(got.hash(), expected.hash()) << "tick " << expected.tick;

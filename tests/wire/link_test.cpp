@@ -132,8 +132,7 @@ TEST(Link, ReorderingDuplicationAndDamageEndBitEqual) {
 
 TEST(Sender, SendsTheMissingState) {
   const voxel::BitGrid level = yard({24, 12, 24});
-  sim::World world = world_of(
-      level, {sim::ThrowSmoke{0, centre_of(level, {12, 3, 4}), centre_of(level, {12, 1, 12}), {300}}});
+  sim::World world = one_smoke(level);
   Sender sender(SenderSettings{.history = 50});
   const auto ask = [&](const Request& request) { return *sender.answer(write_request(request)); };
   EXPECT_FALSE(sender.answer(write_request({}))) << "nothing pushed yet";

@@ -8,6 +8,7 @@
 #include "core/hash.hpp"
 #include "sim/event_fields.hpp"
 #include "tests/wire/busy_world.hpp"
+#include "tests/work_folder.hpp"
 #include "wire/event_log.hpp"
 #include "wire/packet.hpp"
 
@@ -31,9 +32,8 @@ TEST(EventLog, RoundTripsABusyMatch) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const auto events = busy_match(level, seed, 1000, 1800);
     const Bytes bytes = write_events(events, level.layout());
-    const auto back = read_events(bytes, level.layout());
-    ASSERT_TRUE(back) << back.failure().message;
-    EXPECT_EQ(*back, events);
+    const auto back = read_events(bytes, level.layout()).value_or_throw();
+    EXPECT_EQ(back, events);
   }
   const auto none = read_events(write_events({}, level.layout()), level.layout());
   ASSERT_TRUE(none);
@@ -77,19 +77,18 @@ TEST(Replay, RoundTripsAndPlays) {
     const Replay replay = recorded(level, busy_match(level, 1, 200, 100), 250);
     const auto bytes = encode_replay(replay);
     ASSERT_TRUE(bytes);
-    const auto back = decode_replay(*bytes);
-    ASSERT_TRUE(back) << back.failure().message;
-    EXPECT_EQ(back->events, replay.events);
-    EXPECT_EQ(back->checksums, replay.checksums);
-    EXPECT_EQ(back->level.layout(), level.layout());
-    EXPECT_EQ(back->settings.masks, kBusySettings.masks);
-    EXPECT_TRUE(sim::difference(back->level, level, glm::ivec3(0), size).empty());
+    const auto back = decode_replay(*bytes).value_or_throw();
+    EXPECT_EQ(back.events, replay.events);
+    EXPECT_EQ(back.checksums, replay.checksums);
+    EXPECT_EQ(back.level.layout(), level.layout());
+    EXPECT_EQ(back.settings.masks, kBusySettings.masks);
+    EXPECT_TRUE(sim::difference(back.level, level, glm::ivec3(0), size).empty());
     std::uint32_t ticks = 0;
-    const auto divergence = play(*back, [&](const sim::State& state) { EXPECT_EQ(state.tick, ticks++); });
+    const auto divergence = play(back, [&](const sim::State& state) { EXPECT_EQ(state.tick, ticks++); });
     ASSERT_TRUE(divergence);
     EXPECT_FALSE(*divergence);
     EXPECT_EQ(ticks, 250u);
-    EXPECT_EQ(*encode_replay(*back), *bytes);
+    EXPECT_EQ(*encode_replay(back), *bytes);
   }
 }
 
@@ -139,8 +138,8 @@ TEST(Replay, RejectsDamage) {
 }
 
 TEST(Replay, FileErrorsNameTheFile) {
-  const auto folder = std::filesystem::temp_directory_path() / "brume_replay_test";
-  std::filesystem::create_directories(folder);
+  const cli::WorkFolder work_folder;
+  const auto folder = work_folder.path();
   const voxel::BitGrid level = yard({12, 6, 12});
   const Replay replay = recorded(level, {}, 5);
   ASSERT_TRUE(save_replay(folder / "a.brp", replay));
@@ -153,7 +152,6 @@ TEST(Replay, FileErrorsNameTheFile) {
   EXPECT_NE(bad.failure().message.find("b.brp"), std::string::npos);
   EXPECT_FALSE(load_replay(folder / "none.brp"));
   EXPECT_FALSE(save_replay(folder / "none" / "a.brp", replay));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
