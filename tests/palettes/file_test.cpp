@@ -44,11 +44,10 @@ TEST(Gpl, NamesTheLineOfAFault) {
 }
 
 TEST(Json, IsRead) {
-  const auto palette = parse_json(kJson, "a.json");
-  ASSERT_TRUE(palette) << palette.failure().message;
-  EXPECT_EQ(palette->name, "Sea of \"ice\"");
-  EXPECT_EQ(palette->kind, Kind::qualitative);
-  EXPECT_EQ(palette->colors, (Colors{{0, 10, 255}, {255, 255, 255}}));
+  const auto palette = parse_json(kJson, "a.json").value_or_throw();
+  EXPECT_EQ(palette.name, "Sea of \"ice\"");
+  EXPECT_EQ(palette.kind, Kind::qualitative);
+  EXPECT_EQ(palette.colors, (Colors{{0, 10, 255}, {255, 255, 255}}));
   const auto list = parse_json(" [\"#010203\" , \"#040506\"] ", "a.json");
   ASSERT_TRUE(list);
   EXPECT_EQ(list->colors, (Colors{{1, 2, 3}, {4, 5, 6}}));
@@ -164,10 +163,9 @@ TEST(PaletteFiles, AreChosenByTheirPath) {
   const std::string gpl = folder + "/palette_test.GPL", json = folder + "/palette_test.json";
   std::ofstream(gpl) << kGpl;
   std::ofstream(json) << "[\"#010203\",\"#040506\"]";
-  const auto part = parse_palette_choice(gpl + ":0.2-0.6");
-  ASSERT_TRUE(part) << part.failure().message;
-  EXPECT_EQ(part->palette.name, "Sea of ice");
-  EXPECT_EQ(part->low, 0.2);
+  const auto part = parse_palette_choice(gpl + ":0.2-0.6").value_or_throw();
+  EXPECT_EQ(part.palette.name, "Sea of ice");
+  EXPECT_EQ(part.low, 0.2);
   const auto whole = parse_palette_choice(json);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->palette.name, "palette_test") << "that of the file";

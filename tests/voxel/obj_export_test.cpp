@@ -91,13 +91,12 @@ Obj parse(const std::string& text) {
 TEST(ExportObj, IsClosedAndFacesOutward) {
   const auto path = std::filesystem::path(testing::TempDir()) / "brume_voxels.obj";
   const BitGrid grid = random_grid(3, {9, 20, 11}, 3);
-  const auto counts = export_obj(grid, path);
-  ASSERT_TRUE(counts) << counts.failure().message;
+  const auto counts = export_obj(grid, path).value_or_throw();
   const auto text = read_text_file(path);
   ASSERT_TRUE(text);
   const Obj obj = parse(*text);
-  EXPECT_EQ(obj.vertices.size(), counts->vertices);
-  EXPECT_EQ(obj.quads.size(), counts->quads);
+  EXPECT_EQ(obj.vertices.size(), counts.vertices);
+  EXPECT_EQ(obj.quads.size(), counts.quads);
   // Closed and outward: the area vectors sum to zero, and the volume by the divergence theorem is that of the
   // voxels.
   glm::dvec3 flux(0);
@@ -115,8 +114,8 @@ TEST(ExportObj, IsClosedAndFacesOutward) {
   }
   EXPECT_EQ(flux, glm::dvec3(0));
   EXPECT_NEAR(volume, 0.125 * static_cast<double>(grid.count_solid()), 1e-6);
-  EXPECT_NEAR(area, 0.25 * static_cast<double>(counts->faces), 1e-6);
-  EXPECT_EQ(counts->faces, brute_force_faces(grid).size());
+  EXPECT_NEAR(area, 0.25 * static_cast<double>(counts.faces), 1e-6);
+  EXPECT_EQ(counts.faces, brute_force_faces(grid).size());
   std::filesystem::remove(path);
 }
 
