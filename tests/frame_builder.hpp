@@ -8,6 +8,16 @@
 
 namespace brume::planning {
 
+/// A volume of one brick at the origin, whose values do not matter.
+inline volume::SparseVolume one_brick() {
+  volume::SparseVolume volume({{}, 1, {{2}}});
+  volume.begin_update();
+  volume.acquire({0, 0, 0});
+  volume.set_bounds(glm::vec3(0), glm::vec3(8));
+  volume.end_update();
+  return volume;
+}
+
 /// What the input refers to must outlive it.
 class FrameBuilder {
  public:

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "grids/metadata.hpp"
 #include "spheres/color.hpp"
 #include "spheres/file.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
 #include "tests/log_lines.hpp"

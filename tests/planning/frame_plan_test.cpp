@@ -103,11 +103,7 @@ TEST_F(FramePlanTest, EditsAndHiddenObjectsOfTheLevelReachWhatTheyMayChange) {
 
 // Light in such a volume is never found, but its shadow is marched.
 TEST_F(FramePlanTest, ShadowsFollowAVolumeThatScattersNothing) {
-  volume::SparseVolume volume({{}, 1, {{2}}});
-  volume.begin_update();
-  volume.acquire({0, 0, 0});
-  volume.set_bounds(glm::vec3(0), glm::vec3(8));
-  volume.end_update();
+  const volume::SparseVolume volume = one_brick();
   input_.volumes = {{&volume, glm::mat4(1), {glm::vec3(0), 1, glm::vec3(0), 0, 0}, {}}};
   EXPECT_TRUE(plan().smoke_shadows);
   EXPECT_FALSE(plan().smoke_shadows);

@@ -11,16 +11,13 @@
 
 #include "planning/device_camera.hpp"
 #include "shared/phase.h"
+#include "tests/frame_builder.hpp"
 
 namespace brume::planning {
 namespace {
 
 TEST(MediaPlan, MarchesAVolumeThatIsOpaqueWithinAVoxelByHalfAVoxel) {
-  volume::SparseVolume volume({{}, 1, {{2}}});
-  volume.begin_update();
-  volume.acquire({0, 0, 0});
-  volume.set_bounds(glm::vec3(0), glm::vec3(8));
-  volume.end_update();
+  const volume::SparseVolume volume = one_brick();
   FrameInput input;
   input.view.camera = {{4, 4, 30}, {4, 4, 4}, 0.9f};
   input.volumes = {{&volume, glm::mat4(1), {glm::vec3(1), 1, glm::vec3(0), 0, 1}, {}}};
@@ -34,15 +31,6 @@ TEST(MediaPlan, MarchesAVolumeThatIsOpaqueWithinAVoxelByHalfAVoxel) {
     EXPECT_EQ(plan.volumes[0].instance.is_dense, dense ? 1u : 0u);
     EXPECT_EQ(plan.frame.step_length, input.quality.step_scale * (dense ? 0.5f : 1.0f));
   }
-}
-
-volume::SparseVolume one_brick() {
-  volume::SparseVolume volume({{}, 1, {{2}}});
-  volume.begin_update();
-  volume.acquire({0, 0, 0});
-  volume.set_bounds(glm::vec3(0), glm::vec3(8));
-  volume.end_update();
-  return volume;
 }
 
 /// The boxes of a frame.

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "scenario/scenario.hpp"
-#include "scene/load.hpp"
+#include "scene/files/load.hpp"
 #include "tests/log_lines.hpp"
 #include "tests/work_folder.hpp"
 

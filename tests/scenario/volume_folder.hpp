@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::scenario {

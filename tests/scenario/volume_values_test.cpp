@@ -5,7 +5,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/volume_view.hpp"
 #include "tests/log_lines.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "grids/files.hpp"
+#include "grids/files/grid_files.hpp"
 #include "scenario/scenario.hpp"
 #include "tests/log_lines.hpp"
 #include "tests/scenario/volume_folder.hpp"
