@@ -19,6 +19,7 @@ InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan&
     key.add(input.smoke.look.albedo);
     key.add(input.smoke.look.extinction);
     key.add(input.smoke.look.erosion);
+    key.add(input.smoke.look.noise_frequency);
     key.add(input.smoke.look.detail);
     key.add(input.smoke.look.multiple_scattering);
     key.add(input.smoke.look.phase);

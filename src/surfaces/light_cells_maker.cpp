@@ -11,8 +11,11 @@
 namespace brume::surfaces {
 namespace {
 
-LightCells make_cells(const scene::Scene& scene, const planning::LevelState& level,
+/// What moves or flies is left out: cells that it entered would be made again in every frame.
+LightCells make_cells(const scene::Scene& scene, const std::vector<std::uint32_t>& hidden_objects,
                       const voxel::BitGrid& grid) {
+  planning::LevelState level;
+  level.hidden_objects = hidden_objects;
   const Surfaces surfaces(scene, {&level, 1});
   return make_light_cells(grid, surfaces);
 }
@@ -31,9 +34,7 @@ struct LightCellsMaker::Expected {
     const LogScope log_scope(log);
     const ThreadCountScope count(threads);
     try {
-      planning::LevelState state;
-      state.hidden_objects = level->hidden_objects;
-      cells = make_cells(scene, state, level->opaque);
+      cells = make_cells(scene, level->hidden_objects, level->opaque);
     } catch (...) {
       // Whoever needs the cells meets the same failure.
     }
@@ -41,7 +42,7 @@ struct LightCellsMaker::Expected {
     is_done.notify_all();
   }
   bool is(const planning::LevelState& state) const {
-    return state.moved.empty() && state.grenades.empty() && state.hidden_objects == level->hidden_objects &&
+    return state.hidden_objects == level->hidden_objects &&
            voxel::same_voxels(*state.voxels.light_grid(), level->opaque);
   }
 
@@ -64,7 +65,7 @@ LightCells LightCellsMaker::make(const planning::LevelState& level) {
     was_expected_ = expected->cells.has_value();
     if (was_expected_) return std::move(*expected->cells);
   }
-  return make_cells(scene_, level, *level.voxels.light_grid());
+  return make_cells(scene_, level.hidden_objects, *level.voxels.light_grid());
 }
 
 void LightCellsMaker::expect(const std::shared_ptr<const planning::NextLevel>& level) {

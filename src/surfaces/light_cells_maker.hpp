@@ -16,8 +16,8 @@ class LightCellsMaker {
   LightCellsMaker(const LightCellsMaker&) = delete;
   LightCellsMaker& operator=(const LightCellsMaker&) = delete;
 
-  /// The cells of a level with a grid: the same whether they were expected or not. Throws what Surfaces
-  /// throws.
+  /// The cells of a level with a grid, without objects that move and grenades: the same whether they were
+  /// expected or not. Throws what Surfaces throws.
   LightCells make(const planning::LevelState& level);
   /// Begins to make the cells of a level in a thread of its own, unless it is making others. null: none.
   void expect(const std::shared_ptr<const planning::NextLevel>& level);

@@ -50,12 +50,7 @@ class FrameInputTest : public VolumeFixture {
         scenario_of(make_scene(), {}, {{32, 16, 32}, 0.25f, {-4, -0.5f, -4}}).voxels.grid;
     return instance;
   }
-  /// Draws the fields' frames, and remembers; the other one forgets before each frame.
-  static Renderer& remembers() {
-    static Renderer instance(context(), runner(), scene(), RendererOptions{kSize});
-    return instance;
-  }
-  static Renderer& forgets() {
+  static Renderer& renderer() {
     static Renderer instance(context(), runner(), scene(), RendererOptions{kSize});
     return instance;
   }
@@ -111,25 +106,44 @@ class FrameInputTest : public VolumeFixture {
     std::vector<std::uint32_t> display;
     bool operator==(const Picture&) const = default;
   };
-  static Picture draw(Renderer& renderer, const FrameInput& input) {
-    renderer.draw(input);
-    return {read_back<std::uint64_t>(renderer.media()), read_back<std::uint64_t>(renderer.targets().radiance),
-            read_back<std::uint32_t>(renderer.targets().display)};
+  static Picture draw(const FrameInput& input) {
+    renderer().draw(input);
+    return {read_back<std::uint64_t>(renderer().media()),
+            read_back<std::uint64_t>(renderer().targets().radiance),
+            read_back<std::uint32_t>(renderer().targets().display)};
   }
-  void expect_rows(const std::vector<FieldChange>& rows) {
+  /// By a renderer that remembers nothing.
+  static Picture draw_first(const FrameInput& input) {
+    renderer().invalidate_level();
+    return draw(input);
+  }
+  /// By one that remembers the level alone: its cells of indirect light take longer than the frame.
+  static Picture draw_rebuilt(FrameInput input) {
+    input.quality.rebuild_light = true;
+    return draw(input);
+  }
+  /// Draws each change alone, then goes back to the frame without it, whose picture is known.
+  void expect_rows(const std::vector<FieldChange>& rows,
+                   const std::function<Picture(const FrameInput&)>& draw_alone = draw_first) {
+    const Picture plain = draw_alone(input_);
     for (const FieldChange& row : rows) {
       SCOPED_TRACE(row.field);
       FrameInput before = input_;
       if (row.given) row.given(before);
       FrameInput after = before;
       row.change(after);
-      const Picture first = draw(remembers(), before), second = draw(remembers(), after);
-      forgets().invalidate_level();
-      const Picture fresh = draw(forgets(), after);
-      EXPECT_TRUE(second == fresh) << "another picture than without a frame before";
+      const Picture first = row.given ? draw_alone(before) : plain, second = draw_alone(after);
+      EXPECT_TRUE(draw(before) == first) << "another picture than without a frame before";
       EXPECT_EQ(second == first, row.shows_nothing != nullptr)
           << (row.shows_nothing ? row.shows_nothing : "the field shows nothing");
     }
+  }
+  /// The same with light that surfaces and media pass on to each other, too.
+  void expect_rows_of_bounced_light(const std::vector<FieldChange>& rows) {
+    expect_rows(rows);
+    SCOPED_TRACE("bounces = 1");
+    input_.environment.bounces = 1;
+    expect_rows(rows, draw_rebuilt);
   }
   /// The slices of the frame, and others of one value.
   std::shared_ptr<const grids::DenseVolumes> two_slices() const {
@@ -161,11 +175,11 @@ class FrameInputTest : public VolumeFixture {
   }
 
   static const RestingSmoke& smoke() {
-    static const RestingSmoke instance(level(), {}, {-1.2, 0.6, 0.4}, 500);
+    static const RestingSmoke instance(level(), {}, {-1.2, 0.6, 0.4}, 200);
     return instance;
   }
   static const RestingSmoke& other_smoke() {
-    static const RestingSmoke instance(level(), {}, {0.4, 0.6, 1.4}, 300);
+    static const RestingSmoke instance(level(), {}, {0.4, 0.6, 1.4}, 120);
     return instance;
   }
   const volume::SparseVolume cloud_ = values({2, 2, 2}, [](glm::vec3 p) { return p.x > 6 ? 0.9f : 0.5f; });
@@ -227,15 +241,13 @@ TEST_F(FrameInputTest, TheView) {
 TEST_F(FrameInputTest, TheMeanOfTwoSamplesIsAnotherPictureThanTheSecond) {
   FrameInput second = input_;
   second.view.sample = {{0.4f, 0.4f}, {}, 1, 2};
+  FrameInput alone = second;
+  alone.view.sample.index = 0;
   FrameInput first = input_;
   first.view.sample.count = 2;
-  const Picture alone = draw(forgets(), [&] {
-    FrameInput input = second;
-    input.view.sample.index = 0;
-    return input;
-  }());
-  draw(remembers(), first);
-  EXPECT_FALSE(draw(remembers(), second) == alone) << "sample.index";
+  const Picture of_second = draw_first(alone);
+  draw(first);
+  EXPECT_FALSE(draw(second) == of_second) << "sample.index";
 }
 
 TEST_F(FrameInputTest, TheEnvironment) {
@@ -277,6 +289,16 @@ TEST_F(FrameInputTest, TheLevel) {
   for_each_in(Box<int>{{8, 2, 20}, {24, 10, 22}}, [&](glm::ivec3 v) { walled.set(v, true); });
   voxel::BitGrid without_wall = level();
   for_each_in(Box<int>{{0, 2, 0}, {32, 16, 8}}, [&](glm::ivec3 v) { without_wall.set(v, false); });
+  const FieldChange moves{
+      "moved",
+      [](FrameInput& input) {
+        input.level.hidden_objects = {1};
+        input.level.moved = {{1, glm::translate(glm::mat4(1), glm::vec3(2.2f, 0.3f, 1.5f))}};
+      },
+      [](FrameInput& input) {
+        input.level.hidden_objects = {1};
+        input.level.moved = {{1, scene().objects[1].world_from_mesh}};
+      }};
   expect_rows({
       {"voxels.grid, voxels.edits",
        [&](FrameInput& input) {
@@ -285,15 +307,7 @@ TEST_F(FrameInputTest, TheLevel) {
       {"hidden_objects", [](FrameInput& input) { input.level.hidden_objects = {1}; }},
       {"grenades",
        [](FrameInput& input) { input.level.grenades = {glm::translate(glm::mat4(1), glm::vec3(0, 1, 3))}; }},
-      {"moved",
-       [](FrameInput& input) {
-         input.level.hidden_objects = {1};
-         input.level.moved = {{1, glm::translate(glm::mat4(1), glm::vec3(2.2f, 0.3f, 1.5f))}};
-       },
-       [](FrameInput& input) {
-         input.level.hidden_objects = {1};
-         input.level.moved = {{1, scene().objects[1].world_from_mesh}};
-       }},
+      moves,
       {"next",
        [&](FrameInput& input) {
          input.level.next = std::make_shared<const planning::NextLevel>(planning::NextLevel{walled, {}});
@@ -301,13 +315,12 @@ TEST_F(FrameInputTest, TheLevel) {
        {},
        "it never decides what is shown"},
   });
+  input_.environment.bounces = 1;
+  expect_rows({moves});
   // Edits say where a level changed: other voxels elsewhere are another level.
   FrameInput other = input_;
   other.level.voxels.opaque = &without_wall;
-  const Picture first = draw(remembers(), input_);
-  remembers().invalidate_level();
-  EXPECT_FALSE(draw(remembers(), other) == first) << "voxels.opaque";
-  remembers().invalidate_level();
+  EXPECT_FALSE(draw_first(input_) == draw_first(other)) << "voxels.opaque";
 }
 
 TEST_F(FrameInputTest, TheSmoke) {
@@ -330,7 +343,7 @@ TEST_F(FrameInputTest, TheSmoke) {
     input.smoke.look.extinction = 4;
   };
   const auto with_hole = [this](FrameInput& input) { input.smoke.holes = {&hole_, 1}; };
-  expect_rows({
+  expect_rows_of_bounced_light({
       {"volume", [](FrameInput& input) { other_smoke().show_in(input); }},
       {"volume = null", [](FrameInput& input) { input.smoke.volume = nullptr; }},
       {"state", [](FrameInput& input) { input.smoke.state = nullptr; }},
@@ -371,7 +384,7 @@ TEST_F(FrameInputTest, Volumes) {
   [[maybe_unused]] const auto& [amount, size, drift, grow] = noise;
   [[maybe_unused]] const auto& [detail_from_file, detail_noise, densest, detail_time] = detail;
   [[maybe_unused]] const auto& [wear, billow, wind] = detail_noise;
-  expect_rows({
+  expect_rows_of_bounced_light({
       {"volumes", [](FrameInput& input) { input.volumes.clear(); }},
       {"volume", [this](FrameInput& input) { volume(input).volume = &preview_; }},
       {"world_from_voxel", [](FrameInput& input) { volume(input).world_from_voxel[3].y += 0.3f; }},
@@ -397,7 +410,7 @@ TEST_F(FrameInputTest, WhatGlowsInVolumes) {
   const auto tinted = field<std::uint64_t>({2, 2, 2}, [](glm::vec3 p) {
     return glm::packHalf4x16({p.x / 16, 0.5f, 0.2f, 0});
   });
-  expect_rows({
+  expect_rows_of_bounced_light({
       {"heat", add_heat},
       {"heat.world_from_voxel", [](FrameInput& input) { volume(input).heat.world_from_voxel[3].x += 0.4f; },
        add_heat},
@@ -424,8 +437,9 @@ TEST_F(FrameInputTest, WhatGlowsInVolumes) {
 }
 
 TEST_F(FrameInputTest, NoiseInVolumes) {
+  expect_rows_of_bounced_light({{"disturbance", add_disturbance}, {"detail", add_detail}});
+  input_.environment.bounces = 0;
   expect_rows({
-      {"disturbance", add_disturbance},
       {"disturbance.voxel_from_file",
        [](FrameInput& input) { volume(input).disturbance.voxel_from_file[0][0] = 2; }, add_disturbance},
       {"disturbance.noise.size", [](FrameInput& input) { volume(input).disturbance.noise.size = 3; },
@@ -438,7 +452,6 @@ TEST_F(FrameInputTest, NoiseInVolumes) {
       {"disturbance.noise.grow", [](FrameInput& input) { volume(input).disturbance.noise.grow = 12; },
        add_disturbance},
       {"disturbance.time", [](FrameInput& input) { volume(input).disturbance.time = 2; }, add_disturbance},
-      {"detail", add_detail},
       {"detail.voxel_from_file", [](FrameInput& input) { volume(input).detail.voxel_from_file[0][0] = 2; },
        add_detail},
       {"detail.noise.size", [](FrameInput& input) { volume(input).detail.noise.size = 3; }, add_detail},
