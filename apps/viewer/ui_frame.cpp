@@ -114,15 +114,17 @@ bool lay_out_work(const Work& work) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
   ImGui::Text("%s, %.0f s", work.title.c_str(), work.seconds);
-  if (work.progress && work.progress->total > 0) {
-    const Progress::State& now = *work.progress;
-    lay_out_progress(static_cast<double>(now.done) / static_cast<double>(now.total),
-                     0.7f * ImGui::GetFontSize());
-    char left[48] = "";
-    if (now.seconds_left() >= 0) std::snprintf(left, sizeof left, ", %.0f s left", now.seconds_left());
+  // As high without progress as with it: the button keeps its place.
+  const Progress::State now = work.progress.value_or(Progress::State{});
+  lay_out_progress(now.total > 0 ? static_cast<double>(now.done) / static_cast<double>(now.total) : 0,
+                   0.7f * ImGui::GetFontSize());
+  char left[48] = "";
+  if (now.seconds_left() >= 0) std::snprintf(left, sizeof left, ", %.0f s left", now.seconds_left());
+  if (now.total > 0)
     ImGui::TextDisabled("%s: %s of %s%s", now.name.c_str(), grouped(now.done).c_str(),
                         grouped(now.total).c_str(), left);
-  }
+  else
+    ImGui::TextDisabled("begins...");
 
   // The button, until it was pressed.
   bool stops = false;
