@@ -95,6 +95,17 @@ class Visibility(AddonCase):
         self.assertEqual((bpy.context.selected_objects, bpy.context.view_layer.objects.active), ([other], other))
 
 
+class Again(AddonCase):
+    """An export writes the whole timeline."""
+
+    def test_tables_that_were_added_by_hand_are_replaced(self):
+        first = self.export()
+        path = os.path.join(self.folder, "level.toml")
+        with open(path, "a", encoding="utf-8") as file:
+            file.write('\n[[tank]]\nfile = "reef.toml"\nposition = [0.0, 1.0, 0.0]\n')
+        self.assertEqual(self.export(), first)
+
+
 class Lens(AddonCase):
     """Depth of field of the camera."""
 
