@@ -10,19 +10,15 @@
 namespace brume::viewer {
 namespace {
 
+/// What undo calls an action that changes the timeline.
 const char* name_of_event(Action action) {
-  switch (action) {
-    case Action::throw_smoke:
-      return "smoke";
-    case Action::shoot:
-      return "shot";
-    case Action::blast:
-      return "explosion";
-    case Action::door:
-      return "door";
-    default:
-      return "all actions removed";
-  }
+  const char* const type = event_type(action);
+  if (!type) return "all actions removed";
+  const char* name = type;
+  for_each_weapon([&](const WeaponEvent& weapon, auto) {
+    if (std::string_view(weapon.type) == type) name = weapon.name;
+  });
+  return name;
 }
 
 }  // namespace
@@ -58,13 +54,16 @@ void Game::perform(Action action, glm::vec3 aim_world) {
   settle();
   const glm::vec3 eye = player_.camera().position_world;
   bool done = false;
-  if (action == Action::throw_smoke) done = report(session_->throw_smoke(eye, aim_world));
-  if (action == Action::shoot) done = report(session_->shoot(eye, aim_world, choices_.weapons));
-  if (action == Action::blast) done = report(session_->blast(eye, aim_world, choices_.weapons));
-  if (action == Action::door) {
+  if (action == kThrowSmoke) {
+    done = report(session_->throw_smoke(eye, aim_world));
+  } else if (action == kShoot) {
+    done = report(session_->shoot(eye, aim_world, choices_.weapons));
+  } else if (action == kUseDoor) {
     const auto door = session_->use_door(eye);
     notify_(door ? *door : door.failure().message);
     done = bool(door);
+  } else if (const char* const type = event_type(action)) {
+    done = report(session_->set_off(type, eye, aim_world, choices_.weapons));
   }
   if (action == Action::empty) {
     done = session_->actions() > 0 && report(session_->empty());
@@ -224,9 +223,7 @@ void Game::choose(Action action) {
 }
 
 void Game::act(Action action, glm::vec3 aim_world) {
-  constexpr std::array kEvents{Action::throw_smoke, Action::shoot, Action::blast, Action::door,
-                               Action::empty};
-  if (std::find(kEvents.begin(), kEvents.end(), action) != kEvents.end()) return perform(action, aim_world);
+  if (event_type(action) || action == Action::empty) return perform(action, aim_world);
   choose(action);
   if (action == Action::add_key) add_carrier_key();
   if (action == Action::undo || action == Action::redo) step_history(action);

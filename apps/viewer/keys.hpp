@@ -5,10 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "scene/events.hpp"
 
 namespace brume::viewer {
 
+/// Commands of the player; behind them, an action for each kind of event (event_action).
 enum class Action {
   forward,
   back,
@@ -16,8 +20,6 @@ enum class Action {
   right,
   up,
   down,
-  throw_smoke,
-  shoot,
   free_cursor,
   toggle_cursor,
   fly,
@@ -27,8 +29,6 @@ enum class Action {
   shape_glyph,
   shape_word,
   shape_picture,
-  blast,
-  door,
   probe,
   rewind,
   empty,
@@ -54,7 +54,36 @@ enum class Action {
   close_popup,
   count,
 };
-constexpr std::size_t kActions = static_cast<std::size_t>(Action::count);
+/// The type of an event in timelines by its place among the kinds; null: there are no more.
+constexpr const char* event_type(std::size_t kind) {
+  const char* found = nullptr;
+  scene::for_each_event_kind([&](const char* type, auto) {
+    if (kind-- == 0) found = type;
+  });
+  return found;
+}
+constexpr std::size_t count_event_kinds() {
+  std::size_t count = 0;
+  while (event_type(count)) ++count;
+  return count;
+}
+constexpr std::size_t kCommands = static_cast<std::size_t>(Action::count);
+constexpr std::size_t kActions = kCommands + count_event_kinds();
+
+/// The action that adds an event to the timeline, by the event's type there.
+consteval Action event_action(std::string_view type) {
+  std::size_t kind = 0;
+  while (event_type(kind) != type) ++kind;
+  return static_cast<Action>(kCommands + kind);
+}
+/// The type of the event that an action adds; null: it is a command.
+constexpr const char* event_type(Action action) {
+  const auto i = static_cast<std::size_t>(action);
+  return i < kCommands ? nullptr : event_type(i - kCommands);
+}
+/// What the player does with events in a way of their own.
+constexpr Action kThrowSmoke = event_action("smoke"), kShoot = event_action("shot"),
+                 kUseDoor = event_action("door");
 
 /// What the keys control.
 enum class KeyMap { level, tank };

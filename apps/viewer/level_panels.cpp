@@ -115,11 +115,11 @@ void lay_out_shots(Game& game) {
   lay_out_file_list(game);
 
   // How.
-  for_each_weapon([&](const char* what, auto member) {
-    if (!begin_tree(what)) return;
+  for_each_weapon([&](const WeaponEvent& weapon, auto member) {
+    if (!begin_tree(weapon.settings)) return;
     auto& event = weapons.*member;
     const auto visit = [](auto& o, auto&& visitor) { scene::visit_event_numbers(o, visitor); };
-    if (option_rows(event, first.*member, visit)) game.setting_changed(what);
+    if (option_rows(event, first.*member, visit)) game.setting_changed(weapon.settings);
     scene::keep_rules(event);
     ImGui::TreePop();
   });

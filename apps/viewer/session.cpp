@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <string_view>
 
 #include "core/utf8.hpp"
@@ -12,8 +13,8 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kReach = 100;       // [m]: range of an action
-constexpr float kBlastBack = 0.3f;  // [m]: an explosion is in front of the surface that it hits
+constexpr float kReach = 100;           // [m]: range of an action
+constexpr float kExplosionBack = 0.3f;  // [m]: an explosion is in front of the surface that it hits
 
 /// The time of the last event or camera key [s].
 double last_event(const scene::Timeline& timeline) {
@@ -241,14 +242,22 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
   return add(actions);
 }
 
-Result<void> Session::blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
+Result<void> Session::set_off(std::string_view type, glm::vec3 from_world, glm::vec3 direction_world,
+                              const Weapons& weapons) {
   const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
   if (!aim.meets) return no_target("blow up");
   scene::Timeline actions;
-  scene::BlastEvent blast = weapons.blast;
-  blast.time = next_tick_seconds();
-  blast.at_world = from_world + std::max(*aim.meets - kBlastBack, 0.0f) * direction_world;
-  actions.blasts.push_back(blast);
+  for_each_weapon([&]<typename Event>(const WeaponEvent& weapon, Event Weapons::*settings) {
+    if constexpr (requires(Event shown) { shown.at_world; }) {
+      if (weapon.type != type) return;
+      Event event = weapons.*settings;
+      event.time = next_tick_seconds();
+      event.at_world = from_world + std::max(*aim.meets - kExplosionBack, 0.0f) * direction_world;
+      scene::for_each_event_list(actions, [&]<typename Listed>(const char*, std::vector<Listed>& list) {
+        if constexpr (std::same_as<Listed, Event>) list.push_back(event);
+      });
+    }
+  });
   return add(actions);
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -24,12 +25,17 @@ struct Weapons {
   scene::BlastEvent blast;
   std::filesystem::path picture;  ///< PNG or JPEG; empty: none.
 };
-/// Calls visit(what, member) for the event of each weapon: what it makes, and a pointer to its settings.
+/// The event of a weapon: its type in timelines, what undo calls it, and what the panel calls its settings.
+struct WeaponEvent {
+  const char *type, *name, *settings;
+};
+/// Calls visit(event, member) for each weapon; the pointer to its settings is the second. A weapon with
+/// `at_world` goes off where the player looks (Session::set_off), by a key with event_action.
 template <typename Visitor>
 void for_each_weapon(Visitor&& visit) {
-  visit("bullets and images", &Weapons::shot);
-  visit("letters and words", &Weapons::text);
-  visit("explosions", &Weapons::blast);
+  visit(WeaponEvent{"shot", "shot", "bullets and images"}, &Weapons::shot);
+  visit(WeaponEvent{"text", "text", "letters and words"}, &Weapons::text);
+  visit(WeaponEvent{"blast", "explosion", "explosions"}, &Weapons::blast);
 }
 
 class Session {
@@ -87,7 +93,9 @@ class Session {
   // Actions take place at the next tick. They fail with a one-line message.
   Result<void> throw_smoke(glm::vec3 from_world, glm::vec3 direction_world);
   Result<void> shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
-  Result<void> blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
+  /// Sets off the weapon of this type of events where the player looks.
+  Result<void> set_off(std::string_view type, glm::vec3 from_world, glm::vec3 direction_world,
+                       const Weapons& weapons);
   /// Opens or closes the door nearest to a point. Returns a message with its name.
   Result<std::string> use_door(glm::vec3 at_world);
 

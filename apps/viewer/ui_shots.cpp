@@ -139,7 +139,6 @@ void draw_impact(ImDrawList& list, const Eye& eye, glm::vec3 place, double event
 void draw_shot(ImDrawList& list, const Eye& eye, const Game& game, glm::vec3 from, glm::vec3 toward,
                double event_time) {
   const double seconds = game.session().seconds();
-  if (remaining(event_time, seconds, kMarkSeconds) <= 0) return;
   const glm::vec3 direction = glm::normalize(toward - from);
   const scenario::Aim aimed = scenario::aim(game.grid(), from, direction, kRange);
   // The weapon is at the right of the eye, so that its own shot is no point.
@@ -151,15 +150,25 @@ void draw_shot(ImDrawList& list, const Eye& eye, const Game& game, glm::vec3 fro
   draw_flash(list, eye, muzzle, remaining(event_time, seconds, kFlashSeconds));
 }
 
-void draw_fireball(ImDrawList& list, const Eye& eye, const scene::BlastEvent& blast, double seconds) {
-  const float life = remaining(blast.time, seconds, kFireballSeconds);
-  const auto at = life > 0 ? eye.at(blast.at_world) : std::nullopt;
+void draw_fireball(ImDrawList& list, const Eye& eye, glm::vec3 centre, float size, float life) {
+  const auto at = life > 0 ? eye.at(centre) : std::nullopt;
   if (!at) return;
-  const float visible = eye.visibility(blast.at_world);
-  const float radius = eye.pixels(blast.at_world, (1.15f - 0.75f * life) * 0.3f * blast.radius);
+  const float visible = eye.visibility(centre);
+  const float radius = eye.pixels(centre, (1.15f - 0.75f * life) * 0.3f * size);
   glow(list, *at, 1.5f * radius, kFire, 0.9f * visible * life);
   glow(list, *at, 0.8f * radius, kHot, 1.8f * visible * life * life);
 }
+
+/// Events with a path are shots, those with a place and a size explosions.
+template <typename Event>
+concept IsShot = requires(Event event) {
+  event.toward_world;
+};
+template <typename Event>
+concept IsExplosion = requires(Event event) {
+  event.at_world;
+  event.radius;
+};
 
 }  // namespace
 
@@ -167,18 +176,21 @@ void lay_out_shot_marks(const Game& game) {
   const Session& session = game.session();
   const scene::Timeline& timeline = session.live().scenario().timeline;
   const double seconds = session.seconds();
-  const auto shows = [&](const auto& event) { return remaining(event.time, seconds, kMarkSeconds) > 0; };
-  if (std::none_of(timeline.shots.begin(), timeline.shots.end(), shows) &&
-      std::none_of(timeline.texts.begin(), timeline.texts.end(), shows) &&
-      std::none_of(timeline.blasts.begin(), timeline.blasts.end(), shows))
-    return;
-  const Eye eye(game);
+  std::optional<Eye> eye;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const scene::ShotEvent& shot : timeline.shots)
-    draw_shot(list, eye, game, shot.from_world, shot.toward_world, shot.time);
-  for (const scene::TextEvent& text : timeline.texts)
-    draw_shot(list, eye, game, text.from_world, text.toward_world, text.time);
-  for (const scene::BlastEvent& blast : timeline.blasts) draw_fireball(list, eye, blast, seconds);
+  scene::for_each_event_list(timeline, [&]<typename Event>(const char*, const std::vector<Event>& events) {
+    if constexpr (IsShot<Event> || IsExplosion<Event>) {
+      for (const Event& event : events) {
+        if (remaining(event.time, seconds, kMarkSeconds) <= 0) continue;
+        if (!eye) eye.emplace(game);
+        if constexpr (IsShot<Event>)
+          draw_shot(list, *eye, game, event.from_world, event.toward_world, event.time);
+        else
+          draw_fireball(list, *eye, event.at_world, event.radius,
+                        remaining(event.time, seconds, kFireballSeconds));
+      }
+    }
+  });
 }
 
 }  // namespace brume::viewer

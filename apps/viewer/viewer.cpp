@@ -172,7 +172,7 @@ class Viewer {
     if (ui_.has_popup() && std::erase(input.pressed, Action::toggle_cursor) > 0) close_popups();
     if (ui_.takes_mouse()) {
       std::erase_if(input.pressed, [](Action a) {
-        return a == Action::throw_smoke || a == Action::shoot || a == Action::orbit || a == Action::pan;
+        return a == kThrowSmoke || a == kShoot || a == Action::orbit || a == Action::pan;
       });
       input.wheel = 0;
     }

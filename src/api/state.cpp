@@ -58,8 +58,8 @@ std::vector<brume_cloud> list_clouds(const sim::State& state) {
 std::vector<brume_blast> list_blasts(const sim::State& state) {
   std::vector<brume_blast> list;
   for (const sim::LiveBlast& live : state.blasts)
-    list.push_back({live.id, live.field->blast().tick, live.field->end_tick(),
-                    position_of(live.field->centre()), live.field->blast().radius});
+    list.push_back({live.id, live.field->event().tick, live.field->end_tick(),
+                    position_of(live.field->centre()), live.field->event().radius});
   return list;
 }
 

@@ -113,7 +113,7 @@ struct EventLists {
 /// Calls visit(type, member) for each kind of event: its `type` in timeline files, and a pointer to its list.
 /// The one place that enumerates the kinds.
 template <typename Visitor>
-void for_each_event_kind(Visitor&& visit) {
+constexpr void for_each_event_kind(Visitor&& visit) {
   visit("smoke", &EventLists::smokes);
   visit("shot", &EventLists::shots);
   visit("text", &EventLists::texts);

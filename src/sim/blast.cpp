@@ -91,7 +91,7 @@ bool in_sight(const SolidBox& box, glm::i64vec3 from, glm::ivec3 target) {
 }  // namespace
 
 BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second)
-    : blast_(blast), centre_(blast.at), ticks_per_second_(ticks_per_second) {
+    : event_(blast), centre_(blast.at), ticks_per_second_(ticks_per_second) {
   // A blast inside a wall moves to the nearest free voxel.
   const VoxelRuler ruler(grid.layout());
   glm::i64vec3 from = ruler.subvoxel(centre_);
@@ -141,7 +141,7 @@ Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const
   });
   if (!within) return Failure{ErrorCode::bad_input, "blast: expected all voxels within its radius"};
   BlastField field;
-  field.blast_ = blast;
+  field.event_ = blast;
   field.centre_ = centre;
   field.ticks_per_second_ = ticks_per_second;
   field.reached_ = std::move(reached);
@@ -155,7 +155,7 @@ void BlastField::finish(const voxel::GridLayout& layout) {
   const VoxelRuler ruler(layout);
   const glm::i64vec3 from = ruler.subvoxel(centre_);
   const std::int64_t limit = std::max<std::int64_t>(
-      1, ruler.subvoxels(blast_.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen});
+      1, ruler.subvoxels(event_.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen});
   reach_.resize(reached_.size());
   reached_.for_each([&](glm::ivec3 v, std::uint32_t rank) {
     const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
@@ -164,17 +164,17 @@ void BlastField::finish(const voxel::GridLayout& layout) {
   });
 
   // The end: when the last distance has refilled.
-  end_tick_ = blast_.tick;
+  end_tick_ = event_.tick;
   const std::uint64_t tps = ticks_per_second_;
   for (std::uint32_t reach = 0; reach < 256; ++reach) {
     const std::uint64_t over = arrival_ms(reach) + kOpenMilliseconds + refill_ms(reach);
-    end_tick_ = std::max(end_tick_, blast_.tick + static_cast<std::uint32_t>((over * tps + 999) / 1000));
+    end_tick_ = std::max(end_tick_, event_.tick + static_cast<std::uint32_t>((over * tps + 999) / 1000));
   }
 
   // The hash of the blast, its voxels and their distances.
-  std::vector<std::uint64_t> words{blast_.tick,      blast_.radius,        blast_.speed,
-                                   blast_.remaining, blast_.refill_rim_ms, blast_.refill_middle_ms};
-  for (const Position p : {blast_.at, centre_})
+  std::vector<std::uint64_t> words{event_.tick,      event_.radius,        event_.speed,
+                                   event_.remaining, event_.refill_rim_ms, event_.refill_middle_ms};
+  for (const Position p : {event_.at, centre_})
     for (int axis = 0; axis < 3; ++axis) words.push_back(static_cast<std::uint64_t>(std::int64_t{p[axis]}));
   for (const VoxelBlock& block : reached_.blocks()) {
     for (int axis = 0; axis < 3; ++axis)
@@ -186,21 +186,21 @@ void BlastField::finish(const voxel::GridLayout& layout) {
 }
 
 std::uint64_t BlastField::arrival_ms(std::uint32_t reach) const {
-  return std::uint64_t{blast_.radius} * reach * kRimNum * 1000 / (255 * kRimDen * blast_.speed);
+  return std::uint64_t{event_.radius} * reach * kRimNum * 1000 / (255 * kRimDen * event_.speed);
 }
 
 std::uint64_t BlastField::refill_ms(std::uint32_t reach) const {
   const std::uint32_t r = std::min(reach, kFullReach);
-  return (std::uint64_t{blast_.refill_middle_ms} * (kFullReach - r) +
-          std::uint64_t{blast_.refill_rim_ms} * r) /
+  return (std::uint64_t{event_.refill_middle_ms} * (kFullReach - r) +
+          std::uint64_t{event_.refill_rim_ms} * r) /
          kFullReach;
 }
 
 BlastProfile BlastField::profile(std::uint32_t tick) const {
   BlastProfile m;
   m.remaining.fill(255);
-  if (tick <= blast_.tick || tick >= end_tick_) return m;
-  const std::uint64_t age_us = std::uint64_t{tick - blast_.tick} * 1'000'000 / ticks_per_second_;
+  if (tick <= event_.tick || tick >= end_tick_) return m;
+  const std::uint64_t age_us = std::uint64_t{tick - event_.tick} * 1'000'000 / ticks_per_second_;
   for (std::uint32_t reach = 0; reach < 256; ++reach) {
     const std::uint64_t arrival = arrival_ms(reach) * 1000;
     if (age_us <= arrival) continue;
@@ -215,7 +215,7 @@ BlastProfile BlastField::profile(std::uint32_t tick) const {
     if (reach > kFullReach)
       cleared = cleared * smoothstep((255 - reach) * kWhole / (255 - kFullReach)) / kWhole;
     m.remaining[reach] =
-        static_cast<std::uint8_t>(255 - ((255 - blast_.remaining) * cleared + kWhole / 2) / kWhole);
+        static_cast<std::uint8_t>(255 - ((255 - event_.remaining) * cleared + kWhole / 2) / kWhole);
   }
   return m;
 }

@@ -29,8 +29,8 @@ class BlastField {
   static Result<BlastField> from_parts(const voxel::GridLayout& layout, const Blast& blast, Position centre,
                                        BlockSet reached, std::uint32_t ticks_per_second);
 
-  const Blast& blast() const { return blast_; }
-  /// Where it detonates: blast().at, or the centre of the free voxel that replaced it.
+  const Blast& event() const { return event_; }
+  /// Where it detonates: event().at, or the centre of the free voxel that replaced it.
   Position centre() const { return centre_; }
   const BlockSet& reached() const { return reached_; }
   /// Distance from the centre by rank in reached(): 0 there, 255 at the radius.
@@ -54,7 +54,7 @@ class BlastField {
   std::uint64_t arrival_ms(std::uint32_t reach) const;
   std::uint64_t refill_ms(std::uint32_t reach) const;
 
-  Blast blast_;
+  Blast event_;
   Position centre_{0};
   std::uint32_t ticks_per_second_ = 0, end_tick_ = 0;
   BlockSet reached_;

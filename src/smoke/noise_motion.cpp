@@ -66,14 +66,14 @@ void add_shot(const sim::BulletHole& open, const sim::State& state, double secon
 
 void add_blast(const sim::BlastField& field, const sim::State& state, double seconds,
                FrameVector<shared::Impulse>& out) {
-  const sim::Blast& blast = field.blast();
-  const double length = static_cast<double>(field.end_tick() - blast.tick) / state.ticks_per_second;
+  const auto& event = field.event();
+  const double length = static_cast<double>(field.end_tick() - event.tick) / state.ticks_per_second;
   const auto strength =
-      static_cast<float>(pulse(seconds - static_cast<double>(state.seconds(blast.tick)), 0.2, length));
+      static_cast<float>(pulse(seconds - static_cast<double>(state.seconds(event.tick)), 0.2, length));
   if (strength <= 0) return;
   shared::Impulse impulse{};
   impulse.from_world = impulse.to_world = glm::vec3(sim::metres_from_position(field.centre()));
-  impulse.radius = 1.5f * static_cast<float>(blast.radius) / static_cast<float>(sim::kUnitsPerMetre);
+  impulse.radius = 1.5f * static_cast<float>(event.radius) / static_cast<float>(sim::kUnitsPerMetre);
   impulse.outward = 0.25f * impulse.radius * strength;
   out.push_back(impulse);
 }

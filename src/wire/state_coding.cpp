@@ -240,12 +240,12 @@ class StateCoder {
     sim::Position centre{0};
     sim::BlockSet reached;
     if constexpr (!kReads) {
-      blast = live.field->blast();
+      blast = live.field->event();
       centre = live.field->centre();
       reached = live.field->reached();
     }
     if (before) {
-      sim::Blast expected = before->field->blast();
+      sim::Blast expected = before->field->event();
       serialize_event(archive_.context, expected);
     }
     serialize_event(archive_, blast);

@@ -36,10 +36,11 @@ class GameTest : public testing::Test {
 
 TEST_F(GameTest, UndoesAndRedoesActions) {
   start();
-  act(Action::throw_smoke);
+  act(kThrowSmoke);
   advance(0.5);
   const std::uint64_t thrown = state();
-  act(Action::blast);
+  act(event_action("blast"));
+  EXPECT_EQ(timeline().blasts.size(), 1u);
   advance(0.25);
   const std::uint64_t blown = state();
 
@@ -67,9 +68,9 @@ TEST_F(GameTest, UndoesAndRedoesActions) {
 
 TEST_F(GameTest, ANewActionDropsWhatCouldBeRedone) {
   start();
-  act(Action::throw_smoke);
+  act(kThrowSmoke);
   act(Action::undo);
-  act(Action::shoot);
+  act(kShoot);
   act(Action::redo);
   EXPECT_EQ(lines_.back(), "nothing to redo");
   EXPECT_EQ(timeline().smokes.size(), 0u);
@@ -138,7 +139,7 @@ TEST_F(GameTest, FieldOfViewAndLensCanBeUndone) {
   camera.shutter = 0.01f;
   game_->player().set_optics(optics_of(camera));
   game_->setting_changed("field of view");
-  act(Action::throw_smoke);
+  act(kThrowSmoke);
   act(Action::undo);
   EXPECT_EQ(game_->player().camera().vertical_fov, 0.5f);
   EXPECT_EQ(game_->player().camera().lens, camera.lens);
@@ -149,7 +150,7 @@ TEST_F(GameTest, FieldOfViewAndLensCanBeUndone) {
 
 TEST_F(GameTest, RewindingKeepsActionsAndRemovingThemCanBeUndone) {
   start();
-  act(Action::throw_smoke);
+  act(kThrowSmoke);
   advance(0.5);
   act(Action::rewind);
   EXPECT_EQ(game_->session().seconds(), Session::kFirstTime);

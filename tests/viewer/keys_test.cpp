@@ -12,19 +12,30 @@
 namespace brume::viewer {
 namespace {
 
-TEST(KeysTest, EveryActionHasAKeyAndEveryKeyOneAction) {
-  std::set<Action> actions;
+TEST(KeysTest, EveryCommandHasAKeyAndEveryKeyOneAction) {
+  std::set<Action> commands;
   for (const KeyMap map : {KeyMap::level, KeyMap::tank}) {
     std::set<std::tuple<bool, int, bool, bool>> codes;
     for (const KeyBinding& binding : key_bindings(map)) {
-      actions.insert(binding.action);
+      if (!event_type(binding.action)) commands.insert(binding.action);
       const auto [shift, control] = binding.modifiers;
       EXPECT_TRUE(codes.insert({binding.mouse, binding.code, shift, control}).second) << binding.name;
       EXPECT_EQ(action_of(binding.mouse, binding.code, binding.modifiers, map), binding.action)
           << binding.name;
     }
   }
-  EXPECT_EQ(actions.size(), kActions);
+  EXPECT_EQ(commands.size(), kCommands);
+}
+
+TEST(KeysTest, EachKindOfEventHasAnAction) {
+  std::size_t kinds = 0;
+  scene::for_each_event_kind([&](const std::string& type, auto) {
+    EXPECT_EQ(event_type(static_cast<Action>(kCommands + kinds)), type);
+    ++kinds;
+  });
+  EXPECT_EQ(kCommands + kinds, kActions);
+  EXPECT_EQ(event_type(kThrowSmoke), std::string("smoke"));
+  EXPECT_EQ(event_type(Action::undo), nullptr);
 }
 
 TEST(KeysTest, ShiftRunsAndControlReservesKeys) {

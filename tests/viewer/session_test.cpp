@@ -61,7 +61,7 @@ TEST_F(SessionTest, ActionsAreRecordedAndReplayToTheSameState) {
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
   for (int i = 0; i < 90; ++i) advance(1.0 / 60);
   ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
-  ASSERT_TRUE(session_->blast(eye_, ahead_, weapons));  // of the same tick
+  ASSERT_TRUE(session_->set_off("blast", eye_, ahead_, weapons));  // of the same tick
   weapons.kind = ShotKind::word;
   ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
   advance(0.2);
