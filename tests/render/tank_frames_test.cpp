@@ -272,6 +272,25 @@ TEST_F(TankFramesTest, AFrameWithoutTanksCostsNothing) {
 }
 
 // Each sample of a picture shows the ball where its own ray through the pixel and the lens meets it.
+TEST_F(TankFramesTest, TheViewOfDepthShowsItAndNoOtherView) {
+  const auto drawn_view = [](Studio& studio, planning::DebugView view) {
+    studio.input.debug.view = view;
+    studio.renderer->draw(studio.input);
+    return read_back<glm::u8vec4>(studio.renderer->targets().display);
+  };
+  const auto made = studio();
+  const auto normals = drawn_view(*made, planning::DebugView::normals);
+  made->input.tanks = {tank()};
+  EXPECT_EQ(drawn_view(*made, planning::DebugView::normals), normals);
+  const auto depth = drawn_view(*made, planning::DebugView::depth);
+  for (const std::size_t i : inside(made->input)) {
+    const auto metres = static_cast<float>(distance_to_ball(made->input, i).value());
+    const glm::vec3 color =
+        shared::ramp_colour(shared::ramp_of_view(shared::kViewDepth), shared::depth_fraction(metres));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(depth[i][c], 255 * color[c], 1) << "pixel " << i;
+  }
+}
+
 TEST_F(TankFramesTest, EachSampleOfALensSeesItFromItsPlace) {
   const auto one = studio();
   one->input.view.camera.lens.aperture = 0.2f;

@@ -87,8 +87,10 @@ void TanksPart::prepare(const FrameInput& input) {
   shown_.clear();
   has_layers_now_ = over_ == Over::host && !input.tanks.empty();
   std::erase_if(slots_, [&](const Slot& slot) { return slot.frame + kKeptFrames < frame_; });
-  // Debug views show what the level's passes have.
-  if (input.tanks.empty() || input.debug.view != planning::DebugView::none) return;
+  // Tanks have a depth; all else that debug views show is the level's.
+  const planning::DebugView view = input.debug.view;
+  if (input.tanks.empty() || (view != planning::DebugView::none && view != planning::DebugView::depth))
+    return;
   if (over_ == Over::level) begin_level(input);
   std::vector<const planning::TankInput*> far_first;
   for (const planning::TankInput& tank : input.tanks) far_first.push_back(&tank);
