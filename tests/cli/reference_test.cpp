@@ -29,6 +29,17 @@ TEST_F(ReferenceMode, WritesTheSamePictureForAnyNumberOfThreads) {
   EXPECT_EQ(picture.height, 24u);
 }
 
+TEST_F(ReferenceMode, WarnsInOneLineThatItShowsNoTanks) {
+  folder_.write("reef.toml", "version = 1\n[tank]\nsize = [8, 8, 8]\nspheres = 2\n");
+  const std::string room = read_text_file(folder_.path() / "room.toml").value_or_throw();
+  ASSERT_EQ(render({"-o", "without.png", "--samples", "1"}).error, "");
+  folder_.write("room.toml", room + "[[tank]]\nfile = \"reef.toml\"\nposition = [0.0, 1.0, 0.0]\n");
+  const Outcome run = render({"-o", "with.png", "--samples", "1"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.error, "brume: warning: room.toml: --mode reference shows no [[tank]]\n");
+  EXPECT_EQ(bytes("with.png"), bytes("without.png"));
+}
+
 TEST_F(ReferenceMode, LayersSayWhatIsInThem) {
   render_well({"-o", "a.exr", "--samples", "8"});
   std::vector<std::string> names;

@@ -5,7 +5,8 @@
 #include "image/decode.hpp"
 #include "scene/files/timeline_reader.hpp"
 #include "scene/timeline.hpp"
-#include "tests/viewer/room.hpp"
+#include "scene/files/timeline_writer.hpp"
+#include "tests/viewer/small_tank.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -119,6 +120,38 @@ TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
     program.close();
     EXPECT_EQ(program.wait(), 0) << program.error();
   }
+}
+
+// Its paths gather while the window is paused.
+TEST_F(RecordingTest, ATankInALevelReachesItsBestPictureAndIsSaved) {
+  write_tank(folder_);
+  write_room(folder_, "[[tank]]\nfile = \"tank.toml\"\nposition = [0.3, 1.4, 1.2]\n");
+  Program program(desktop_, folder_.path(),
+                  {"room.toml", "--size", "96x64", "--bare", "--quality", "smallest", "--validation",
+                   "--json", "r.json"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.tap(XK_p);
+  ASSERT_TRUE(program.wait_for_best()) << program.error();
+  const image::Image8 window = program.contents();
+  program.tap(XK_F12);
+  ASSERT_TRUE(program.wait_for_frames(2));
+  EXPECT_LE(largest_difference(window, png("brume_0001.png")), 1);
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+  EXPECT_EQ(read_json(file("r.json")).at("validation_messages"), nlohmann::json::array());
+  // The timeline beside it has the tank, too.
+  auto saved = scene::load_timeline(file("brume_0001.toml")).value_or_throw();
+  ASSERT_EQ(saved.tanks.size(), 1u);
+  const auto rendered = [&](const std::string& name) {
+    const cli::Outcome run = cli::run_brume(
+        folder_.path(), {"render", name + ".toml", "-o", name + "_again.png", "--size", "96x64"});
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return png(name + "_again.png");
+  };
+  const double with = mean_difference(window, rendered("brume_0001"));
+  saved.tanks.clear();
+  ASSERT_TRUE(scene::save_timeline(file("empty.toml"), saved));
+  EXPECT_LT(4 * with, mean_difference(window, rendered("empty"))) << "another picture than render draws";
 }
 
 // Samples of lens and shutter gather until they are the image of `brume render`; what moves is sharp.
