@@ -91,7 +91,7 @@ image::Image8 TankRefiner::picture(glm::uvec2 size_px, bool complete, const std:
   drawn_ = plan_picture(*state_, tank_, size_px);
   show(*drawn_);
   if (!photons_.is_complete()) photons_.complete(*picture_, tank_);
-  render::add_samples(screen_.runner(), *picture_, photons_, tank_, wanted, [&] {
+  film::add_samples(screen_.runner(), *picture_, photons_, tank_, wanted, [&] {
     if (check) check();
     return false;
   });

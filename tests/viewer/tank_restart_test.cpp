@@ -48,7 +48,7 @@ class TankRestartPictures : public gpu::GpuTest {
       const bool begins = picture_.show(plan_picture(state, tank_, kRestarted),
                                         planning::plan_tank_display(scene, kRestarted));
       photons_.update(picture_, tank_, false);  // the window shows a preview first
-      render::add_samples(runner(), picture_, photons_, tank_, kRestartSamples, {});
+      film::add_samples(runner(), picture_, photons_, tank_, kRestartSamples, {});
       runner().run([&](gpu::Recorder& recorder) { picture_.record(recorder, {}); });
       return begins;
     }
