@@ -8,7 +8,7 @@
 #include "apps/cli/tank_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
-#include "film/playback.hpp"
+#include "film/tank_playback.hpp"
 #include "gpu/context.hpp"
 #include "reference/picture.hpp"
 #include "reference/tank_tracer.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "film/playback.hpp"
+#include "film/tank_playback.hpp"
 
 namespace brume::viewer {
 namespace {

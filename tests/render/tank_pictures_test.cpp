@@ -2,7 +2,7 @@
 #include <array>
 
 #include "core/tasks.hpp"
-#include "film/playback.hpp"
+#include "film/tank_playback.hpp"
 #include "reference/tank_tracer.hpp"
 #include "tests/render/tank_fixture.hpp"
 

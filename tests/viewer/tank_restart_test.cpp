@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "apps/viewer/tank_refiner.hpp"
-#include "film/playback.hpp"
+#include "film/tank_playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::viewer {
