@@ -2,5 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define TANK_OVER_SURFACES
+#include "lib/tank_over_surfaces.glsl"
 #include "lib/tank_voxels_main.glsl"

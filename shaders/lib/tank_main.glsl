@@ -1,4 +1,4 @@
-// The samples of a pixel. Who includes it has path_seen and first_hit.
+// The samples of a pixel. Who includes it has path_seen and first_hit, and what is behind the tank.
 #ifndef TANK_MAIN_GLSL
 #define TANK_MAIN_GLSL
 #include "lib/tank_picture.glsl"
@@ -15,11 +15,11 @@ void main() {
     add(sum, path_seen(origin, direction, along_ray(surface, direction), source));
   }
   store_sum(px, sum);
-#ifdef TANK_OVER_SURFACES
-  vec3 origin, direction;
-  tank_camera_ray(vec2(px) + 0.5, vec2(0.0), origin, direction);
-  store_surface(px, direction, first_hit(px, origin, direction, along_ray(surface, direction)));
-#endif
+  if (kIsSurface) {
+    vec3 origin, direction;
+    tank_camera_ray(vec2(px) + 0.5, vec2(0.0), origin, direction);
+    store_surface(px, direction, first_hit(px, origin, direction, along_ray(surface, direction)));
+  }
 }
 
 #endif

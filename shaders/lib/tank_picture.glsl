@@ -1,8 +1,7 @@
-// The pixels of a picture of a tank: the mean of its samples. With TANK_OVER_SURFACES the tank is part of a frame:
-// paths end at its surfaces, and what is behind the tank is not in the picture, but how much of it is seen.
+// The pixels of a picture of a tank: the mean of its samples. What is behind the tank is in tank_over_air.glsl and
+// tank_over_surfaces.glsl.
 #ifndef TANK_PICTURE_GLSL
 #define TANK_PICTURE_GLSL
-#include "lib/tank_air.glsl"
 #include "lib/tank_glass.glsl"
 #include "lib/tank_samples.glsl"
 #include "shared/average.h"
@@ -22,40 +21,6 @@ void add(inout Seen sum, Seen more) {
   sum.radiance += more.radiance;
   sum.transmittance += more.transmittance;
 }
-
-/// Ends a path that nothing has scattered.
-void see_behind(vec3 direction, vec3 weight, inout Seen seen) {
-#ifdef TANK_OVER_SURFACES
-  seen.transmittance = weight.x;
-#else
-  seen.radiance += weight * backdrop(direction);
-#endif
-}
-
-#ifdef TANK_OVER_SURFACES
-layout(binding = kBindTankSurfaces, r32f) uniform image2D surface_depth;
-
-/// Of the frame's surface in a pixel, along the camera's axis [voxels].
-float surface_distance(ivec2 px) {
-  const float depth = imageLoad(surface_depth, px).r;
-  return depth > 0.0 ? tank.surface_near / depth : kNoCrossing;
-}
-
-/// The same along a ray of the pixel.
-float along_ray(float distance, vec3 direction) {
-  return distance == kNoCrossing ? kNoCrossing : distance / dot(direction, tank.camera.forward);
-}
-
-/// The tank as a surface of the frame, where a ray of the pixel meets it.
-void store_surface(ivec2 px, vec3 direction, float t) {
-  if (t == kNoCrossing) return;
-  const float distance = max(t * dot(direction, tank.camera.forward), tank.surface_near);
-  imageStore(surface_depth, px, vec4(tank.surface_near / distance));
-}
-#else
-float surface_distance(ivec2 px) { return kNoCrossing; }
-float along_ray(float distance, vec3 direction) { return distance; }
-#endif
 
 /// Of this thread.
 ivec2 sampled_pixel() {
