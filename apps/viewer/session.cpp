@@ -247,9 +247,11 @@ Result<void> Session::set_off(std::string_view type, glm::vec3 from_world, glm::
   const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
   if (!aim.meets) return no_target("blow up");
   scene::Timeline actions;
+  bool is_weapon = false;
   for_each_weapon([&]<typename Event>(const WeaponEvent& weapon, Event Weapons::*settings) {
     if constexpr (requires(Event shown) { shown.at_world; }) {
       if (weapon.type != type) return;
+      is_weapon = true;
       Event event = weapons.*settings;
       event.time = next_tick_seconds();
       event.at_world = from_world + std::max(*aim.meets - kExplosionBack, 0.0f) * direction_world;
@@ -258,6 +260,7 @@ Result<void> Session::set_off(std::string_view type, glm::vec3 from_world, glm::
       });
     }
   });
+  BRUME_ASSERT(is_weapon, std::string(type));
   return add(actions);
 }
 

@@ -173,7 +173,7 @@ class TankDocument final : public Document {
   Result<void> save_snapshot(const std::filesystem::path& path) override {
     auto saved = scene::save_tank_scene(path, state_->snapshot(refiner_->samples()));
     if (saved && !state_->is_complete())
-      notify("the picture's scene packs all spheres: save those of this tank, too");
+      notify("the saved scene packs the full tank; to keep these spheres, save the tank too");
     return saved;
   }
   const char* name_of_recording() const override { return "tank"; }

@@ -90,11 +90,13 @@ image::Image8 TankRefiner::picture(glm::uvec2 size_px, bool complete, const std:
   const std::uint32_t wanted = complete ? std::max(state_->scene().samples, 1u) : 1;
   drawn_ = plan_picture(*state_, tank_, size_px);
   show(*drawn_);
-  if (!photons_.is_complete()) photons_.complete(*picture_, tank_);
-  film::add_samples(screen_.runner(), *picture_, photons_, tank_, wanted, [&] {
+  const auto stopped = [&] {
     if (check) check();
     return false;
-  });
+  };
+  // Samples by the light of a preview do not count.
+  if (!photons_.is_complete()) photons_.complete(*picture_, tank_, stopped);
+  film::add_samples(screen_.runner(), *picture_, photons_, tank_, wanted, stopped);
   // The window shows what is saved.
   reserve_shown();
   screen_.runner().run([&](gpu::Recorder& recorder) {

@@ -13,7 +13,7 @@ void see_behind(vec3 direction, vec3 weight, inout Seen seen) {
   seen.transmittance = weight.x;
 }
 
-/// Of the frame's surface in a pixel, along the camera's axis [voxels].
+/// Distance of the frame's surface in a pixel, along the camera's axis [voxels].
 float surface_distance(ivec2 px) {
   const float depth = imageLoad(surface_depth, px).r;
   return depth > 0.0 ? tank.surface_near / depth : kNoCrossing;

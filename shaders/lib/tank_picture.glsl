@@ -22,13 +22,13 @@ void add(inout Seen sum, Seen more) {
   sum.transmittance += more.transmittance;
 }
 
-/// Of this thread.
+/// The pixel of this thread.
 ivec2 sampled_pixel() {
   return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, samples.first_row);
 }
 
-/// Of the samples of a pixel so far. Further ones are added to it one by one: the same bits in whatever portions they
-/// come.
+/// The sum of a pixel's samples so far. Further ones are added to it one by one: the same bits in whatever portions
+/// they come.
 Seen sum_so_far(ivec2 px) {
   if (samples.first == 0u) return Seen(vec3(0.0), 0.0);
   const vec4 sum = imageLoad(sum_image, px);
@@ -42,7 +42,7 @@ void store_sum(ivec2 px, Seen sum) {
   imageStore(radiance_image, px, vec4(min(sum.radiance / count, 65504.0), sum.transmittance / count));
 }
 
-/// Of the i-th sample of this dispatch.
+/// The random points of the i-th sample of this dispatch.
 SampleSource sample_source(ivec2 px, uint i) {
   return SampleSource(px, samples.index + samples.first + i, 0u);
 }

@@ -183,20 +183,19 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   const gpu::Buffer& distances = distances_ ? distances_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;
   const gpu::ComputePipeline& pipeline = *pipelines_[static_cast<std::size_t>(subject.view)];
-  recorder.bind(
-      pipeline, {in.smoke.bindings(), in.holes.bindings()},
-      {
-          {shared::kBindFrame, gpu::uniform(in.frame)},
-          {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
-          {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
-          {shared::kBindDepth, gpu::sampled(in.surfaces ? *in.surfaces : in.gbuffer.depth, nearest_)},
-          {shared::kBindLevelWords, gpu::read(level)},
-          {shared::kBindDistances, gpu::read(distances)},
-          {shared::kBindMarchCounters, gpu::read(counters)},
-          {shared::kBindRadiance, gpu::read_stored(in.quads)},
-          {shared::kBindDisplay, gpu::stored(display)},
-      },
-      params);
+  recorder.bind(pipeline, {in.smoke.bindings(), in.holes.bindings()},
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
+                    {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
+                    {shared::kBindDepth, gpu::sampled(in.surfaces, nearest_)},
+                    {shared::kBindLevelWords, gpu::read(level)},
+                    {shared::kBindDistances, gpu::read(distances)},
+                    {shared::kBindMarchCounters, gpu::read(counters)},
+                    {shared::kBindRadiance, gpu::read_stored(in.quads)},
+                    {shared::kBindDisplay, gpu::stored(display)},
+                },
+                params);
   recorder.dispatch_threads(pipeline, display.info().size.x, display.info().size.y);
 }
 

@@ -60,10 +60,10 @@ class DebugViewPass {
   struct Inputs {
     const gpu::Buffer& frame;
     const GBuffer& gbuffer;
+    const gpu::Image& surfaces;  ///< Depth of all surfaces, tanks included.
     const SmokeResources& smoke;
     const HoleResources& holes;
     const gpu::Image& quads;  ///< Half floats: the view of overdraw shows what ParticlePass counted there.
-    const gpu::Image* surfaces = nullptr;  ///< Depth in place of the G-buffer's; null: that one.
   };
   /// Writes the view to `display` (RGBA8). The subject is as `reserve` saw it.
   void record(gpu::Recorder& recorder, const DebugSubject& subject, const Inputs& inputs,

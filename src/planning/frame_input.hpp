@@ -73,7 +73,7 @@ struct LevelState {
   std::vector<scene::MovedObject> moved;
   /// The level of later frames, for what takes long to compute from it; null: unknown. Never decides what is
   /// shown.
-  std::shared_ptr<const planning::NextLevel> next = nullptr;
+  std::shared_ptr<const NextLevel> next = nullptr;
 };
 
 using smoke::SmokeInput;

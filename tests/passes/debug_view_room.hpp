@@ -163,8 +163,10 @@ class DebugViewTest : public gpu::GpuTest {
     pass_.reserve(subject, size);
     runner().run([&](gpu::Recorder& recorder) {
       holes_.record(recorder, holes, frame_buffer, room_.upload.resources());
-      pass_.record(recorder, subject,
-                   {frame_buffer, gbuffer, room_.upload.resources(), holes_.resources(), quads}, display);
+      pass_.record(
+          recorder, subject,
+          {frame_buffer, gbuffer, gbuffer.depth, room_.upload.resources(), holes_.resources(), quads},
+          display);
     });
     return read_back<glm::u8vec4>(display);
   }

@@ -156,7 +156,7 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
   EXPECT_EQ(message(), "blast: \"time\": expected a number from 0 to 3600, found nan");
   timeline.camera = {{1, {}}, {1, {}}};
   EXPECT_EQ(check_settings(timeline).failure().message,
-            "camera at 1 s: \"time\": expected a later time than that of the previous key");
+            "camera at 1 s: \"time\": expected a later time than the previous key's");
 }
 
 /// A timeline with one of each: a carrier, a volume with a mask, a decal, a tank, a role.
@@ -212,8 +212,7 @@ TEST(TimelineCheck, NamesCarriersMasksDecalsAndTanks) {
       [](Timeline& t) {
         t.volumes[0].masks[0].keys.assign(2, {2, {}, 1});
       },
-      "[[volume]] f.vdb: mask fire: key at 2 s: \"time\": expected a later time than that of the previous "
-      "key");
+      "[[volume]] f.vdb: mask fire: key at 2 s: \"time\": expected a later time than the previous key's");
   expect([](Timeline& t) { t.volumes[0].masks.resize(kMostMasks + 1, t.volumes[0].masks[0]); },
          "[[volume]] f.vdb: \"mask\": expected at most 4 of them");
   expect([](Timeline& t) { t.volumes[0].color = "Cd"; },
@@ -224,7 +223,7 @@ TEST(TimelineCheck, NamesCarriersMasksDecalsAndTanks) {
          "[[volume]] f.vdb: [volume.disturb]: \"size\": expected a number from 1e-06 to 1e+06, found 0");
   expect([](Timeline& t) { t.carriers[0].keys.clear(); }, "[[carrier]] ship: \"key\": expected at least one");
   expect([](Timeline& t) { t.carriers[0].keys[1].time = 0; },
-         "[[carrier]] ship: key at 0 s: \"time\": expected a later time than that of the previous key");
+         "[[carrier]] ship: key at 0 s: \"time\": expected a later time than the previous key's");
   expect([](Timeline& t) { t.carriers[0].keys[1].rotation.z = 40000; },
          "[[carrier]] ship: key at 1 s: \"rotation\": expected a number from -36000 to 36000, found 40000");
   expect([](Timeline& t) { t.carriers.push_back(t.carriers[0]), t.carriers[1].object = ""; },

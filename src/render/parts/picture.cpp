@@ -111,10 +111,10 @@ void PicturePart::record_display(gpu::Recorder& recorder, const FramePlan& plan,
 void PicturePart::record_debug_view(gpu::Recorder& recorder, const FramePlan& plan,
                                     const FrameResources& in) {
   if (antialias_pass_) antialias_pass_->invalidate_past(recorder);
-  debug_view_->record(recorder, debug_subject(plan),
-                      {in.frame, in.targets.gbuffer, in.media.smoke, in.media.holes, in.targets.radiance,
-                       plan.input.debug.view == planning::DebugView::depth ? &in.surfaces : nullptr},
-                      in.targets.display);
+  debug_view_->record(
+      recorder, debug_subject(plan),
+      {in.frame, in.targets.gbuffer, in.surfaces, in.media.smoke, in.media.holes, in.targets.radiance},
+      in.targets.display);
 }
 
 }  // namespace brume::render

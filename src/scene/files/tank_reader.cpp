@@ -151,9 +151,8 @@ class TankReader {
       TomlTable at(*key, "[[light.key]]", file_);
       PlaceKey place;
       for (const char* name : {"time", "position"}) at.require(name);
-      at.read("time", place.time, 0, kLatestTime);
+      read_key_time(at, light.keys, place.time);
       at.read("position", place.position_world, -kFarthestPoint, kFarthestPoint);
-      expect_later(at, place.time, light.keys);
       if (auto done = at.finish(); !done) return done;
       light.keys.push_back(place);
     }
@@ -170,22 +169,14 @@ class TankReader {
     for (const toml::table* key : keys) {
       TomlTable at(*key, "[[glass.key]]", file_);
       GlassKey place{0, glass.position_world, glass.radii};
-      at.require("time");
-      at.read("time", place.time, 0, kLatestTime);
+      read_key_time(at, glass.keys, place.time);
       at.read("position", place.position_world, -kFarthestPoint, kFarthestPoint);
       at.read("radii", place.radii, 1e-4, 1e4);
-      expect_later(at, place.time, glass.keys);
       if (auto done = at.finish(); !done) return done;
       glass.keys.push_back(place);
     }
     scene_.glass = std::move(glass);
     return {};
-  }
-
-  template <typename Key>
-  static void expect_later(TomlTable& table, double time, const std::vector<Key>& keys) {
-    if (!keys.empty() && !(time > keys.back().time))
-      table.fail("time", "\"time\": expected a later time than that of the key before");
   }
 
   const std::filesystem::path& path_;

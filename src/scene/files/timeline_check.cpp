@@ -123,7 +123,7 @@ Result<void> check_keys(const char* kind, const std::vector<Key>& keys, CheckOne
   for (const Key& key : keys) {
     Checker of_key(kind, key);
     check_one(key, of_key);
-    if (!(key.time > last)) of_key.fail("time", "expected a later time than that of the previous key");
+    if (!(key.time > last)) of_key.fail("time", "expected a later time than the previous key's");
     last = key.time;
     if (auto done = of_key.done(); !done) return done;
   }

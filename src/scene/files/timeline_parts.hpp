@@ -31,6 +31,15 @@ struct OptionReader {
   }
 };
 
+/// The time of the next key, which must be later than the last one.
+template <typename Key>
+void read_key_time(TomlTable& table, const std::vector<Key>& keys, double& time) {
+  table.require("time");
+  table.read("time", time, 0, kLatestTime);
+  if (!keys.empty() && !(time > keys.back().time))
+    table.fail("time", "\"time\": expected a later time than the previous key's");
+}
+
 /// What follows the key of a file that lies elsewhere.
 constexpr const char* kExpectedFile = ": expected the name of a file below the folder of this file";
 /// The file that a key names below the folder of `path`, if there is such a key.

@@ -15,10 +15,10 @@ namespace brume::scene {
 /// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
 /// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[tank]], [[role]] (object, role), and
 /// [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type, time
-/// and the fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; those of events
-/// [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers exist. Fails with
-/// bad_input and file:line:column for malformed TOML, an unknown key (suggesting what was probably meant),
-/// and a value of the wrong type or out of range.
+/// and the fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; the
+/// points of events [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers
+/// exist. Fails with bad_input and file:line:column for malformed TOML, an unknown key (suggesting what was
+/// probably meant), and a value of the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

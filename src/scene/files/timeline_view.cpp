@@ -35,7 +35,7 @@ Result<void> read_camera_key(const toml::table& source, const std::filesystem::p
   TomlTable table(source, "[[camera]]", path.string());
   CameraKey key;
   for (const char* name : {"time", "position", "target"}) table.require(name);
-  table.read("time", key.time, 0, kLatestTime);
+  read_key_time(table, keys, key.time);
   table.read("position", key.camera.position_world, -kFarthestPoint, kFarthestPoint);
   table.read("target", key.camera.target_world, -kFarthestPoint, kFarthestPoint);
   visit_camera_options(key.camera, OptionReader{table});
@@ -43,8 +43,6 @@ Result<void> read_camera_key(const toml::table& source, const std::filesystem::p
   key.place = table.place("opening");
   if (key.camera.position_world == key.camera.target_world)
     table.fail("target", "\"target\": expected a point other than the position");
-  if (!keys.empty() && !(key.time > keys.back().time))
-    table.fail("time", "\"time\": expected a later time than that of the previous [[camera]]");
   keys.push_back(std::move(key));
   return table.finish();
 }

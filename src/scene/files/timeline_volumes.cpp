@@ -10,15 +10,6 @@
 namespace brume::scene {
 namespace {
 
-/// The time of the next key, which must be later than the last one's.
-template <typename Key>
-void read_key_time(TomlTable& table, const std::vector<Key>& keys, double& time) {
-  table.require("time");
-  table.read("time", time, 0, kLatestTime);
-  if (!keys.empty() && !(time > keys.back().time))
-    table.fail("time", "\"time\": expected a later time than that of the key before");
-}
-
 /// The name of a carrier that the timeline has.
 void read_carrier_name(TomlTable& table, const Timeline& timeline, std::string& name) {
   table.read("carrier", name);
