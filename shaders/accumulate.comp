@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/camera.glsl"
+#include "lib/image_part.glsl"
 #include "lib/smoke_distance.glsl"
 #include "lib/upsample.glsl"
 #include "shared/accumulate.h"
@@ -30,12 +31,12 @@ History history_of(vec3 p_smoke, vec3 p_surface) {
   if (params.has_past == 0u || clip.w <= frame.camera.near_z) return history;
   const vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
   if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return history;
-  const uvec2 px = min(uvec2(uv * vec2(frame.size_px)), frame.size_px - 1u);
-  const AccumulatedPixel before = past[px.x + frame.size_px.x * px.y];
+  const uvec2 size_px = params.past_size_px, px = min(uvec2(uv * vec2(size_px)), size_px - 1u);
+  const AccumulatedPixel before = past[px.x + size_px.x * px.y];
   // The surface behind the smoke must have been as far away, since it ends the ray.
   const vec4 surface = params.past_clip_from_world * vec4(p_surface, 1.0);
   const float off = abs(surface.w - before.distance_in_smoke) * frame.media.extinction;
-  history.smoke = textureLod(past_smoke, uv, 0.0);
+  history.smoke = textureLod(past_smoke, uv_of_part(uv, size_px, textureSize(past_smoke, 0)), 0.0);
   history.frames = before.frames / (1.0 + 16.0 * off * off);
   return history;
 }

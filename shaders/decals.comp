@@ -8,6 +8,7 @@
 #include "lib/frame.glsl"
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
+#include "lib/image_part.glsl"
 #include "lib/slice_texture.glsl"
 #include "lib/low_discrepancy.glsl"
 #include "shared/decal.h"
@@ -124,7 +125,8 @@ Past past_at(vec3 p_world) {
   if (clip.w <= frame.camera.near_z) return nothing;
   const vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
   if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return nothing;
-  const vec4 past = textureLod(past_occlusion, uv, 0.0);
+  const vec4 past =
+      textureLod(past_occlusion, uv_of_part(uv, params.past_size_px, textureSize(past_occlusion, 0)), 0.0);
   // Another surface was there.
   if (abs(past.b - clip.w) > 0.01 * clip.w) return nothing;
   return Past(past.r, past.g, past.a);

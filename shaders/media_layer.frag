@@ -11,7 +11,7 @@ layout(scalar, push_constant) uniform Push { MediaLayerParams params; };
 layout(location = 0) out vec4 colour;
 
 void main() {
-  const ivec2 px = ivec2(gl_FragCoord.xy);
+  const ivec2 px = ivec2(gl_FragCoord.xy) - ivec2(params.origin_px);
   const vec4 here = texelFetch(media, px, 0);
   const float remaining = params.has_decals != 0u ? 1.0 - texelFetch(occlusion, px, 0).r : 1.0;
   colour = vec4(here.rgb * params.exposure, here.a * remaining);

@@ -12,7 +12,7 @@ layout(scalar, push_constant) uniform Push { SurfaceImportParams params; };
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), params.size_px))) return;
-  const float d = texelFetch(host_depth, px, 0).r;
+  const float d = texelFetch(host_depth, px + ivec2(params.origin_px), 0).r;
   const float depth = d == params.none ? 0.0 : max((d - params.offset) * params.near_over_scale, 0.0);
   imageStore(depth_image, px, vec4(depth));
 }

@@ -64,7 +64,7 @@ void main() {
   vec3 normal = vec3(0.0);
   bool receives = here > 0.0, has_normal = false;
   if (receives && params.encoding != kNormalsOfDepth) {
-    const vec4 given = texelFetch(host_normals, px, 0);
+    const vec4 given = texelFetch(host_normals, px + ivec2(params.origin_px), 0);
     receives = params.alpha_receives == 0u || given.a != 0.0;
     const vec3 n = decoded(given);
     // False for what is not a number.

@@ -143,7 +143,8 @@ typedef struct brume_light {
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
-  uint32_t width, height;  ///< Size of your depth image and colour target [px], [1, 16384].
+  /// Size of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
+  uint32_t width, height;
   /// Pixels per ray of the march along each axis: 1, 2 or 4. 2 and 4 are faster, and show nothing that 1
   /// hides.
   uint32_t march_scale;
@@ -177,7 +178,8 @@ BRUME_API brume_result brume_renderer_create(brume_device* device, const brume_r
                                              brume_renderer** renderer) BRUME_NOEXCEPT;
 /// Destroys a renderer; null is ignored. Its device keeps resources of frames in flight until they complete.
 BRUME_API brume_result brume_renderer_destroy(brume_renderer* renderer) BRUME_NOEXCEPT;
-/// Changes the size [px], [1, 16384], from the next frame on. Accumulation starts over.
+/// Changes the size of pictures [px], [1, 16384], from the next frame on, and makes all images of that size
+/// again. Accumulation starts over. For frames of changing size use brume_frame_params::part.
 BRUME_API brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width,
                                              uint32_t height) BRUME_NOEXCEPT;
 
@@ -197,9 +199,25 @@ typedef struct brume_camera {
   float jitter_y;        ///< The same, downwards [px], [-1, 1].
 } brume_camera;
 
+/// Tangents of the angles from the camera's `forward` to the sides of the picture, to the right and upwards:
+/// left < right, down < up, each in [-1000, 1000]. From the angles of an eye in OpenXR, tan(angleLeft) and so
+/// on. From a projection matrix P in the column convention, which maps the view's x, y and -1 to clip space:
+/// left = (P[2][0] - 1) / P[0][0], right = (P[2][0] + 1) / P[0][0], and likewise with y for the other two.
+typedef struct brume_frustum {
+  float left, right, down, up;
+} brume_frustum;
+
+/// A part of your images [px].
+typedef struct brume_rectangle {
+  uint32_t x, y;           ///< Its top left corner.
+  uint32_t width, height;  ///< Its size.
+} brume_rectangle;
+
 /// The depth of the surfaces that you drew with the same camera.
 typedef struct brume_depth {
-  VkImageView view;      ///< Its depth aspect, in the renderer's size, with VK_IMAGE_USAGE_SAMPLED_BIT.
+  /// The depth aspect alone of a 2D image with one sample per pixel and VK_IMAGE_USAGE_SAMPLED_BIT: of a layer
+  /// of an array, a view of that layer; of a multisampled image, what you have resolved.
+  VkImageView view;
   VkImageLayout layout;  ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
   float near_plane;      ///< Near plane [m], (0, 16384). The depth is a perspective projection onto [0, 1].
   float far_plane;       ///< Far plane [m], above near_plane, may be infinite. Its depth means: no surface.
@@ -217,9 +235,9 @@ typedef enum brume_normal_encoding {
 
 /// The normals of the surfaces that you drew, for decals.
 typedef struct brume_normals {
-  /// An image of the renderer's size, in a format that shaders read as floats, with
-  /// VK_IMAGE_USAGE_SAMPLED_BIT. Null: the normals follow from planes through the depths of neighbouring
-  /// pixels, and face the camera. Such a normal also replaces one in the image that is 0 or not finite.
+  /// An image as large as the depth's, in a format that shaders read as floats. Null: the normals follow from
+  /// planes through the depths of neighbouring pixels, and face the camera. Such a normal also replaces one in
+  /// the image that is 0 or not finite.
   VkImageView view;
   VkImageLayout layout;    ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
   uint32_t encoding;       ///< A brume_normal_encoding.
@@ -231,7 +249,7 @@ typedef struct brume_normals {
 
 /// Your colour target, over which smoke is blended.
 typedef struct brume_picture {
-  /// An image of the renderer's size, with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, in
+  /// A 2D image, or a layer of an array, with one sample per pixel and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, in
   /// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. Stage: colour attachment output, reads and writes. Null: smoke
   /// is not blended; read brume_renderer_smoke.
   VkImageView view;
@@ -324,6 +342,13 @@ typedef struct brume_frame_params {
   const brume_shown_tank* tanks;      ///< Tanks, at most 4. jitter_index also selects their paths.
   size_t tank_count;                  ///< Number of `tanks`.
   brume_quality quality;              ///< Savings of this frame.
+  /// The part of depth, normals and picture that this frame covers, up to the renderer's size: split screens,
+  /// dynamic resolution. Its size may change in each frame; accumulation goes on. Width and height 0: the
+  /// renderer's size, from the top left corner on.
+  brume_rectangle part;
+  /// The picture's sides, in the place of camera.vertical_fov and square pixels: an eye of a headset, a tile, a
+  /// portal. All 0: the view axis is in the middle.
+  brume_frustum frustum;
 } brume_frame_params;
 
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of
@@ -366,10 +391,10 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 
 /// Writes the image of smoke, volumes and tanks of the last recorded frame, for your own compositing: half
 /// floats with premultiplied radiance, before any exposure, and transmittance in alpha, in
-/// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, and
-/// can be sampled. All frames use one image: compute shaders of the next frame must wait for your reads. It
-/// is another image after brume_renderer_resize, and when frames begin or cease to have tanks. Either
-/// pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that failed.
+/// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, with
+/// the frame in its top left corner, and can be sampled. All frames of a view use one image: compute shaders
+/// of the next frame must wait for your reads. It is another image after brume_renderer_resize, and when
+/// frames begin or cease to have tanks. Either pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that failed.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
 

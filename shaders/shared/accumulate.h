@@ -11,9 +11,10 @@ SHARED_BINDING(kBindMeanPixels, 41u);
 
 struct AccumulateParams {
   mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame
+  uvec2 past_size_px;         // its size, which may be another one
   uint has_past;              // 0: there is no previous frame
 };
-SHARED_SIZE(AccumulateParams, 68);
+SHARED_SIZE(AccumulateParams, 76);
 
 /// What a pixel stores for the next frame besides its smoke.
 struct AccumulatedPixel {

@@ -30,10 +30,11 @@ SHARED_SIZE(Decal, 168);
 
 struct DecalParams {
   mat4 past_clip_from_world;  // Camera::clip_from_world of the frame before
+  uvec2 past_size_px;         // its size, which may be another one
   uint past_frames;           // in a row before this one; 0: none, and a frame takes all samples itself
   uint decal_count;
 };
-SHARED_SIZE(DecalParams, 72);
+SHARED_SIZE(DecalParams, 80);
 
 /// Samples of a pixel without a past; with one it takes a single sample.
 SHARED_CONST uint kDecalSamples = 8u;

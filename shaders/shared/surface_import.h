@@ -15,11 +15,12 @@ SHARED_BINDING(kBindLayerOcclusion, 102u);
 /// A depth of the host is d = offset + scale / distance along the view axis.
 struct SurfaceImportParams {
   uvec2 size_px;
+  uvec2 origin_px;        // of the picture in the host's image
   float offset;
   float near_over_scale;  // near_z / scale: to reverse depth, by a multiplication
   float none;             // the host's depth where nothing was drawn
 };
-SHARED_SIZE(SurfaceImportParams, 20);
+SHARED_SIZE(SurfaceImportParams, 28);
 
 /// How a host stores normals: as they are; n as (n + 1) / 2; the upper half of an octahedron, and its lower half folded
 /// over it, in x and y (Meyer et al. 2010, "On Floating-Point Normal Vectors"); that likewise from 0 to 1.
@@ -30,11 +31,12 @@ SHARED_CONST uint kNormalsOctahedralUnsigned = 3u;
 SHARED_CONST uint kNormalsOfDepth = 4u;  // there are none
 
 struct SurfaceNormalParams {
+  uvec2 origin_px;      // of the picture in the host's image
   uint encoding;        // kNormals...
   uint of_view;         // 1: along right, up and against forward; 0: of the world
   uint alpha_receives;  // 1: surfaces of alpha 0 have no decals
 };
-SHARED_SIZE(SurfaceNormalParams, 12);
+SHARED_SIZE(SurfaceNormalParams, 20);
 
 /// Lights whose shadows a host may ask for, and the number of none.
 SHARED_CONST uint kMaxSurfaceShadows = 4u;
@@ -46,10 +48,11 @@ struct SurfaceShadowParams {
 SHARED_SIZE(SurfaceShadowParams, 16);
 
 struct MediaLayerParams {
+  uvec2 origin_px;  // of the picture in the host's image
   float exposure;   // multiplies the media's radiance
   uint has_decals;  // 1: they darken the picture
 };
-SHARED_SIZE(MediaLayerParams, 8);
+SHARED_SIZE(MediaLayerParams, 16);
 
 SHARED_END
 #endif

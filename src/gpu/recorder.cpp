@@ -317,7 +317,7 @@ void Recorder::dispatch_indirect(const Buffer& groups) {
       [=](const Functions& vk, VkCommandBuffer commands) { vk.CmdDispatchIndirect(commands, buffer, 0); });
 }
 
-void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {
+void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px, glm::uvec2 origin_px) {
   const auto attachment = [](VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load) {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -355,18 +355,20 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   }
   flush_barriers();
 
-  // Rendering, with the whole area as viewport and scissor.
+  // Rendering, with the part as viewport and scissor.
   const bool has_depth = attachments.depth != nullptr;
   list_.add([=](const Functions& vk, VkCommandBuffer commands) {
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    info.renderArea.extent = {size_px.x, size_px.y};
+    info.renderArea = {{static_cast<std::int32_t>(origin_px.x), static_cast<std::int32_t>(origin_px.y)},
+                       {size_px.x, size_px.y}};
     info.layerCount = 1;
     info.colorAttachmentCount = colour_count;
     info.pColorAttachments = colours.data();
     info.pDepthAttachment = has_depth ? &depth : nullptr;
     vk.CmdBeginRendering(commands, &info);
-    const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
+    const glm::vec2 low(origin_px), size(size_px);
+    const VkViewport viewport{low.x, low.y, size.x, size.y, 0, 1};
     vk.CmdSetViewport(commands, 0, 1, &viewport);
     vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
   });

@@ -92,8 +92,9 @@ class Recorder {
     bool keep_depth = false;
     bool overwrite = false;  ///< What no draw writes is undefined in the colours that are not kept: no clear.
   };
-  /// Clears the attachments that are neither kept nor overwritten to 0 (reverse depth: infinitely far).
-  void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
+  /// Draws into a part of the attachments from `origin_px` on. Clears it in those that are neither kept nor
+  /// overwritten to 0 (reverse depth: infinitely far).
+  void begin_rendering(const Attachments& attachments, glm::uvec2 size_px, glm::uvec2 origin_px = {0, 0});
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
                     std::int32_t first_vertex);

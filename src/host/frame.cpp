@@ -22,13 +22,24 @@ glm::vec3 unit(const brume_point& direction, const char* name) {
   return glm::vec3(v / length);
 }
 
-scene::Camera to_camera(const brume_camera& camera) {
+std::optional<scene::Frustum> to_frustum(const brume_frustum& given) {
+  if (given.left == 0 && given.right == 0 && given.down == 0 && given.up == 0) return std::nullopt;
+  constexpr float kMost = 1000;
+  require(given.left >= -kMost && given.left < given.right && given.right <= kMost,
+          "`frustum.left` must be below `frustum.right`, both within 1000");
+  require(given.down >= -kMost && given.down < given.up && given.up <= kMost,
+          "`frustum.down` must be below `frustum.up`, both within 1000");
+  return scene::Frustum{given.left, given.right, given.down, given.up};
+}
+
+scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum) {
   scene::Camera made;
   made.position_world = position(camera.position, "camera.position");
   made.target_world = made.position_world + unit(camera.forward, "camera.forward");
   made.up_world = unit(camera.up, "camera.up");
   // Wider than a timeline's: the host has drawn with it already.
-  require(camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f,
+  made.frustum = to_frustum(frustum);
+  require(made.frustum || (camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f),
           "`camera.vertical_fov` must be above 0 and below pi");
   made.vertical_fov = camera.vertical_fov;
   require(is_within(camera.jitter_x, -1, 1) && is_within(camera.jitter_y, -1, 1),
@@ -214,7 +225,8 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   auto slices = std::move(input.slices);
   input.clear();
   input.slices = std::move(slices);
-  input.view.camera = to_camera(params.camera);
+  input.view.camera = to_camera(params.camera, params.frustum);
+  input.view.size_px = {params.part.width, params.part.height};
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues_previous != 0;

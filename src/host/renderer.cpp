@@ -84,6 +84,12 @@ void check_frame(const brume_renderer& renderer, const brume_field* field, const
   const sim::MaskKey masks = renderer.masks ? renderer.masks->key() : sim::MaskKey{};
   if (field && field->field->smoke().masks() != masks)
     fail(BRUME_ERROR_MISMATCH, "the field has other masks than the renderer");
+  const brume_rectangle& part = params.part;
+  const glm::uvec2 most = renderer.options.size_px;
+  require((part.width == 0 && part.height == 0) ||
+              (part.width >= 1 && part.width <= most.x && part.height >= 1 && part.height <= most.y),
+          "`part` must be at least 1 pixel wide and high, and at most as large as the renderer");
+  require(part.x <= kMostPixels && part.y <= kMostPixels, "`part` must begin within 16384 pixels");
   if (params.picture.view == VK_NULL_HANDLE) return;
   require(can_blend(renderer.device->context, params.picture.format),
           "`picture.format` must be one that the device can blend");
@@ -124,7 +130,7 @@ void draw(brume_renderer& renderer, const brume_frame_params& params, const pass
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
   if (params.normals.view) normals.image = &normal_image;
   renderer.renderer->record_over(renderer.recording.recorder(), plan,
-                                 {.surfaces = {depth, range, normals},
+                                 {.surfaces = {depth, range, {params.part.x, params.part.y}, normals},
                                   .shadow_lights = {params.shadow_lights, params.shadow_light_count},
                                   .picture = params.picture.view ? &picture : nullptr,
                                   .exposure = params.picture.exposure});

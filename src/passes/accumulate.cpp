@@ -20,10 +20,12 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
 }
 
 void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-                            const gpu::Image& depth, const gpu::Image& smoke, bool continues) {
+                            glm::uvec2 size_px, const gpu::Image& depth, const gpu::Image& smoke,
+                            bool continues) {
   Past& past = recorder.change(past_);
   const std::size_t before = past.current, now = 1 - before;
-  const shared::AccumulateParams params{past.clip_from_world, continues && past.is_valid ? 1u : 0u};
+  const shared::AccumulateParams params{past.clip_from_world, past.size_px,
+                                        continues && past.is_valid ? 1u : 0u};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -35,8 +37,8 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                     {shared::kBindMeanPixels, gpu::write(pixels_[now])},
                 },
                 params);
-  recorder.dispatch_threads(pipeline_, smoke.info().size.x, smoke.info().size.y);
-  past = {now, true, camera.clip_from_world};
+  recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+  past = {now, true, camera.clip_from_world, size_px};
 }
 
 }  // namespace brume::passes

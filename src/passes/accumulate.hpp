@@ -11,17 +11,18 @@ namespace brume::passes {
 
 class AccumulatePass {
  public:
-  /// Stores two frames of this size. Throws resource_limit.
+  /// Stores two frames up to this size. Throws resource_limit.
   AccumulatePass(gpu::Context& context, glm::uvec2 size_px);
 
   /// Blends `smoke` (premultiplied radiance and transmittance, half floats) with the previous result; the
-  /// new result is gathered(). `frame` holds FrameConstants with this camera, `depth` is the G-buffer's.
+  /// new result is gathered(). `frame` holds FrameConstants with this camera and size, `depth` is the
+  /// G-buffer's. Frames of another size go on from those before.
   /// Without `continues`, and at first, the history is dropped and the result is `smoke`.
   ///
   /// A pixel is the mean of at most kAccumulatedFrames frames, clamped to one standard deviation around the
   /// mean of the 3 x 3 pixels around it in this frame, a range that includes its own value.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-              const gpu::Image& depth, const gpu::Image& smoke, bool continues);
+              glm::uvec2 size_px, const gpu::Image& depth, const gpu::Image& smoke, bool continues);
   const gpu::Image& gathered() const { return smoke_[past_.get(context_).current]; }
 
  private:
@@ -30,6 +31,7 @@ class AccumulatePass {
     std::size_t current = 0;
     bool is_valid = false;
     glm::mat4 clip_from_world{1};
+    glm::uvec2 size_px{1};
   };
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;

@@ -23,11 +23,12 @@ void DecalPass::upload(gpu::Recorder& recorder, std::span<const shared::Decal> d
 }
 
 void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-                       const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
-                       bool continues) {
+                       glm::uvec2 size_px, const GBuffer& gbuffer, const gpu::Image& blue_noise,
+                       const gpu::Image& slices, bool continues) {
   Past& past = recorder.change(past_);
   const std::size_t before = past.current, now = 1 - before;
-  const shared::DecalParams params{past.clip_from_world, continues ? past.frames : 0, decal_count_};
+  const shared::DecalParams params{past.clip_from_world, past.size_px, continues ? past.frames : 0,
+                                   decal_count_};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -40,9 +41,8 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                     {shared::kBindOcclusion, gpu::stored(occlusion_[now])},
                 },
                 params);
-  const glm::uvec3 size = occlusion_[now].info().size;
-  recorder.dispatch_threads(pipeline_, size.x, size.y);
-  past = {now, params.past_frames + 1, camera.clip_from_world};
+  recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
+  past = {now, params.past_frames + 1, camera.clip_from_world, size_px};
 }
 
 }  // namespace brume::passes

@@ -12,6 +12,7 @@ namespace brume::passes {
 
 class DecalPass {
  public:
+  /// For frames up to this size.
   DecalPass(gpu::Context& context, glm::uvec2 size_px);
 
   /// Uploads the decals of the next record, at most shared::kMaxDecals.
@@ -20,7 +21,8 @@ class DecalPass {
   /// 0 outside of their boxes and on what moves. Where a decal scatters its samples, with `continues` the
   /// mean of this frame and those before, else of several samples of this one.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-              const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices, bool continues);
+              glm::uvec2 size_px, const GBuffer& gbuffer, const gpu::Image& blue_noise,
+              const gpu::Image& slices, bool continues);
   /// The next frame has no past: one was drawn without decals.
   void invalidate_past(gpu::Recorder& recorder) { recorder.change(past_).frames = 0; }
   /// Half floats, of the image's size, from the last record.
@@ -32,6 +34,7 @@ class DecalPass {
     std::size_t current = 0;
     std::uint32_t frames = 0;  ///< In a row, up to the last record.
     glm::mat4 clip_from_world{1};
+    glm::uvec2 size_px{1};
   };
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;

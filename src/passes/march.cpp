@@ -28,12 +28,13 @@ std::uint32_t counts_of(const MarchPass::Options& options) {
 
 }  // namespace
 
-MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale)
-    : ends(tile_buffer(context, shared::tiles_of(size_px, scale), 0, sizeof(shared::RayEnds))),
-      near(tile_image(context, shared::tiles_of(size_px, scale))),
-      far(tile_image(context, shared::tiles_of(size_px, scale))),
-      list(tile_buffer(context, shared::tiles_of(size_px, scale), sizeof(shared::MarchList),
-                       sizeof(std::uint32_t))) {}
+MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t edge)
+    : ends(tile_buffer(context, shared::tiles_of(size_px, edge), 0, sizeof(shared::RayEnds))),
+      near(tile_image(context, shared::tiles_of(size_px, edge))),
+      far(tile_image(context, shared::tiles_of(size_px, edge))),
+      list(tile_buffer(context, shared::tiles_of(size_px, edge), sizeof(shared::MarchList),
+                       sizeof(std::uint32_t))),
+      scale(edge) {}
 
 MarchPass::MarchPass(gpu::Context& context, const Options& options)
     : context_(context),
@@ -71,11 +72,11 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
 }
 
 void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& in, const Rays& rays,
-                         const gpu::Buffer& counters) const {
+                         glm::uvec2 ray_count, const gpu::Buffer& counters) const {
   const auto dispatch_one = [&](std::uint32_t holes) {
     const gpu::ComputePipeline& pipeline = pipelines_.at({kind, holes, in.media.set});
     bind(recorder, pipeline, in, rays, counters);
-    recorder.dispatch_threads(pipeline, rays.smoke.info().size.x, rays.smoke.info().size.y);
+    recorder.dispatch_threads(pipeline, ray_count.x, ray_count.y);
   };
   const std::uint32_t holes = holes_of(in);
   if (holes != shared::kHolesClustered || !context_.tuning().split_march_by_holes) return dispatch_one(holes);
@@ -87,12 +88,13 @@ void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inpu
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,
                        const gpu::Buffer& counters) const {
-  dispatch(recorder, shared::kRaysOfPixels, in, {in.frame, in.frame, smoke, smoke}, counters);
+  dispatch(recorder, shared::kRaysOfPixels, in, {in.frame, in.frame, smoke, smoke}, in.size_px, counters);
 }
 
 void MarchPass::record_tiles(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                              const gpu::Buffer& counters) const {
-  dispatch(recorder, shared::kRaysOfTiles, in, {tiles.ends, in.frame, tiles.near, tiles.far}, counters);
+  dispatch(recorder, shared::kRaysOfTiles, in, {tiles.ends, in.frame, tiles.near, tiles.far},
+           shared::tiles_of(in.size_px, tiles.scale), counters);
 }
 
 void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,

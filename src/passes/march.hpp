@@ -14,7 +14,8 @@ struct MarchTiles {
   gpu::Image near;   ///< Half floats, a texel per tile: the smoke up to the tile's nearest surface.
   gpu::Image far;    ///< The same up to its farthest.
   gpu::Buffer list;  ///< shared::MarchList and the indices of the tiles whose pixels are marched one by one.
-  /// `scale` is 2 or 4. Throws resource_limit.
+  std::uint32_t scale;
+  /// For frames up to `size_px`. `scale` is 2 or 4. Throws resource_limit.
   MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
 };
 
@@ -50,6 +51,7 @@ class MarchPass {
     const gpu::Image& detail;  ///< A tile of the noise's octaves below the coarse one.
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
+    glm::uvec2 size_px;  ///< The frame's size; images and tiles may be larger.
   };
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,
@@ -78,7 +80,7 @@ class MarchPass {
     auto operator<=>(const Variant&) const = default;
   };
   void dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inputs& inputs, const Rays& rays,
-                const gpu::Buffer& counters) const;
+                glm::uvec2 ray_count, const gpu::Buffer& counters) const;
   std::uint32_t with_holes(std::uint32_t media) const;
   std::uint32_t holes_of(const Inputs& inputs) const;
 

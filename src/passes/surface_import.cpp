@@ -10,12 +10,12 @@
 namespace brume::passes {
 namespace {
 
-shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z, glm::uvec2 size_px) {
+shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z, const HostPart& part) {
   // d = f / (f - n) - f n / (f - n) / distance, 1 minus that where it is reversed.
   const double n = range.near_plane, f = range.far_plane;
   const double offset = std::isinf(f) ? 1 : f / (f - n), scale = std::isinf(f) ? n : f * n / (f - n);
   const double sign = range.reversed ? 1 : -1;
-  return {size_px, static_cast<float>(range.reversed ? 1 - offset : offset),
+  return {part.size_px, part.origin_px, static_cast<float>(range.reversed ? 1 - offset : offset),
           static_cast<float>(near_z / (sign * scale)), range.reversed ? 0.0f : 1.0f};
 }
 
@@ -24,15 +24,15 @@ shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z,
 SurfaceImport::SurfaceImport(gpu::Context& context)
     : pipeline_(context, shaders::surface_import_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
 
-void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
-                           float near_z, const GBuffer& target) const {
+void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostPart& part,
+                           const HostDepthRange& range, float near_z, const GBuffer& target) const {
   recorder.clear(target.emission, {});
-  record(recorder, host_depth, params_of(range, near_z, glm::uvec2(target.depth.info().size)), target.depth);
+  record(recorder, host_depth, params_of(range, near_z, part), target.depth);
 }
 
 void SurfaceImport::record_copy(gpu::Recorder& recorder, const gpu::Image& depth,
                                 const gpu::Image& copy) const {
-  record(recorder, depth, {glm::uvec2(copy.info().size), 0, 1, 0}, copy);
+  record(recorder, depth, {glm::uvec2(copy.info().size), {0, 0}, 0, 1, 0}, copy);
 }
 
 void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& from,
@@ -50,19 +50,19 @@ SurfaceNormalPass::SurfaceNormalPass(gpu::Context& context)
     : pipeline_(context, shaders::surface_normals_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void SurfaceNormalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const HostNormals& normals,
-                               const GBuffer& target) const {
+                               const HostPart& part, const GBuffer& target) const {
   const gpu::Image& given = normals.image ? *normals.image : target.depth;  // not read
-  recorder.bind(pipeline_,
-                {
-                    {shared::kBindFrame, gpu::uniform(frame)},
-                    {shared::kBindDepth, gpu::sampled(target.depth, nearest_)},
-                    {shared::kBindHostNormals, gpu::sampled(given, nearest_)},
-                    {shared::kBindImportedNormals, gpu::stored(target.normal_metallic)},
-                },
-                shared::SurfaceNormalParams{normals.image ? normals.encoding : shared::kNormalsOfDepth,
-                                            normals.of_view ? 1u : 0u, normals.alpha_receives ? 1u : 0u});
-  const glm::uvec3 size = target.normal_metallic.info().size;
-  recorder.dispatch_threads(pipeline_, size.x, size.y);
+  recorder.bind(
+      pipeline_,
+      {
+          {shared::kBindFrame, gpu::uniform(frame)},
+          {shared::kBindDepth, gpu::sampled(target.depth, nearest_)},
+          {shared::kBindHostNormals, gpu::sampled(given, nearest_)},
+          {shared::kBindImportedNormals, gpu::stored(target.normal_metallic)},
+      },
+      shared::SurfaceNormalParams{part.origin_px, normals.image ? normals.encoding : shared::kNormalsOfDepth,
+                                  normals.of_view ? 1u : 0u, normals.alpha_receives ? 1u : 0u});
+  recorder.dispatch_threads(pipeline_, part.size_px.x, part.size_px.y);
 }
 
 SurfaceShadowPass::SurfaceShadowPass(gpu::Context& context)
@@ -71,7 +71,7 @@ SurfaceShadowPass::SurfaceShadowPass(gpu::Context& context)
       linear_(context, {}) {}
 
 void SurfaceShadowPass::record(gpu::Recorder& recorder, const Inputs& in, glm::uvec4 lights,
-                               const gpu::Image& target) const {
+                               glm::uvec2 size_px, const gpu::Image& target) const {
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -83,7 +83,7 @@ void SurfaceShadowPass::record(gpu::Recorder& recorder, const Inputs& in, glm::u
                     {shared::kBindSurfaceShadows, gpu::stored(target)},
                 },
                 shared::SurfaceShadowParams{lights});
-  recorder.dispatch_threads(pipeline_, target.info().size.x, target.info().size.y);
+  recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
 }
 
 MediaLayerPass::MediaLayerPass(gpu::Context& context)
@@ -96,17 +96,18 @@ void MediaLayerPass::reserve(VkFormat format) {
   pipelines_.try_emplace(format, context_, info);
 }
 
-void MediaLayerPass::record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture) const {
+void MediaLayerPass::record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture,
+                            const HostPart& part) const {
   const gpu::GraphicsPipeline& pipeline = pipelines_.at(picture.info().format);
   const gpu::Image& occlusion = layer.occlusion ? *layer.occlusion : layer.media;  // not read
   recorder.prepare_for_draws({gpu::sampled(layer.media, nearest_), gpu::sampled(occlusion, nearest_)});
   gpu::Recorder::Attachments attachments;
   attachments.colours = {&picture};
   attachments.keep = 1;
-  recorder.begin_rendering(attachments, glm::uvec2(picture.info().size));
+  recorder.begin_rendering(attachments, part.size_px, part.origin_px);
   recorder.bind_for_draws(pipeline, {{shared::kBindMediaLayer, gpu::sampled(layer.media, nearest_)},
                                      {shared::kBindLayerOcclusion, gpu::sampled(occlusion, nearest_)}});
-  const shared::MediaLayerParams params{layer.exposure, layer.occlusion ? 1u : 0u};
+  const shared::MediaLayerParams params{part.origin_px, layer.exposure, layer.occlusion ? 1u : 0u};
   recorder.push(pipeline, std::as_bytes(std::span(&params, 1)));
   recorder.draw(3);
   recorder.end_rendering();

@@ -17,14 +17,19 @@ struct HostDepthRange {
   bool reversed = false;    ///< 1 at near_plane, 0 at far_plane, instead of the other way around.
 };
 
+/// The part of a host's images that a frame covers.
+struct HostPart {
+  glm::uvec2 origin_px{0}, size_px{1};
+};
+
 class SurfaceImport {
  public:
   explicit SurfaceImport(gpu::Context& context);
 
-  /// Writes the depth of GBuffer::imported, near_z / distance, from a host's depth of the same size;
-  /// `near_z`: of the frame's camera. There is no surface where the host's depth is far_plane's.
-  void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostDepthRange& range,
-              float near_z, const GBuffer& target) const;
+  /// Writes the depth of GBuffer::imported, near_z / distance, from a part of a host's depth into the top
+  /// left corner; `near_z`: of the frame's camera. There is no surface where the host's depth is far_plane's.
+  void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostPart& part,
+              const HostDepthRange& range, float near_z, const GBuffer& target) const;
   /// Copies the depth of a GBuffer into an image of floats of the same size, to which shaders can write.
   void record_copy(gpu::Recorder& recorder, const gpu::Image& depth, const gpu::Image& copy) const;
 
@@ -38,7 +43,7 @@ class SurfaceImport {
 
 /// The normals of a host's surfaces.
 struct HostNormals {
-  const gpu::Image* image = nullptr;                ///< As large as the frame; null: from the depth.
+  const gpu::Image* image = nullptr;                ///< As the host's depth; null: from the depth.
   std::uint32_t encoding = shared::kNormalsSigned;  ///< One of shared::kNormals....
   bool of_view = false;                             ///< Along right, up and against forward.
   bool alpha_receives = false;                      ///< Surfaces where its alpha is 0 have no decals.
@@ -51,7 +56,7 @@ class SurfaceNormalPass {
   /// Writes the normals of GBuffer::imported, after SurfaceImport::record. Where the host's normal is 0 or
   /// not finite it is the normal of the plane through the depths around, facing the camera.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const HostNormals& normals,
-              const GBuffer& target) const;
+              const HostPart& part, const GBuffer& target) const;
 
  private:
   gpu::ComputePipeline pipeline_;
@@ -71,8 +76,9 @@ class SurfaceShadowPass {
     const gpu::Image& depth;  ///< Depth of GBuffer::imported.
   };
   /// Writes which fraction of each light arrives through the media at the surface of each pixel, 1 without a
-  /// surface or a light. `lights`: numbers in the frame's lights, kNoLight: none. `target`: half floats.
-  void record(gpu::Recorder& recorder, const Inputs& inputs, glm::uvec4 lights,
+  /// surface or a light. `lights`: numbers in the frame's lights, kNoLight: none. `target`: half floats, at
+  /// least as large as the frame.
+  void record(gpu::Recorder& recorder, const Inputs& inputs, glm::uvec4 lights, glm::uvec2 size_px,
               const gpu::Image& target) const;
 
  private:
@@ -86,15 +92,16 @@ class MediaLayerPass {
 
   /// Makes the pipeline for pictures of a format that can be blended, outside of a recording.
   void reserve(VkFormat format);
-  /// What lies over the picture, of its size.
+  /// What lies over the picture, in the top left corner of its images.
   struct Layer {
     const gpu::Image& media;
     const gpu::Image* occlusion;  ///< DecalPass::occlusion; null: 0.
     float exposure;
   };
-  /// Replaces a picture p of a reserved format, in the layout for attachments, by exposure * radiance +
-  /// transmittance * (1 - occlusion) * p, its alpha by transmittance * (1 - occlusion) * alpha.
-  void record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture) const;
+  /// Replaces a part p of a picture of a reserved format, in the layout for attachments, by exposure *
+  /// radiance + transmittance * (1 - occlusion) * p, its alpha by transmittance * (1 - occlusion) * alpha.
+  void record(gpu::Recorder& recorder, const Layer& layer, const gpu::Image& picture,
+              const HostPart& part) const;
 
  private:
   gpu::Context& context_;

@@ -3,6 +3,24 @@
 #include <cmath>
 
 namespace brume::planning {
+namespace {
+
+/// Half of a picture 1 m in front of the eye: its size, and where its middle is, in such halves.
+struct HalfPicture {
+  glm::vec2 tangents, middle;
+};
+
+HalfPicture half_picture(const scene::Camera& camera, glm::uvec2 size_px) {
+  if (!camera.frustum) {
+    const float tan_y = std::tan(0.5f * camera.vertical_fov);
+    return {{tan_y * static_cast<float>(size_px.x) / static_cast<float>(size_px.y), tan_y}, {0, 0}};
+  }
+  const glm::vec2 low(camera.frustum->left, camera.frustum->down),
+      high(camera.frustum->right, camera.frustum->up), tangents = 0.5f * (high - low);
+  return {tangents, 0.5f * (high + low) / tangents};
+}
+
+}  // namespace
 
 shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample) {
   // Axes of the view: forward, right, up.
@@ -12,14 +30,15 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   const glm::vec3 other = std::abs(forward.z) > 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
   const glm::vec3 helper = is_along_up ? other : camera.up_world;
   const glm::vec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);
-  const float tan_y = std::tan(0.5f * camera.vertical_fov);
-  const float tan_x = tan_y * static_cast<float>(size_px.x) / static_cast<float>(size_px.y);
+  const HalfPicture half = half_picture(camera, size_px);
+  const float tan_x = half.tangents.x, tan_y = half.tangents.y;
 
   // The point of the lens, and how far rays lean back from there to the same point of what is sharp.
   const glm::vec2 on_lens = camera.lens.aperture * sample.lens;
   const glm::vec3 p = camera.position_world + on_lens.x * right + on_lens.y * up;
-  const glm::vec2 shift = 2.0f * glm::vec2(sample.pixel.x, -sample.pixel.y) / glm::vec2(size_px) -
-                          on_lens / (focus_distance(camera) * glm::vec2(tan_x, tan_y));
+  const glm::vec2 shift = half.middle +
+                          2.0f * glm::vec2(sample.pixel.x, -sample.pixel.y) / glm::vec2(size_px) -
+                          on_lens / (focus_distance(camera) * half.tangents);
 
   // Reverse depth, infinite far plane; Vulkan's y runs down.
   glm::mat4 rows(0);

@@ -47,6 +47,9 @@ struct ViewSample {
 
 struct View {
   scene::Camera camera;
+  /// Size of the picture [px], up to that of the renderer's images, which have it in their top left corner;
+  /// 0: as large as they are. Only for pictures of a host.
+  glm::uvec2 size_px{0};
   ViewSample sample = {};
   float exposure = 1;  ///< Multiplies radiance before the tone curve; > 0.
   scene::ToneCurve tone = scene::ToneCurve::neutral;

@@ -73,13 +73,23 @@ void Renderer::invalidate_level() {
   level_.invalidate();
 }
 
-planning::PlanTarget Renderer::plan_target() const {
+/// The size of a frame.
+glm::uvec2 Renderer::size_of(const FrameInput& input) const {
+  const glm::uvec2 size_px = input.view.size_px;
+  if (size_px == glm::uvec2(0)) return targets_.size_px;
+  const bool fits = host_ && glm::all(glm::greaterThan(size_px, glm::uvec2(0))) &&
+                    glm::all(glm::lessThanEqual(size_px, targets_.size_px));
+  if (!fits) throw Error(ErrorCode::bad_input, "a picture must be from 1 x 1 pixels to the renderer's size");
+  return size_px;
+}
+
+planning::PlanTarget Renderer::plan_target(const FrameInput& input) const {
   const passes::SceneResources& scene = level_.resources();
   return {scene.light_list,
           {scene.bounds_min, scene.bounds_max},
           scene.emitters,
           level_.shadows().sun_clip_from_world,
-          targets_.size_px,
+          size_of(input),
           glm::uvec2(smoke_.shadows().atlas.info().size),
           slices_.textures(),
           {smoke_budget_.atlas_bricks(), smoke_budget_.most_bricks(), smoke_.light_room(),
@@ -118,8 +128,8 @@ FramePlan Renderer::try_plan(const FrameInput& input) {
   slices_.prepare(input);
   if (!input.tanks.empty() && picture_ && !tanks_)
     tanks_.emplace(context_, stream_, targets_.size_px, TanksPart::Over::level);
-  if (tanks_) tanks_->prepare(input);
-  FramePlan plan = planning::plan_frame(input, plan_target(), history_);
+  if (tanks_) tanks_->prepare(input, size_of(input));
+  FramePlan plan = planning::plan_frame(input, plan_target(input), history_);
   reserve(plan);
   return plan;
 }
@@ -215,7 +225,9 @@ void Renderer::record_over(gpu::Recorder& recorder, const FramePlan& plan, const
   if (tanks_) tanks_->record_layers(recorder, media());
   recorder.change(recorded_).has_shadows = !host.shadow_lights.empty();
   if (!host.shadow_lights.empty()) host_->record_shadows(recorder, plan, in, host.shadow_lights);
-  if (host.picture) host_->record_layer(recorder, {layers(), occlusion(), host.exposure}, *host.picture);
+  if (host.picture)
+    host_->record_layer(recorder, {layers(), occlusion(), host.exposure}, *host.picture,
+                        {host.surfaces.origin_px, plan.size_px});
 }
 
 const gpu::Image& Renderer::layers() const {
@@ -271,7 +283,7 @@ void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, co
   decals_.begin(recorder, plan);
   if (!plan.input.decals.empty())
     scope(recorder, "decals", [&] {
-      if (!plan.decals.empty()) host_->record_normals(recorder, in, host);
+      if (!plan.decals.empty()) host_->record_normals(recorder, plan, in, host);
       decals_.record(recorder, plan, in, slices_, march_.is_accumulated());
     });
 }

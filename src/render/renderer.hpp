@@ -133,7 +133,8 @@ class Renderer {
 
  private:
   bool holds_all_smoke() const { return !memory_follows_view_ && smoke_budget_.is_unlimited(); }
-  planning::PlanTarget plan_target() const;
+  glm::uvec2 size_of(const FrameInput& input) const;
+  planning::PlanTarget plan_target(const FrameInput& input) const;
   void commit_recorded();
   FramePlan try_plan(const FrameInput& input);
   void reserve(const FramePlan& plan);

@@ -106,6 +106,13 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
+/// Tangents of the angles from the view axis to the four sides of a picture, to the right and upwards: that
+/// of a symmetric picture has left = -right and down = -up. left < right, down < up.
+struct Frustum {
+  float left = -1, right = 1, down = -1, up = 1;
+  bool operator==(const Frustum&) const = default;
+};
+
 struct Camera {
   glm::vec3 position_world{0, 1.7f, 5};
   glm::vec3 target_world{0, 1.7f, 0};
@@ -115,6 +122,8 @@ struct Camera {
   Lens lens = {};
   /// How long the shutter stays open, from the picture's time on [s]; 0: nothing is blurred by motion.
   float shutter = 0;
+  /// In the place of vertical_fov, where the view axis is not in the middle or pixels are not square.
+  std::optional<Frustum> frustum = {};
 };
 
 /// The distance along the view axis that is sharp [m], > 0.

@@ -115,7 +115,7 @@ class YardTest : public testing::Test {
     params.height = first_.y;
     params.lights = &light;
     params.light_count = 1;
-    params.temporal = 1;
+    params.temporal = is_temporal_ ? 1 : 0;
     params.march_scale = march_scale;
     return brume_renderer_create(device_, &params, &renderer_);
   }
@@ -178,6 +178,7 @@ class YardTest : public testing::Test {
   }
 
   glm::uvec2 first_;
+  bool is_temporal_ = true;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;
   gpu::Context gpu_;

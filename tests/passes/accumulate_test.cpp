@@ -29,7 +29,9 @@ class AccumulateTest : public gpu::GpuTest {
     const auto depth = upload_image(context(), runner(), kFrameSize, VK_FORMAT_R32_SFLOAT, reverse);
     frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto buffer = upload(std::vector{frame});
-    runner().run([&](gpu::Recorder& r) { pass_.record(r, buffer, frame.camera, depth, image, continues); });
+    runner().run([&](gpu::Recorder& r) {
+      pass_.record(r, buffer, frame.camera, frame.size_px, depth, image, continues);
+    });
     Texels shown;
     shown = from_half(read_back<Half4>(pass_.gathered()));
     return shown;
@@ -74,6 +76,33 @@ TEST_F(AccumulateTest, NoiseAveragesOut) {
   for (const glm::vec4& texel : shown) square += std::pow(static_cast<double>(texel.a) - 0.5, 2);
   const double deviation = std::sqrt(square / static_cast<double>(shown.size()));
   EXPECT_LT(deviation, 0.6 * 0.05);
+}
+
+// Frames of any size up to that of the images, which hold something else beside them: the mean goes on.
+TEST_F(AccumulateTest, TheMeanGoesOnWhereTheSizeChanges) {
+  std::mt19937 generator(5);
+  std::normal_distribution<float> noise(0, 0.05f);
+  const Texels other = even(glm::vec4(-1000));
+  for (int i = 0; i < 2; ++i) (void)add(frame_at(0), other, wall(12), false);
+  Texels shown;
+  shared::FrameConstants frame = frame_at(0);
+  for (int i = 0; i < 24; ++i) {
+    frame.size_px = kFrameSize - glm::uvec2(1 + i % 5, 1 + i % 3);
+    Texels smoke = other;
+    for (std::uint32_t y = 0; y < frame.size_px.y; ++y)
+      for (std::uint32_t x = 0; x < frame.size_px.x; ++x)
+        smoke[x + kFrameSize.x * y] = glm::vec4(0.5f + noise(generator));
+    shown = add(frame, smoke, wall(12), i > 0);
+  }
+  double square = 0, most = 0;
+  for (std::uint32_t y = 0; y < frame.size_px.y; ++y)
+    for (std::uint32_t x = 0; x < frame.size_px.x; ++x) {
+      const double off = std::abs(double{shown[x + kFrameSize.x * y].a} - 0.5);
+      square += off * off;
+      most = std::max(most, off);
+    }
+  EXPECT_LT(std::sqrt(square / (frame.size_px.x * frame.size_px.y)), 0.6 * 0.05);
+  EXPECT_LT(most, 0.5) << "what lies beside the frame";
 }
 
 TEST_F(AccumulateTest, AHoleThatClosesLeavesNoGhost) {

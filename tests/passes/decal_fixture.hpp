@@ -141,7 +141,8 @@ class DecalFixture : public gpu::GpuTest {
     // Draw.
     runner().run([&](gpu::Recorder& recorder) {
       pass_->upload(recorder, decals);
-      pass_->record(recorder, frame_buffer, camera_, gbuffer_, noise_, slices_->image(), continues);
+      pass_->record(recorder, frame_buffer, camera_, glm::uvec2(gbuffer_.depth.info().size), gbuffer_, noise_,
+                    slices_->image(), continues);
     });
     return from_half(read_back<Half4>(pass_->occlusion()));
   }

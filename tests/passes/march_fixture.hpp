@@ -51,7 +51,8 @@ class MarchFixture : public gpu::GpuTest {
             noise_tile_,
             noise_tile_,
             depth,
-            blue_noise_};
+            blue_noise_,
+            glm::uvec2(depth.info().size)};
   }
   /// Light of one colour in all of a room's smoke.
   static void light_evenly(gpu::Recorder& recorder, const SmokeRoom& room) {

@@ -124,7 +124,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
       recorder.fill(counters, 0);
       const MarchPass::Inputs in = inputs(frame_buffer, room_, depth, no_holes);
       if (scale == 1) return counting.record(recorder, in, target, counters);
-      resolve.record_ends(recorder, frame_buffer, depth, *blocks);
+      resolve.record_ends(recorder, {frame_buffer, kImageSize}, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);
     });
     const auto counted = read_back<std::uint32_t>(counters, 1 + kImageSize.x * kImageSize.y);

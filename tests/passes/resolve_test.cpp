@@ -53,10 +53,10 @@ class ResolveTest : public MarchFixture {
         return;
       }
       ResolvePass::upload(recorder, blocks);
-      resolve_.record_ends(recorder, frame_buffer, depth, blocks);
+      resolve_.record_ends(recorder, {frame_buffer, size}, depth, blocks);
       march_.record_tiles(recorder, in, blocks, counters);
-      resolve_.record_select(recorder, frame_buffer, emission, blocks);
-      resolve_.record(recorder, frame_buffer, depth, blocks, target);
+      resolve_.record_select(recorder, {frame_buffer, size}, emission, blocks);
+      resolve_.record(recorder, {frame_buffer, size}, depth, blocks, target);
       if (way == Way::blocks) return;
       if (way == Way::all_listed) list_all(recorder, blocks, frame);
       march_.record_list(recorder, in, blocks, target, counters);
@@ -199,7 +199,7 @@ TEST_F(ResolveTest, RaysOfUnevenBlocksPassThroughAFarPixel) {
       for (const float d : distances) reverse.push_back(frame.camera.near_z / d);
       const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, reverse);
       const MarchTiles blocks(context(), kSize, scale);
-      runner().run([&](gpu::Recorder& r) { resolve_.record_ends(r, frame_buffer, depth, blocks); });
+      runner().run([&](gpu::Recorder& r) { resolve_.record_ends(r, {frame_buffer, kSize}, depth, blocks); });
       const auto ends = read_back<RayEnds>(blocks.ends, count.x * count.y);
       for (std::uint32_t i = 0; i < ends.size(); ++i) {
         const glm::uvec2 first = glm::uvec2(i % count.x, i / count.x) * scale;
@@ -248,7 +248,7 @@ class SelectTest : public ResolveTest {
                                       std::vector<Half4>(size.x * size.y, to_half(glm::vec4(emission, 0))));
     runner().run([&](gpu::Recorder& recorder) {
       ResolvePass::upload(recorder, blocks);
-      resolve_.record_select(recorder, frame_buffer, shining, blocks);
+      resolve_.record_select(recorder, {frame_buffer, size}, shining, blocks);
     });
     const auto words = read_back<std::uint32_t>(blocks.list, 4 + kBlocks.x * kBlocks.y);
     const std::uint32_t groups = (words[3] * 16 + 63) / 64;

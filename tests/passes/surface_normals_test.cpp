@@ -64,7 +64,8 @@ class SurfaceNormalTest : public gpu::GpuTest {
     frame.size_px = size_;
     const gpu::Buffer buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& recorder) {
-      pass_.record(recorder, buffer, {image, encoding, of_view, alpha_receives}, target);
+      pass_.record(recorder, buffer, {image, encoding, of_view, alpha_receives},
+                   {{0, 0}, glm::uvec2(target.depth.info().size)}, target);
     });
     return from_half(read_back<Half4>(target.normal_metallic));
   }

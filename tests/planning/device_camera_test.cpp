@@ -27,6 +27,45 @@ TEST(DeviceCamera, RaysAndProjectionAgree) {
   }
 }
 
+// A picture that the view axis meets anywhere, even outside.
+TEST(DeviceCamera, SidesHaveTheTangentsOfTheFrustum) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(-2, 2), width(0.1f, 2);
+  for (int i = 0; i < 200; ++i) {
+    scene::Frustum frustum{value(random), 0, value(random), 0};
+    frustum.right = frustum.left + width(random);
+    frustum.up = frustum.down + width(random);
+    scene::Camera camera{{1, 2, 3}, {2, 1, value(random)}, 1};
+    camera.frustum = frustum;
+    const shared::Camera c = device_camera(camera, {1 + random() % 100, 1 + random() % 100});
+    const glm::vec3 right = glm::normalize(c.right), up = glm::normalize(c.up);
+    const auto at = [&](glm::vec2 ndc) {
+      const glm::vec3 ray = c.forward + (ndc.x + c.shift.x) * c.right + (ndc.y + c.shift.y) * c.up;
+      const glm::vec4 clip = c.clip_from_world * glm::vec4(c.eye_world + 5.0f * ray, 1);
+      EXPECT_NEAR(clip.x / clip.w, ndc.x, 1e-4f);
+      EXPECT_NEAR(clip.y / clip.w, -ndc.y, 1e-4f);
+      return glm::vec2(glm::dot(ray, right), glm::dot(ray, up));
+    };
+    const glm::vec2 low = at({-1, -1}), high = at({1, 1});
+    EXPECT_NEAR(low.x, frustum.left, 1e-5f);
+    EXPECT_NEAR(low.y, frustum.down, 1e-5f);
+    EXPECT_NEAR(high.x, frustum.right, 1e-5f);
+    EXPECT_NEAR(high.y, frustum.up, 1e-5f);
+  }
+}
+
+TEST(DeviceCamera, ASymmetricFrustumIsThatFieldOfView) {
+  scene::Camera camera{{1, 2, 3}, {2, 1, 0}, 1.1f};
+  const shared::Camera expected = device_camera(camera, {64, 36});
+  const float up = std::tan(0.55f), right = up * 64 / 36;
+  camera.frustum = {-right, right, -up, up};
+  camera.vertical_fov = 0.3f;
+  const shared::Camera made = device_camera(camera, {64, 36});
+  EXPECT_LT(glm::length(made.right - expected.right), 1e-6f);
+  EXPECT_LT(glm::length(made.up - expected.up), 1e-6f);
+  EXPECT_LT(glm::length(made.shift), 1e-6f);
+}
+
 TEST(DeviceCamera, LooksStraightDownAndAtItself) {
   for (const glm::vec3 target : {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0)}) {
     const shared::Camera c = device_camera({glm::vec3(0), target, 1}, {16, 9});

@@ -40,8 +40,8 @@ void DecalsPart::begin(gpu::Recorder& recorder, const FramePlan& plan) {
 void DecalsPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                         const SlicesPart& slices, bool smooths) {
   if (plan.decals.empty()) pass_->upload(recorder, {});
-  pass_->record(recorder, in.frame, plan.camera, in.targets.gbuffer, in.blue_noise, slices.image(),
-                plan.input.view.continues && smooths);
+  pass_->record(recorder, in.frame, plan.camera, plan.size_px, in.targets.gbuffer, in.blue_noise,
+                slices.image(), plan.input.view.continues && smooths);
   recorder.change(shown_) = {true, &pass_->occlusion()};
   if (plan.decals.empty()) forget(recorder);
 }

@@ -19,12 +19,14 @@ void HostSurfacesPart::reserve_shadows(glm::uvec2 size_px) {
 
 void HostSurfacesPart::record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                                     const HostSurfaces& surfaces) const {
-  import_pass_.record(recorder, surfaces.depth, surfaces.range, plan.camera.near_z, in.targets.gbuffer);
+  import_pass_.record(recorder, surfaces.depth, {surfaces.origin_px, plan.size_px}, surfaces.range,
+                      plan.camera.near_z, in.targets.gbuffer);
 }
 
-void HostSurfacesPart::record_normals(gpu::Recorder& recorder, const FrameResources& in,
-                                      const HostSurfaces& surfaces) const {
-  normal_pass_->record(recorder, in.frame, surfaces.normals, in.targets.gbuffer);
+void HostSurfacesPart::record_normals(gpu::Recorder& recorder, const FramePlan& plan,
+                                      const FrameResources& in, const HostSurfaces& surfaces) const {
+  normal_pass_->record(recorder, in.frame, surfaces.normals, {surfaces.origin_px, plan.size_px},
+                       in.targets.gbuffer);
 }
 
 void HostSurfacesPart::record_shadows(gpu::Recorder& recorder, const FramePlan& plan,
@@ -33,13 +35,13 @@ void HostSurfacesPart::record_shadows(gpu::Recorder& recorder, const FramePlan& 
   shadow_pass_->record(
       recorder, {in.frame, in.scene.lights, in.shadows.sun, in.smoke_shadows, in.targets.gbuffer.depth},
       planning::planned_lights(plan.lights, in.scene.light_list, plan.input.environment.flashes, lights),
-      shadows_);
+      plan.size_px, shadows_);
 }
 
 void HostSurfacesPart::record_layer(gpu::Recorder& recorder, const passes::MediaLayerPass::Layer& layer,
-                                    const gpu::Image& picture) const {
+                                    const gpu::Image& picture, const passes::HostPart& part) const {
   const gpu::Scope timed(recorder, "layer");
-  layer_pass_.record(recorder, layer, picture);
+  layer_pass_.record(recorder, layer, picture, part);
 }
 
 }  // namespace brume::render

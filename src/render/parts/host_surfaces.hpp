@@ -10,8 +10,9 @@ namespace brume::render {
 
 /// The surfaces of a frame, from its camera.
 struct HostSurfaces {
-  const gpu::Image& depth;  ///< An image of the renderer's size.
+  const gpu::Image& depth;
   passes::HostDepthRange range;
+  glm::uvec2 origin_px{0};           ///< Where the frame begins in the host's images.
   passes::HostNormals normals = {};  ///< For decals.
 };
 
@@ -32,14 +33,15 @@ class HostSurfacesPart {
   /// The depth of the surfaces, in the place of a G-buffer.
   void record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                     const HostSurfaces& surfaces) const;
-  void record_normals(gpu::Recorder& recorder, const FrameResources& in, const HostSurfaces& surfaces) const;
+  void record_normals(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
+                      const HostSurfaces& surfaces) const;
   /// The media's shadows on the surfaces, of up to four `lights`: the scene's by their place in it, then
   /// the frame's flashes.
   void record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                       std::span<const std::uint32_t> lights);
-  /// Draws the layer over a picture of a reserved format.
+  /// Draws the layer over a part of a picture of a reserved format.
   void record_layer(gpu::Recorder& recorder, const passes::MediaLayerPass::Layer& layer,
-                    const gpu::Image& picture) const;
+                    const gpu::Image& picture, const passes::HostPart& part) const;
 
   /// As SurfaceShadowPass writes them.
   const gpu::Image& shadows() const { return shadows_; }

@@ -15,14 +15,15 @@ gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
 }
 
-passes::MarchPass::Inputs march_inputs(const FrameResources& in) {
+passes::MarchPass::Inputs march_inputs(const FramePlan& plan, const FrameResources& in) {
   return {.frame = in.frame,
           .media = in.media,
           .light = in.media_light,
           .noise = in.noise,
           .detail = in.detail,
           .depth = in.surfaces,
-          .blue_noise = in.blue_noise};
+          .blue_noise = in.blue_noise,
+          .size_px = plan.size_px};
 }
 
 }  // namespace
@@ -117,13 +118,14 @@ void MarchPart::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
 void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const March march = march_of(in);
   const Targets& targets = in.targets;
-  const passes::MarchPass::Inputs inputs = march_inputs(in);
+  const passes::MarchPass::Inputs inputs = march_inputs(plan, in);
+  const passes::ResolvePass::Frame frame{in.frame, plan.size_px};
 
   // One ray a pixel, or one a tile.
   scope(recorder, "march", [&] {
     if (raycast_pass_) return record_raycast(recorder, plan, in);
     if (!tiles_) return march.pass.record(recorder, inputs, targets.media, march.counters);
-    resolve_pass_->record_ends(recorder, in.frame, in.surfaces, *tiles_);
+    resolve_pass_->record_ends(recorder, frame, in.surfaces, *tiles_);
     march.pass.record_tiles(recorder, inputs, *tiles_, march.counters);
   });
   if (!tiles_) return;
@@ -132,8 +134,8 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
   scope(recorder, "resolve", [&] {
     // Neither fills the device, and both only read the rays.
     recorder.concurrently([&] {
-      resolve_pass_->record_select(recorder, in.frame, targets.gbuffer.emission, *tiles_);
-      resolve_pass_->record(recorder, in.frame, in.surfaces, *tiles_, targets.media);
+      resolve_pass_->record_select(recorder, frame, targets.gbuffer.emission, *tiles_);
+      resolve_pass_->record(recorder, frame, in.surfaces, *tiles_, targets.media);
     });
     march.pass.record_list(recorder, inputs, *tiles_, targets.media, march.counters);
   });
@@ -142,7 +144,7 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
 void MarchPart::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!accumulate_pass_) return;
   scope(recorder, "accumulate", [&] {
-    accumulate_pass_->record(recorder, in.frame, plan.camera, in.surfaces, in.targets.media,
+    accumulate_pass_->record(recorder, in.frame, plan.camera, plan.size_px, in.surfaces, in.targets.media,
                              plan.input.view.continues);
   });
 }

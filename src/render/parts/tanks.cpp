@@ -54,14 +54,14 @@ TanksPart::Slot& TanksPart::slot_of(const planning::TankInput& tank) {
   return made;
 }
 
-void TanksPart::add(const planning::TankInput& tank, const planning::View& view) {
+void TanksPart::add(const planning::TankInput& tank, const planning::View& view, glm::uvec2 size_px) {
   Slot& slot = slot_of(tank);
   const bool continues = tank.continues && level_stands_ && slot.frame + 1 == frame_ &&
                          slot.light == tank.light && slot.sampler.samples() > 0;
   slot.frame = frame_;
   shown_.push_back(&slot);
   planning::TankPlan plan = planning::plan_tank_in_frame(tank.light->scene, tank.content->tank,
-                                                         tank.placement, view.camera, view.sample, size_px_);
+                                                         tank.placement, view.camera, view.sample, size_px);
   plan.view = tank.view;
   if (slot.light != tank.light) slot.sampler.set_photons(tank.light->paths);
   slot.light = tank.light;
@@ -81,7 +81,7 @@ void TanksPart::begin_level(const FrameInput& input) {
   if (!level_stands_) level_ = {input.level.hidden_objects, input.level.grenades, input.level.moved};
 }
 
-void TanksPart::prepare(const FrameInput& input) {
+void TanksPart::prepare(const FrameInput& input, glm::uvec2 size_px) {
   const scene::Camera& camera = input.view.camera;
   ++frame_;
   shown_.clear();
@@ -98,9 +98,9 @@ void TanksPart::prepare(const FrameInput& input) {
     return glm::distance(tank->placement.position_world, camera.position_world);
   };
   std::ranges::stable_sort(far_first, std::ranges::greater(), distance);
-  const planning::ViewFrustum frustum(planning::device_camera(camera, size_px_));
+  const planning::ViewFrustum frustum(planning::device_camera(camera, size_px));
   for (const planning::TankInput* tank : far_first)
-    if (may_be_seen(*tank, frustum)) add(*tank, input.view);
+    if (may_be_seen(*tank, frustum)) add(*tank, input.view, size_px);
   has_layers_now_ = has_layers_now_ || !shown_.empty();
 }
 

@@ -26,9 +26,9 @@ class TanksPart {
 
   /// Frames of another size.
   void resize(glm::uvec2 size_px);
-  /// Makes room for the tanks of a frame before it is planned, and uploads what is new. Of tanks that are not
-  /// shown, memory is kept for some frames. Throws resource_limit.
-  void prepare(const FrameInput& input);
+  /// Makes room for the tanks of a frame of this size before it is planned, and uploads what is new. Of tanks
+  /// that are not shown, memory is kept for some frames. Throws resource_limit.
+  void prepare(const FrameInput& input, glm::uvec2 size_px);
   /// Records the samples of the planned tanks, which become surfaces of the frame. `depth`: of its G-buffer.
   void record_surfaces(gpu::Recorder& recorder, const gpu::Image& depth, const gpu::Image& blue_noise);
   /// Depth of the planned frame's surfaces with its tanks; null: Over::host, or no tank is in view.
@@ -51,7 +51,7 @@ class TanksPart {
     std::uint64_t frame = 0;    ///< The last one that it was planned for.
   };
   Slot& slot_of(const planning::TankInput& tank);
-  void add(const planning::TankInput& tank, const planning::View& view);
+  void add(const planning::TankInput& tank, const planning::View& view, glm::uvec2 size_px);
 
   /// What the surfaces of our own level depend on, besides the camera.
   struct LevelSurfaces {

@@ -1,0 +1,210 @@
+// Parts of a host's pictures: eyes of a headset, tiles, split screens, frames of changing size.
+#include "tests/host/hosted_pair.hpp"
+#include "tests/host/yard.hpp"
+
+namespace brume::host {
+namespace {
+
+constexpr glm::uvec2 kWhole{128, 128};
+/// What the whole picture shows.
+constexpr brume_frustum kWide{-1.1f, 0.9f, -0.7f, 0.8f};
+
+/// The frustum of a part of the whole picture.
+brume_frustum frustum_of(const brume_rectangle& part) {
+  const float x = (kWide.right - kWide.left) / kWhole.x, y = (kWide.up - kWide.down) / kWhole.y;
+  const auto at = [](std::uint32_t px) { return static_cast<float>(px); };
+  return {kWide.left + x * at(part.x), kWide.left + x * at(part.x + part.width),
+          kWide.up - y * at(part.y + part.height), kWide.up - y * at(part.y)};
+}
+
+class PartsTest : public YardTest {
+ protected:
+  explicit PartsTest(bool is_temporal = false) : YardTest(true, kWhole) { is_temporal_ = is_temporal; }
+  void SetUp() override {
+    make({40, 16, 28}, 0.25f, 1);
+    smoke(1, {6, 1, 3.5f}, 3000, 2000);
+    brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 150);
+    shot.u.shot.origin = position_of(sim::position_from_metres({1, 1.5, 3}));
+    shot.u.shot.toward = position_of(sim::position_from_metres({9, 1.2, 3.6}));
+    append(shot);
+    advance(160);
+    picture_ =
+        gpu::Image(gpu_, {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                          .size = {kWhole, 1},
+                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    upload_depth(0.05f);
+    begin_picture();
+  }
+  /// Surfaces at 3 m, and `slope` farther with each pixel and row.
+  void upload_depth(float slope) {
+    std::vector<float> reverse;
+    for (std::uint32_t y = 0; y < kWhole.y; ++y)
+      for (std::uint32_t x = 0; x < kWhole.x; ++x)
+        reverse.push_back(0.1f / (3 + slope * static_cast<float>(x + 10 * (y % 3))));
+    const gpu::Recorder::Region all{std::as_bytes(std::span(reverse)), {}, {kWhole, 1}};
+    const gpu::Sampler nearest(gpu_, {});
+    frame([&](gpu::Recorder& recorder) {
+      recorder.upload(depth_, {&all, 1});
+      recorder.prepare_for_draws({gpu::sampled(depth_, nearest)});  // into its layout
+    });
+  }
+  void begin_picture() {
+    frame([&](gpu::Recorder& recorder) {
+      gpu::Recorder::Attachments attachments;
+      attachments.colours = {&picture_};
+      recorder.begin_rendering(attachments, kWhole);
+      recorder.end_rendering();
+    });
+  }
+  /// A frame of the host's own.
+  void frame(const std::function<void(gpu::Recorder&)>& record) {
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
+      recording_.begin(commands, number, completed);
+      record(recording_.recorder());
+      recording_.end();
+      host_.wait_for_compute(commands);
+    });
+  }
+  /// Draws a part of the picture.
+  void draw_part(const brume_rectangle& part, const brume_frustum& frustum, std::uint32_t jitter = 1) {
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
+      brume_frame_params params = brume_frame_defaults();
+      params.commands = commands;
+      params.frame_number = number;
+      params.completed_frame = completed;
+      params.camera.position = {1.5f, 1.6f, 3};
+      params.camera.forward = {1, -0.1f, 0.1f};
+      params.depth.view = depth_.view();
+      params.depth.layout = depth_.last_use.get(gpu_).layout;
+      params.depth.reversed = 1;
+      params.depth.far_plane = INFINITY;
+      params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+      params.seconds = 160 / 64.0;
+      params.jitter_index = jitter;
+      params.continues_previous = 1;
+      params.part = part;
+      params.frustum = frustum;
+      ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+    });
+  }
+  /// What was drawn; empties the picture.
+  Pixels picture() {
+    const gpu::Buffer copy = gpu::readback_buffer(gpu_, VkDeviceSize{8} * kWhole.x * kWhole.y);
+    frame([&](gpu::Recorder& recorder) { recorder.read_back(picture_, copy); });
+    host_.wait();
+    begin_picture();
+    return pixels_of(copy);
+  }
+  Pixels whole() {
+    draw_part({}, kWide);
+    return picture();
+  }
+  /// The largest difference within a rectangle.
+  static double apart(const Pixels& a, const Pixels& b, const brume_rectangle& in) {
+    double most = 0;
+    for (std::uint32_t y = in.y; y < in.y + in.height; ++y)
+      for (std::uint32_t x = in.x; x < in.x + in.width; ++x)
+        for (int c = 0; c < 4; ++c)
+          most = std::max(most, std::abs(a[x + kWhole.x * y][c] - b[x + kWhole.x * y][c]));
+    return most;
+  }
+
+  gpu::Image picture_;
+};
+
+// Tiles are as large as that of the blue noise, so that their rays are the same.
+TEST_F(PartsTest, FourTilesAreTheWholePicture) {
+  for (const std::uint32_t scale : {1u, 2u}) {
+    ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
+    const Pixels expected = whole();
+    for (const std::uint32_t y : {0u, 64u})
+      for (const std::uint32_t x : {0u, 64u}) draw_part({x, y, 64, 64}, frustum_of({x, y, 64, 64}));
+    const Pixels tiles = picture();
+    // At half resolution rays have other jitter; both pictures may be three steps of a display off.
+    EXPECT_LE(apart(expected, tiles, {0, 0, 128, 128}), (scale == 1 ? 1 : 6) / 255.0) << "at scale " << scale;
+    double most = 0;
+    for (const glm::dvec4& pixel : expected) most = std::max(most, pixel.r);
+    EXPECT_GT(most, 0.02) << "smoke is in view";
+  }
+}
+
+// Beside the part nothing changes.
+TEST_F(PartsTest, APartIsDrawnAlone) {
+  const Pixels empty = picture();
+  const brume_rectangle part{64, 37, 40, 21};
+  draw_part(part, frustum_of(part));
+  const Pixels drawn = picture();
+  EXPECT_EQ(apart(empty, drawn, {0, 0, 64, 128}), 0);
+  EXPECT_EQ(apart(empty, drawn, {104, 0, 24, 128}), 0);
+  EXPECT_EQ(apart(empty, drawn, {64, 0, 40, 37}), 0);
+  EXPECT_EQ(apart(empty, drawn, {64, 58, 40, 70}), 0);
+  EXPECT_GT(apart(empty, drawn, part), 0.02);
+}
+
+TEST_F(PartsTest, RefusesPartsAndFrustaThatAreNone) {
+  host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t) {
+    brume_frame_params good = brume_frame_defaults();
+    good.commands = commands;
+    good.frame_number = number;
+    good.depth.view = depth_.view();
+    good.depth.layout = VK_IMAGE_LAYOUT_GENERAL;
+    const auto refused = [&](const char* words, auto change) {
+      brume_frame_params params = good;
+      change(params);
+      expect_refused(brume_renderer_record(renderer_, field_, &params), BRUME_ERROR_ARGUMENT, words);
+    };
+    refused("part", [](auto& p) { p.part = {0, 0, kWhole.x + 1, 1}; });
+    refused("part", [](auto& p) { p.part = {0, 0, 5, 0}; });
+    refused("part", [](auto& p) { p.part = {0, 20000, 5, 5}; });
+    refused("frustum.left", [](auto& p) { p.frustum = {1, -1, -1, 1}; });
+    refused("frustum.left", [](auto& p) { p.frustum = {NAN, 1, -1, 1}; });
+    refused("frustum.down", [](auto& p) { p.frustum = {-1, 1, 2, 2}; });
+    refused("frustum.down", [](auto& p) { p.frustum = {-1, 1, -1, INFINITY}; });
+  });
+}
+
+/// Pipelines that are made.
+struct CountPipelines {
+  static inline int made = 0;
+  static VkResult call(PFN_vkCreateComputePipelines real, VkDevice device, VkPipelineCache cache,
+                       std::uint32_t count, const VkComputePipelineCreateInfo* infos,
+                       const VkAllocationCallbacks* callbacks, VkPipeline* pipelines) {
+    made += static_cast<int>(count);
+    return real(device, cache, count, infos, callbacks, pipelines);
+  }
+};
+
+class DynamicPartsTest : public PartsTest {
+ protected:
+  DynamicPartsTest() : PartsTest(true) {
+    replacements_.push_back(BRUME_INTERPOSED(CountPipelines, CreateComputePipelines));
+  }
+};
+
+// A size per frame: no pipeline and no image is made, and the mean over frames goes on (AccumulateTest).
+TEST_F(DynamicPartsTest, ThirteenSizesInThirteenFrames) {
+  upload_depth(0);
+  const auto size = [](std::uint32_t i) { return 128 - 3 * (i * 5 % 13); };
+  for (int i = 0; i < 4; ++i) draw_part({}, kWide, 1);
+  const int made = CountPipelines::made, allocations = memory_.allocations;
+  EXPECT_GT(made, 0);
+  for (std::uint32_t i = 0; i < 13; ++i) draw_part({0, 0, size(i), size(i)}, kWide, 2 + i);
+  host_.wait();
+  EXPECT_EQ(CountPipelines::made, made);
+  EXPECT_EQ(memory_.allocations, allocations);
+
+  // After a resize nothing is left of it.
+  begin_picture();
+  draw_part({0, 0, 100, 90}, kWide, 20);
+  const Pixels goes_on = picture();
+  ASSERT_OK(brume_renderer_resize(renderer_, kWhole.x, kWhole.y));
+  draw_part({0, 0, 100, 90}, kWide, 20);
+  const Pixels starts = picture();
+  ASSERT_OK(brume_renderer_resize(renderer_, kWhole.x, kWhole.y));
+  draw_part({0, 0, 100, 90}, kWide, 20);
+  EXPECT_EQ(starts, picture());
+  EXPECT_NE(starts, goes_on);
+}
+
+}  // namespace
+}  // namespace brume::host
