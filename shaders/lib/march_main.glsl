@@ -1,5 +1,5 @@
 // Marches rays through the media of a frame: the entry point of march.comp and march_several.comp, which differ in
-// kByBlocks. Two shaders, because a driver translates all code of a shader, whatever its constants.
+// kByBlocks. They are two shaders because a driver compiles all code of a shader, whatever its constants.
 #ifndef MARCH_MAIN_GLSL
 #define MARCH_MAIN_GLSL
 #include "shared/frame.h"
@@ -12,7 +12,7 @@ layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 layout(constant_id = 3) const uint kMedia = 0u;
 layout(constant_id = 4) const uint kBlockSteps = 4u;
-layout(constant_id = 5) const uint kSplitByHoles = 0u;  // 1: two pipelines, of tiles that holes meet and of others
+layout(constant_id = 5) const uint kSplitByHoles = 0u;  // 1: one pipeline for tiles with holes, one for the others
 #include "lib/blue_noise.glsl"
 #include "lib/march.glsl"
 #include "lib/pixel_ray.glsl"
@@ -23,11 +23,11 @@ layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
 layout(binding = kBindSmokeNear, rgba16f) uniform writeonly image2D smoke_near;
 layout(scalar, binding = kBindMarchCounters) buffer Counters {
   uint texture_samples;
-  uint of_pixel[];  // steps, or the bits of the entry, by kCount
+  uint of_pixel[];  // by kCount: the steps of its ray, or the bits of the entry's distance
 };
 
-/// Whether the other pipeline marches the rays of this workgroup, which covers as many tiles of holes as a tile of rays
-/// has pixels.
+/// Whether the other pipeline marches the rays of this workgroup. Rays of tiles are march_scale pixels apart, so their
+/// workgroup covers march_scale^2 tiles of holes.
 bool is_of_other_pipeline() {
   const bool split = kSplitByHoles != 0u && kMayHaveHoles && kHoles != kHolesAllTested && kRays != kRaysOfList;
   if (!split || frame.holes.count == 0u) return false;
@@ -42,7 +42,7 @@ bool is_of_other_pipeline() {
 
 vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
 
-/// Writes what is recorded of a ray for each of its pixels.
+/// Writes a value of a ray to the counters of all its pixels.
 void write_of_pixels(ivec2 texel, uint value) {
   const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
   for (uint i = 0u; i < edge * edge; ++i) {
@@ -63,8 +63,8 @@ void main() {
   const float per_depth = length(along);
   const vec2 inside = clip_to_media(ray.origin, ray.direction, pixel.far * per_depth);
 
-  // A tile's ray is stored at the nearest surface of its pixels, too. There is one call of march, because each is
-  // compiled on its own.
+  // The ray of a tile is marched in two parts and stored at the end of each, at the nearest and the farthest surface of
+  // its pixels. In a loop, because compilers inline each call of march.
   const bool of_tile = kRays == kRaysOfTiles;
   const float t_near = of_tile ? clamp(pixel.near * per_depth, inside.x, inside.y) : inside.y;
   Gathered gathered = nothing_gathered();

@@ -37,8 +37,8 @@ scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum
   made.position_world = position(camera.position, "camera.position");
   made.target_world = made.position_world + unit(camera.forward, "camera.forward");
   made.up_world = unit(camera.up, "camera.up");
-  // Wider than a timeline's: the host has drawn with it already.
   made.frustum = to_frustum(frustum);
+  // A wider range than in timelines: the host draws with this angle in any case.
   require(made.frustum || (camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f),
           "`camera.vertical_fov` must be above 0 and below pi");
   made.vertical_fov = camera.vertical_fov;
@@ -58,7 +58,7 @@ scene::SmokeOptions to_options(const brume_smoke_look& look, float extinction) {
   options.swirl = look.swirl;
   options.rise = look.rise;
   scene::visit_smoke_options(options, api::RangeCheck("`look."));
-  // A field's extinction has a wider range than a timeline's.
+  // After the checks, because the extinction of a field has a wider range than in timelines.
   options.extinction = extinction;
   return options;
 }
@@ -110,7 +110,7 @@ bool depth_can_be_sampled(VkImageLayout layout) {
   }
 }
 
-/// A factor; 0 counts as 1.
+/// A factor in [low, high]; 0 counts as 1.
 float scale_of(float given, float low, float high, const char* expected) {
   if (given == 0) return 1;
   require(is_within(given, low, high), expected);
@@ -162,7 +162,7 @@ glm::vec3 vec3_of(const float (&c)[3]) {
 
 bool spans_space(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
   const double lengths = glm::length(x) * glm::length(y) * glm::length(z);
-  // False for what is not a number.
+  // False for NaN.
   return lengths > 1e-18 && lengths < 1e18 && std::abs(glm::dot(x, glm::cross(y, z))) > 1e-9 * lengths;
 }
 
@@ -225,12 +225,16 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   auto slices = std::move(input.slices);
   input.clear();
   input.slices = std::move(slices);
+
+  // The view and the time.
   input.view.camera = to_camera(params.camera, params.frustum);
   input.view.size_px = {params.part.width, params.part.height};
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues_previous != 0;
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
+
+  // Light.
   input.environment.sky.ambient = vec3_of(params.ambient);
   // A thousand times more than in timelines: each host has its own unit of radiance.
   require(is_within(input.environment.sky.ambient, 0, 1e6f), "`ambient` must be from 0 to 10^6");
@@ -241,9 +245,12 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.environment.bounces = params.bounces;
   scene::visit_bounce_options(input.environment, api::RangeCheck("`"));
   add_lights(params, input.environment.flashes);
+
+  // Quality, and the exposure, below which light is too dark to be seen.
   input.quality = quality_of(params.quality);
-  // The exposure decides which light is too dark to be seen.
   if (params.picture.view != VK_NULL_HANDLE) input.view.exposure = params.picture.exposure;
+
+  // Smoke.
   if (field) show_smoke(params, *field, input);
   input.smoke.time = static_cast<float>(params.seconds);
 }

@@ -46,7 +46,7 @@ MarchPass::MarchPass(gpu::Context& context, const Options& options)
   if (options.media != 0) reserve(options.media);
 }
 
-/// The variant for frames with holes.
+/// The kind of kHoles of march_main.glsl that frames with holes need.
 std::uint32_t MarchPass::with_holes(std::uint32_t media) const {
   if ((media & shared::kMediaWithHoles) == 0) return shared::kHolesNone;
   return options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
@@ -60,6 +60,8 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
   const gpu::Tuning& tuning = context_.tuning();
   const bool several = (media & shared::kMediumSeveral) != 0;
   const gpu::ShaderCode& code = several ? shaders::march_several_comp : shaders::march_comp;
+
+  // A frame marches pixels; or tiles, and then the pixels of listed tiles. It may have holes or none.
   for (const std::uint32_t kind : {shared::kRaysOfPixels, shared::kRaysOfTiles, shared::kRaysOfList}) {
     if (rays == (kind == shared::kRaysOfPixels ? MarchRays::of_tiles : MarchRays::of_pixels)) continue;
     for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)}) {
@@ -79,6 +81,8 @@ void MarchPass::dispatch(gpu::Recorder& recorder, std::uint32_t kind, const Inpu
     recorder.dispatch_threads(pipeline, ray_count.x, ray_count.y);
   };
   const std::uint32_t holes = holes_of(in);
+
+  // Split: one pipeline marches the tiles that holes meet, the other one the rest (is_of_other_pipeline).
   if (holes != shared::kHolesClustered || !context_.tuning().split_march_by_holes) return dispatch_one(holes);
   recorder.concurrently([&] {
     dispatch_one(holes);

@@ -9,11 +9,13 @@
 namespace brume::planning {
 namespace {
 
-/// Which lights and which smoke are visible; the device holds that smoke from then on. Returns all lights.
+/// Finds which lights and which smoke are visible, and which smoke the device is to hold. Returns all lights.
 FrameVector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const Allocator memory = history.memory.get();
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
   const Environment& environment = plan.input.environment;
+
+  // The lights of the scene and of the frame, and which of them reach what is in view.
   FrameVector<shared::Light> lights(target.lights.begin(), target.lights.end(), memory);
   const std::size_t most = lights.size() + kMaxFlashes;
   for (const auto* more : {&environment.flashes, &environment.glow})
@@ -22,13 +24,14 @@ FrameVector<shared::Light> plan_visibility(FramePlan& plan, const PlanTarget& ta
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size), memory);
   if (!volume) return lights;
+
+  // The smoke: all of it is on the device, or what this frame needs. Indirect light comes from all of it.
   SmokeVisibility visible = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds, memory);
   if (target.holds_all_smoke) {
     plan.visibility = std::move(visible);
     plan.smoke = volume;
     return lights;
   }
-  // Indirect light comes from all of it.
   plan.visibility = history.resident->update({.volume = *volume,
                                               .all = plan.input.environment.bounces > 0,
                                               .eye_world = plan.input.view.camera.position_world,
@@ -47,7 +50,7 @@ void plan_hole_clusters(FramePlan& plan, Allocator memory) {
                  slots > 0 ? plan.smoke->layout() : shared::VolumeLayout(), slots, plan.size_px, memory);
 }
 
-/// Where rays through the media end.
+/// Sets the transmittances below which rays end or take longer steps: what is behind is too dark to be seen.
 void limit_rays(FramePlan& plan, std::span<const Emitter> emitters) {
   const float brightest = brightest_behind(plan.input, plan.frustum, emitters, plan.media, plan.lights);
   shared::FrameMedia& media = plan.media.frame;
@@ -56,22 +59,28 @@ void limit_rays(FramePlan& plan, std::span<const Emitter> emitters) {
   media.coarse_transmittance = shared::coarse_below(media.opaque_transmittance);
 }
 
-/// Which media are visible, and at which resolution.
+/// Finds which media and decals are visible, at which resolution volumes are shown, and the indirect light.
 void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& history,
                         std::span<const shared::Light> lights) {
   const Allocator memory = history.memory.get();
+
+  // Previews take the place of volumes whose bricks are not on the device yet.
   plan.residency =
       history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
                                     plan.input.quality.volume_upload_bytes);
-  std::array<bool, shared::kMaxVolumes> shown{}, lit{};  // plan_media refuses more
+  std::array<bool, shared::kMaxVolumes> shown{}, lit{};  // plan_media throws where there are more
   for (std::size_t i = 0; i < std::min(plan.residency.size(), shown.size()); ++i) {
     shown[i] = plan.residency[i].shows_preview;
     lit[i] = plan.residency[i].lit_by_preview;
   }
+
+  // As rays from the eye meet them.
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown, plan.smoke, memory);
   set_tables(plan.media, history.volume_tables.update(plan.input.volumes));
   limit_rays(plan, target.emitters);
   plan.decals = plan_decals(plan.input, plan.frustum, memory);
+
+  // As light meets them.
   plan.lit_media.volumes.reserve(plan.media.volumes.size());
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
@@ -181,10 +190,14 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   FramePlan plan(input, target.size_px, history.memory.get());
   plan.number = ++history.plans;
   const SmokeInput& smoke = plan.input.smoke;
+
+  // What is visible.
   const FrameVector<shared::Light> lights = plan_visibility(plan, target, history);
   plan_hole_clusters(plan, history.memory.get());
   plan_visible_media(plan, target, history, lights);
   plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
+
+  // What changed, and what is updated: each step reads the plans of those before it.
   plan_level(plan, history);
   plan_noise_updates(plan, history);
   plan_volume_light(plan, target, history);
@@ -217,7 +230,7 @@ void PlanHistory::invalidate() {
   indirect_light.invalidate();
   volume_streaming = {};
   resident = std::make_unique<ResidentSmoke>();
-  ++plans;  // no plan is valid
+  ++plans;  // earlier plans are no longer valid
 }
 
 }  // namespace brume::planning

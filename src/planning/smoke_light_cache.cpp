@@ -9,7 +9,7 @@ void SmokeLightCache::invalidate() {
   stale_.reset();
 }
 
-/// No fewer than the plan allocates: what all that is in view takes, less what it has.
+/// At least what the plan will allocate: what all bricks in view need, less what they have.
 SmokeLightCache::Missing SmokeLightCache::missing(const SmokeVisibility& visibility) const {
   Missing missing;
   for (std::uint32_t i = 0; i < visibility.visible_count; ++i) {
@@ -42,7 +42,7 @@ void SmokeLightCache::plan_incremental(const SmokeLightInputs& inputs) {
   schedule_.end_part(pages_);
 }
 
-/// As many bricks at a time as their pages fit; nothing is cached.
+/// Plans the bricks in parts, each with as many bricks as pages suffice for. Nothing stays cached.
 void SmokeLightCache::plan_in_parts(const SmokeLightInputs& inputs) {
   schedule_.update_all();
   const auto end_part = [&] {
@@ -58,6 +58,7 @@ void SmokeLightCache::plan_in_parts(const SmokeLightInputs& inputs) {
 }
 
 const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allocator memory) {
+  // After a plan that was not committed the device may hold anything.
   if (is_open_) invalidate();
   is_open_ = true;
   if (!inputs.volume || inputs.volume->slot_count() == 0) {
@@ -66,7 +67,7 @@ const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allo
     return schedule_.plan();
   }
 
-  // What changed since the frame before.
+  // What changed since the previous frame.
   schedule_.begin(inputs.update_fraction);
   stale_.mark(inputs, lights_, schedule_.is_sliced(), pages_, memory);
   if (stale_.surroundings_changed(inputs)) schedule_.change_surroundings();
@@ -74,7 +75,7 @@ const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs, Allo
   for (const std::uint32_t light : lights_.renumbered()) pages_.forget_light(light);
   lights_.find_in_reach(*inputs.volume, *inputs.visibility, memory);
 
-  // What the frame updates.
+  // What the frame updates: all bricks in view at once, or in parts where they do not even fit empty pages.
   if (!has_room(inputs)) pages_.clear();
   if (pages_.page_count() == 0 && !pages_.fits(missing(*inputs.visibility).pages)) {
     plan_in_parts(inputs);

@@ -97,20 +97,23 @@ planning::PlanTarget Renderer::plan_target(const FrameInput& input) const {
           holds_all_smoke()};
 }
 
-/// History follows the commands: where a recording was dropped, it does not move.
+/// Commits the history of the last plan if its frame was recorded. A dropped recording leaves it as it was.
 void Renderer::commit_recorded() {
   if (recorded_.get(context_).plan == history_.plans) history_.commit();
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
   commit_recorded();
+
+  // Smoke gives memory back where its budget shrank.
   const std::uint32_t room = bricks_of(smoke_.atlas_bricks());
   const std::uint32_t wanted = holds_all_smoke() ? room : history_.resident->wanted_count();
   if (smoke_budget_.begin_frame(context_.memory(), room, wanted)) {
     smoke_.trim(smoke_budget_.atlas_bricks());
     invalidate();
   }
-  // A device refuses memory only when it is allocated: with less room the frame is another plan.
+
+  // A shortage of memory shows only when memory is allocated: then the frame is planned with less smoke.
   while (true) {
     std::optional<gpu::Memory::Unlimited> reserve;
     if (smoke_budget_.is_reserve()) reserve.emplace(context_.memory());
@@ -187,8 +190,8 @@ FrameResources Renderer::resources(const FramePlan& plan) const {
           .step_counters = picture_ ? picture_->step_counters(plan) : nullptr};
 }
 
-// The kinds of frames: on our own surfaces, of a part of a volume, over a host's surfaces. TankPicture is the
-// one of a tank alone, which shares nothing with them but its samples.
+// The kinds of frames: on our own surfaces, of a part of a volume, over a host's surfaces. TankPicture draws
+// a tank alone; it shares only the tank's samples with these.
 
 void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   for (int part = 0; part < kParts; ++part) record_part(recorder, plan, part);
@@ -259,11 +262,14 @@ void Renderer::upload(gpu::Recorder& recorder, const FramePlan& plan, const Fram
   decals_.upload(recorder, plan, slices_);
 }
 
+/// Records what precedes the sweeps through volumes: uploads, surfaces, densities, the light in smoke.
 void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                                    const HostSurfaces* host) {
   recorder.change(recorded_) = {plan.number, plan.smoke ? plan.smoke->level() : 0,
                                 !holds_all_smoke() && history_.resident->is_missing()};
   scope(recorder, "upload", [&] { upload(recorder, plan, in); });
+
+  // The surfaces.
   scope(recorder, "sky_light", [&] { level_.record_light(recorder, plan, in); });
   scope(recorder, "gbuffer", [&] {
     if (host) return host_->record_depth(recorder, plan, in, *host);
@@ -271,13 +277,15 @@ void Renderer::record_until_sweeps(gpu::Recorder& recorder, const FramePlan& pla
   });
   if (host) record_on_host(recorder, plan, in, *host);
   if (tanks_) tanks_->record_surfaces(recorder, targets_.gbuffer.depth, blue_noise_);
+
+  // The media, and the light in the smoke.
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   scope(recorder, "glow", [&] { volumes_.record_glow(recorder, plan); });
   level_.record_indirect_light(recorder, plan, in);
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
 }
 
-/// Decals lie on the host's surfaces; tanks become surfaces in front of them.
+/// Records the decals on the host's surfaces, before tanks become surfaces in front of them.
 void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                               const HostSurfaces& host) {
   decals_.begin(recorder, plan);
@@ -288,7 +296,7 @@ void Renderer::record_on_host(gpu::Recorder& recorder, const FramePlan& plan, co
     });
 }
 
-/// Records all that later frames rely on: what the plan's history counts as updated.
+/// Records everything that later frames rely on: all that the plan's history counts as updated.
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                             const HostSurfaces* host) {
   record_until_sweeps(recorder, plan, in, host);
@@ -306,6 +314,8 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
   march_.record_accumulate(recorder, plan, in);
   if (tanks_) tanks_->record_layers(recorder, media());
   decals_.begin(recorder, plan);
+
+  // A debug view takes the place of the picture.
   const planning::DebugView view = plan.input.debug.view;
   if (view != planning::DebugView::none) {
     decals_.forget(recorder);
@@ -314,6 +324,8 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
       picture_->record_debug_view(recorder, plan, in);
     });
   }
+
+  // Surfaces; then, unless shading has displayed the picture already, what is drawn over them.
   if (!plan.decals.empty())
     scope(recorder, "decals", [&] { decals_.record(recorder, plan, in, slices_, march_.is_accumulated()); });
   if (picture_->record_shade(recorder, plan, in, layers(), occlusion())) return;

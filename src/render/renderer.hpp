@@ -1,4 +1,4 @@
-// Draws a frame: an ordered list of parts (parts/frame_part.hpp), for each kind of frame.
+// Draws frames. Each kind of frame calls the parts (parts/frame_part.hpp) in an order of its own.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,10 @@ namespace brume::render {
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
   MediaOptions smoke{};
-  /// Smooths edges over the frames of a film (View::continues), each of which shows another point of every
+  /// Smooths edges over the frames of a film (View::continues), each of which samples another point of every
   /// pixel (planning::film_sample).
   bool antialias = false;
-  /// The surfaces are a host's: frames are recorded by record_over alone, and there are no particles
-  /// and debug views.
+  /// The surfaces are a host's. Frames are recorded by record_over alone, without particles or debug views.
   bool media_alone = false;
 };
 
@@ -35,7 +34,7 @@ struct HostFrame {
   HostSurfaces surfaces;
   /// Lights whose shadows the host asks for, at most four (HostSurfacesPart::record_shadows).
   std::span<const std::uint32_t> shadow_lights = {};
-  const gpu::Image* picture = nullptr;  ///< The host's, to draw the layers over; null: none.
+  const gpu::Image* picture = nullptr;  ///< The host's picture, over which the layers are drawn; null: none.
   float exposure = 1;                   ///< Multiplies the layers over the picture.
 };
 
@@ -46,36 +45,40 @@ class Renderer {
   Renderer(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene,
            const RendererOptions& options);
 
-  /// Rays of the march from the next frame on, as MediaOptions::march_scale. When the device is done with
-  /// what was recorded before. Throws resource_limit.
+  /// Changes MediaOptions::march_scale from the next frame on. Call when the device has finished all recorded
+  /// frames. Throws resource_limit.
   void set_march_scale(std::uint32_t scale);
-  /// Frames of another size from the next one on, each side in [1, 16384]; a film starts over. When the
-  /// device is done with what was recorded before. Throws resource_limit.
+  /// Changes the size of frames from the next one on, each side in [1, 16384]; a film starts over. Call when
+  /// the device has finished all recorded frames. Throws resource_limit.
   void resize(glm::uvec2 size_px);
-  /// Other masks of the holes; uploads them. When the device is done with what was recorded before.
+  /// Replaces the masks of the holes and uploads them. Call when the device has finished all recorded frames.
   void set_masks(const smoke::MaskAtlas& masks);
 
-  /// The next frame finds all light again, whatever is cached: its smoke is another SmokeVolume than before.
+  /// Makes the next frame compute all light again, whatever is cached: call it when the next frame's smoke is
+  /// another SmokeVolume than before.
   void invalidate();
-  /// The same, and the next frame's level may be another one, or none.
+  /// The same, for a next frame whose level may also be another one, or none.
   void invalidate_level();
 
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
-  /// Call outside of a recording, when the device is done with the frame before. The plan is valid until the
-  /// next one, and no longer than `input`, to which it refers. A frame that is not recorded, or whose
+  /// Call outside of a recording, when the device has finished the previous frame. The plan is valid until
+  /// the next one, and no longer than `input`, to which it refers. A frame that is not recorded, or whose
   /// recording is dropped, leaves nothing behind. Where memory is short, smoke becomes coarser: see
   /// smoke_level(). Throws resource_limit where that does not help, and bad_input for volumes and particles
   /// that FrameInput does not allow.
   FramePlan plan(const FrameInput& input);
   FramePlan plan(FrameInput&& input) = delete;
-  /// Records the frame of the last plan. No allocation of device memory besides staging, no submit, no wait.
+  /// Records the frame of the last plan. Allocates no device memory besides staging; neither submits nor
+  /// waits.
   void record_frame(gpu::Recorder& recorder, const FramePlan& plan);
-  /// The same in kParts parts, which may be submitted one by one. After the first one the others may be
-  /// omitted: then the targets hold nothing of use, and the next frame does not continue a film.
+  /// The same in kParts steps (the light, the march, the picture), which may be submitted one by one. After
+  /// the first one the others may be omitted: then the targets hold nothing of use, and the next frame does
+  /// not continue a film.
   void record_part(gpu::Recorder& recorder, const FramePlan& plan, int part);
   static constexpr int kParts = 3;
-  /// The same frame of a part of a volume, of which other renderers have the others (VolumePartRenderer):
-  /// first the optical depths of its light, then its light and rays, then the picture.
+  /// The same for a volume that is split among several renderers, of which this one has a part
+  /// (VolumePartRenderer): first the optical depths that its light needs, then light and rays, then the
+  /// picture.
   void record_sweeps(gpu::Recorder& recorder, const FramePlan& plan);
   void record_rays(gpu::Recorder& recorder, const FramePlan& plan);
   void record_picture(gpu::Recorder& recorder, const FramePlan& plan);
@@ -84,15 +87,16 @@ class Renderer {
   void draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then = {});
 
   // Where RendererOptions::media_alone:
-  /// What a frame over a host's surfaces needs whatever it shows.
+  /// What a frame over a host's surfaces needs room for, however little of it is in view.
   struct HostNeeds {
     bool decals = false, shadows = false, tanks = false;
     VkFormat picture = VK_FORMAT_UNDEFINED;  ///< The format of HostFrame::picture.
   };
-  /// Makes room for that, as `plan` does for the rest: no limit of memory should refuse it.
+  /// Makes room for `needs`, as `plan` does for the rest. Call without a limit of memory
+  /// (gpu::Memory::Unlimited).
   void reserve_over(const HostNeeds& needs);
-  /// Records the media and tanks of the last plan in front of a host's surfaces, layers(), and what the host
-  /// asks for: their shadows, the decals on the surfaces, its picture.
+  /// Records the media and tanks of the last plan in front of a host's surfaces, into layers(), the decals on
+  /// those surfaces, and what the host asks for: shadows, and the layers over its picture.
   void record_over(gpu::Recorder& recorder, const FramePlan& plan, const HostFrame& host);
 
   /// Whether a frame was recorded.
@@ -102,7 +106,7 @@ class Renderer {
   const gpu::Buffer& frame() const { return frame_; }
   /// Half floats: premultiplied radiance and transmittance of the media.
   const gpu::Image& media() const { return march_.result(targets_); }
-  /// The same of the media and the tanks, before the level's surfaces or those of a host.
+  /// The same of media and tanks together, in front of the surfaces of the level or of a host.
   const gpu::Image& layers() const;
   /// Reverse depth of the last plan's surfaces, tanks included.
   const gpu::Image& surfaces() const;
@@ -123,7 +127,7 @@ class Renderer {
   bool is_smoke_missing() const { return recorded_.get(context_).is_smoke_missing; }
   /// Whether volumes of the last frame have bricks that are still to be uploaded.
   bool streams_volumes() const { return !history_.volume_streaming.complete(); }
-  /// What of the light in the smoke the last frame updated.
+  /// Which light in the smoke the last frame updated.
   const planning::SmokeLightPlan& light_plan() const { return history_.smoke_light.last_plan(); }
 
   const LevelPart& level() const { return level_; }
@@ -155,7 +159,7 @@ class Renderer {
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
 
-  // The parts, in the order of a frame.
+  // The parts of a frame.
   LevelPart level_;
   SmokePart smoke_;
   VolumesPart volumes_;
@@ -163,9 +167,9 @@ class Renderer {
   SlicesPart slices_;
   DecalsPart decals_;
   ParticlesPart particles_;
-  std::optional<PicturePart> picture_;    ///< Shows our own surfaces; not where RendererOptions::media_alone.
-  std::optional<HostSurfacesPart> host_;  ///< Takes a host's surfaces there.
-  std::optional<TanksPart> tanks_;        ///< From the first frame with tanks on.
+  std::optional<PicturePart> picture_;    ///< Without RendererOptions::media_alone: shows our own surfaces.
+  std::optional<HostSurfacesPart> host_;  ///< With it: takes a host's surfaces.
+  std::optional<TanksPart> tanks_;        ///< Empty until the first frame with tanks.
 
   SmokeBudget smoke_budget_;
   const bool memory_follows_view_;

@@ -16,14 +16,15 @@ namespace {
 constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 /// Surfaces may show smoke this many voxels beyond those a cloud fills.
 constexpr int kSmokeMargin = 2;
-/// Minimum distance and maximum number of checkpoints.
+/// Minimum ticks between two checkpoints, and maximum number of checkpoints.
 constexpr std::uint32_t kCheckpointTicks = 64;
 constexpr std::size_t kMaxCheckpoints = 256;
-/// A cloud of this many voxels takes longer to make than a checkpoint to keep.
+/// From this many voxels on, a cloud is so slow to make that it is worth a checkpoint.
 constexpr std::uint32_t kLargeCloud = 1u << 18;
+/// From this many events on, advancing reports its progress.
 constexpr std::uint64_t kEventsOfLongJob = 256;
 
-/// Whether a large cloud began in the state's own tick.
+/// Whether a large cloud was made in the tick of a state.
 bool made_large_cloud(const State& state) {
   return std::any_of(state.clouds.begin(), state.clouds.end(), [&](const LiveCloud& live) {
     return live.cloud->origin().detonation_tick == state.tick && live.cloud->voxels().size() >= kLargeCloud;
@@ -133,7 +134,7 @@ void World::set_masks(const MaskKey& masks) {
   for (State& checkpoint : checkpoints_) checkpoint.masks = masks;
 }
 
-/// `first`: the first tick whose events change.
+/// Whether `events` may be in the log. `first`: the first tick whose events change.
 Result<void> World::check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const {
   for (const Event& event : events) {
     if (auto ok = check_event(event, grid().layout()); !ok) return ok;
@@ -185,7 +186,7 @@ std::uint64_t World::events_until(std::uint32_t tick) const {
   return static_cast<std::uint64_t>(end - next);
 }
 
-/// Adopts the last checkpoint up to a tick that is later than state_: time has been there before.
+/// Skips to the last checkpoint at or before a tick, if it is later than state_, instead of simulating again.
 void World::go_forward_to(std::uint32_t tick) {
   const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), tick,
                                       [](std::uint32_t t, const State& state) { return t < state.tick; });
@@ -235,6 +236,8 @@ Result<void> World::restore(const State& state) {
     return Failure{ErrorCode::bad_input, "state: contains something that ended before its tick"};
   if (state.edits)
     if (auto ok = check_event(LevelEdit{0, *state.edits}, grid().layout()); !ok) return ok;
+
+  // The state takes the place of all history before it.
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
   previous_.reset();
@@ -248,6 +251,7 @@ Result<void> World::restore(const State& state) {
 }
 
 void World::forget_before(std::uint32_t tick) {
+  // The last checkpoint that is early enough becomes the first state.
   const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), std::min(tick, state_.tick),
                                       [](std::uint32_t t, const State& state) { return t < state.tick; });
   if (after == checkpoints_.begin()) return;
@@ -255,6 +259,8 @@ void World::forget_before(std::uint32_t tick) {
   first_free_tick_ = first_.tick + 1;
   checkpoints_.erase(checkpoints_.begin(), after);
   if (previous_ && previous_->tick < first_.tick) previous_.reset();
+
+  // Its state includes the events up to its tick.
   const auto past = std::upper_bound(log_.begin(), log_.end(), first_.tick,
                                      [](std::uint32_t t, const Event& e) { return t < tick_of(e); });
   next_event_ -= static_cast<std::size_t>(past - log_.begin());
@@ -272,6 +278,7 @@ void World::apply(const ThrowSmoke& event) {
       {state_.events, event.from, *landing, event.tick, event.tick + ticks, event.smoke});
 }
 
+/// Turns the grenades that arrive at this tick into clouds.
 void World::detonate() {
   std::vector<Flight> due;
   std::erase_if(state_.flights, [&](const Flight& flight) {
@@ -357,7 +364,7 @@ template <>
 void World::apply(const LevelEdit& event) {
   const EditBlocks changes = effective_edits(solids(), event.blocks);
   if (changes.empty()) return;
-  // What changes for smoke: a pane that becomes a wall does not.
+  // The changes that matter to smoke: a pane stops it already, so one that becomes a wall is none of them.
   EditBlocks of_smoke;
   for (const EditBlock& change : changes) of_smoke.push_back(change.of_smoke());
   of_smoke = effective_edits(grid(), of_smoke);
@@ -384,7 +391,7 @@ void World::play_tick(std::uint32_t tick) {
   remove_ended(state_);
   next_end_ = next_end(state_);
 
-  // A checkpoint every kCheckpointTicks at most, and where a large cloud was made, which takes long.
+  // A checkpoint: kCheckpointTicks or more after the last one, or when a large cloud was made.
   const std::uint32_t last = checkpoints_.empty() ? 0 : checkpoints_.back().tick;
   const bool is_due = checkpoints_.empty() || tick >= last + kCheckpointTicks;
   const bool is_costly = tick > last && made_large_cloud(state_);

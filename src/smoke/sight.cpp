@@ -15,10 +15,11 @@
 namespace brume::smoke {
 namespace {
 
+/// For depth(): the whole line counts.
 constexpr float kNeverEnough = std::numeric_limits<float>::infinity();
-constexpr std::size_t kGrain = 512;  // queries of a task: some 0.2 ms
-constexpr std::size_t kDrawnGrain = 8;
-// What is above it stays above the threshold however it is rounded.
+constexpr std::size_t kGrain = 512;     // queries of a task: some 0.2 ms
+constexpr std::size_t kDrawnGrain = 8;  // the same of drawn smoke, which is slower
+/// Drawn smoke stops this much above a threshold, so that rounding cannot take the result back below it.
 constexpr float kMore = 1 + 0x1p-20f;
 
 bool is_point(glm::vec3 p) {
@@ -76,7 +77,7 @@ Line line_of(const SensorRay& ray, float distance) {
   return {a, a + double{distance} * direction};
 }
 
-/// Checks all of them, naming the first that is bad.
+/// Checks all queries. The failure names the first bad one.
 template <typename Query>
 Result<void> check_all(std::span<const Query> queries, std::size_t results) {
   BRUME_ASSERT(queries.size() == results, "as many results as queries");
@@ -88,7 +89,7 @@ Result<void> check_all(std::span<const Query> queries, std::size_t results) {
 }
 
 glm::ivec3 voxel_of(glm::dvec3 p_voxel) {
-  // Far outside of any grid, but whole numbers.
+  // Within the range of int, and still far outside of any grid.
   return glm::ivec3(glm::floor(glm::clamp(p_voxel, glm::dvec3(-1e9), glm::dvec3(1e9))));
 }
 
@@ -115,7 +116,8 @@ std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dv
   if (!(length > 0)) return std::nullopt;
   const glm::ivec3 first = voxel_of(a), last = b_hides ? first : voxel_of(b);
 
-  // Planes of bricks are planes of voxels and are crossed at the very same t: the two walks fit exactly.
+  // From where the line enters the grid. Faces of bricks are faces of voxels, and both walks cross them at
+  // the same t: the walk through the voxels of a brick begins and ends exactly where the outer walk does.
   const glm::vec3 origin(a), direction(line / length);
   const glm::ivec3 bricks = (grid.size() + (voxel::kBrickSize - 1)) / voxel::kBrickSize;
   shared::Dda outer =
@@ -133,7 +135,7 @@ std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dv
     const glm::ivec3 low = outer.cell * voxel::kBrickSize;
     shared::Dda d = shared::dda_begin(origin, direction, low, glm::min(low + voxel::kBrickSize, grid.size()),
                                       1, outer.t, outer.t_end);
-    glm::ivec3 crossed = outer.crossed;  // how the ray came into the first voxel, and so into the brick
+    glm::ivec3 crossed = outer.crossed;  // the axes of the faces through which the ray enters the voxel
     while (d.t < d.t_end) {
       const glm::ivec3 in = d.cell & 7;
       const bool solid = (*brick)[static_cast<unsigned>(in.z)] >> (in.x + 8 * in.y) & 1;
@@ -263,6 +265,7 @@ Result<void> Sight::visible(std::span<const Segment> segments, float threshold,
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
   parallel_for(segments.size(), grain(), [&](std::size_t begin, std::size_t end) {
     std::array<float, kGrain> depth;
+    // Lines that meet a wall are hidden already: their depth is not needed.
     const auto line = [&](std::size_t i) -> std::optional<Line> {
       const Line between = line_of(segments[begin + i]);
       out[begin + i] = wall(between.a_world, between.b_world, false) ? 0 : 1;

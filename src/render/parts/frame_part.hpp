@@ -1,14 +1,16 @@
-// What a frame gives to each of its parts.
+// What the parts of a frame share.
 //
 // A part is one thing that a frame shows: the level, the smoke, the volumes, the rays through all media,
-// decals, particles, the picture, tanks, the surfaces of a host. Each has the same verbs, in this order:
+// slices of volumes, decals, particles, tanks, the surfaces of a host, the picture. It has those of these
+// functions that it needs; they are called in this order:
 //
-// - reserve(plan) makes room outside of a recording. Where it throws resource_limit, nothing was recorded.
-// - upload(recorder, plan) copies what the plan has for the device.
-// - record...(recorder, plan, resources) records its commands.
+// - prepare(input) uploads what the plan depends on.
+// - reserve(plan) makes room. Nothing is recorded yet; both may throw resource_limit.
+// - upload(recorder, plan) copies the plan's data to the device.
+// - record...(recorder, plan, resources) records commands.
 //
-// What a part remembers of the device it holds as gpu::Recorded, so that a recording that is dropped never
-// was; what a plan decided counts when the renderer commits it (planning::PlanHistory).
+// What a part knows about the contents of the device is a gpu::Recorded, so that a dropped recording leaves
+// no trace in it. What a plan decided counts once the renderer commits it (planning::PlanHistory).
 #pragma once
 
 #include <optional>
@@ -38,36 +40,36 @@ struct MediaOptions {
   bool temporal = false;                    ///< Accumulate media over the frames of a film (View::continues).
   const smoke::MaskAtlas* masks = nullptr;  ///< Masks of the holes; null: none. Uploaded by the constructor.
   bool record_entries = false;              ///< See MarchPass::Options: into MarchPart::counters().
-  /// The device holds the smoke that is in view, not all of it. Pictures then depend on the frames before by
-  /// the rounding of places in the atlas.
+  /// The device holds the smoke that is in view, not all of it. The place of a brick in the atlas then
+  /// depends on earlier frames, and with it how samples of the brick are rounded.
   bool memory_follows_view = false;
-  /// Bricks of smoke that always have memory: as many as some volume::grown_atlas holds.
+  /// Bricks of smoke for which there always is memory: as many as an atlas of volume::grown_atlas holds.
   std::uint32_t reserved_bricks = 64;
 };
 
-/// The resources of all parts that others read.
+/// The resources of parts that other parts read.
 struct FrameResources {
   const gpu::Buffer& frame;  ///< FrameConstants.
   const Targets& targets;
-  const gpu::Image& surfaces;  ///< Depth of what is opaque to media: the G-buffer's, nearer where a tank is.
+  const gpu::Image& surfaces;  ///< Depth where rays end: the G-buffer's, nearer at a tank.
   const gpu::Image& blue_noise;
 
   const passes::SceneResources& scene;
   const passes::ShadowMaps& shadows;
   passes::LevelLight level;
 
-  passes::MediaResources media;      ///< As rays of the eye meet them.
-  passes::MediaResources lit_media;  ///< As light does.
-  passes::MediaLight media_light;    ///< In the media of the eye.
+  passes::MediaResources media;      ///< As rays from the eye meet them.
+  passes::MediaResources lit_media;  ///< As rays of light meet them.
+  passes::MediaLight media_light;    ///< The light in `media`.
   const gpu::Image &noise, &detail;  ///< Tiles of noise.
   const passes::SmokeShadows& smoke_shadows;
   const gpu::Image& glow_field;  ///< GlowFieldPass::field.
 
-  /// Where the march counts the steps of each pixel (MarchPass::Options::count_steps); null: nowhere.
+  /// Receives the steps of each pixel's ray (MarchPass::Options::count_steps); null: none are counted.
   const gpu::Buffer* step_counters = nullptr;
 };
 
-/// Records the commands of a step, measured under its name.
+/// Records the commands of a step, whose GPU time is measured under its name.
 template <typename Record>
 void scope(gpu::Recorder& recorder, const char* name, Record record) {
   const gpu::Scope timed(recorder, name);
