@@ -75,8 +75,21 @@ typedef struct brume_renderer brume_renderer;
 
 /// Returns a constant chain for VkDeviceCreateInfo::pNext, which begins with a VkPhysicalDeviceFeatures2: the
 /// features that your device must enable. The device must also support Vulkan 1.3, and subgroup vote,
-/// arithmetic and ballot in compute shaders. Never fails.
+/// arithmetic and ballot in compute shaders. It needs no extension. Never fails.
 BRUME_API const void* brume_vulkan_features(void) BRUME_NOEXCEPT;
+
+/// Memory of the structs that brume_vulkan_merge_features appends.
+typedef struct brume_feature_storage {
+  uint64_t words[24];  ///< Internal.
+} brume_feature_storage;
+
+/// Enables the features of brume_vulkan_features in your own chain for VkDeviceCreateInfo::pNext. It sets
+/// them in the structs that the chain has: its VkPhysicalDeviceFeatures2, VkPhysicalDeviceVulkan12Features
+/// and VkPhysicalDeviceVulkan13Features, or structs of single features. Missing structs are appended, in
+/// `storage`, which must live as long as the chain. What else the chain enables stays. Errors:
+/// BRUME_ERROR_ARGUMENT for a chain without VkPhysicalDeviceFeatures2; it is then unchanged.
+BRUME_API brume_result brume_vulkan_merge_features(void* chain,
+                                                   brume_feature_storage* storage) BRUME_NOEXCEPT;
 
 /// Your Vulkan device.
 typedef struct brume_device_params {
@@ -95,6 +108,10 @@ typedef struct brume_device_params {
   VkResult (*allocate_memory)(void* memory_user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
   /// Frees memory that `allocate_memory` returned.
   void (*free_memory)(void* memory_user, VkDeviceMemory memory, VkDeviceSize size);
+  /// The chain of VkDeviceCreateInfo::pNext with which you created `device`, with a
+  /// VkPhysicalDeviceFeatures2: brume_device_create then checks that it enables all features. Null: what you
+  /// enabled is not checked.
+  const void* enabled_features;
 } brume_device_params;
 
 /// Returns the defaults: queue family 0, no memory functions. Set the other members.
@@ -104,8 +121,9 @@ static inline brume_device_params brume_device_defaults(void) {
   return params;
 }
 
-/// Borrows your Vulkan device, which must outlive the result. Errors: BRUME_ERROR_DEVICE when it lacks a
-/// feature.
+/// Borrows your Vulkan device, which must outlive the result. Errors: BRUME_ERROR_DEVICE when physical device
+/// or driver lack something, or `enabled_features` lacks a feature, which the error names;
+/// BRUME_ERROR_ARGUMENT for a queue family that does not exist or lacks graphics or compute.
 BRUME_API brume_result brume_device_create(brume_context* context, const brume_device_params* params,
                                            brume_device** device) BRUME_NOEXCEPT;
 /// Destroys a device; null is ignored. The GPU must have completed all frames, which is not checked. Errors:

@@ -59,6 +59,11 @@ class Tank : public detail::Handle<brume_tank, brume_tank_destroy> {
   brume_shown_tank shown() const { return brume_shown_tank_defaults(get()); }
 };
 
+/// brume_vulkan_merge_features.
+inline void merge_features(void* chain, brume_feature_storage& storage) {
+  check(brume_vulkan_merge_features(chain, &storage));
+}
+
 /// A brume_device.
 class Device : public detail::Handle<brume_device, brume_device_destroy> {
  public:

@@ -9,22 +9,51 @@
 namespace brume::gpu {
 namespace {
 
+constexpr VkQueueFlags kQueues = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
 constexpr std::uint64_t kWaitNanoseconds = 600'000'000'000;  // Ten minutes: a software device may be slow.
 
-std::uint32_t find_queue_family(const Functions& vk, VkInstance instance, VkPhysicalDevice device,
-                                const Presentation& presentation) {
+std::vector<VkQueueFamilyProperties> queue_families(const Functions& vk, VkPhysicalDevice device) {
   std::uint32_t count = 0;
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  constexpr VkQueueFlags kVisible = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kVisible) != kVisible) continue;
+  return families;
+}
+
+std::uint32_t find_queue_family(const Functions& vk, VkInstance instance, VkPhysicalDevice device,
+                                const Presentation& presentation) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, device);
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if ((families[i].queueFlags & kQueues) != kQueues) continue;
     if (!presentation.supported || presentation.supported(instance, device, i)) return i;
   }
   if (presentation.supported)
     throw Error(ErrorCode::no_device, "the Vulkan device cannot present to this window system");
   throw Error(ErrorCode::no_device, "the Vulkan device has no queue for graphics and compute");
+}
+
+/// Throws when the host's queue family cannot run our commands.
+void check_queue_family(const Functions& vk, const HostDevice& host) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, host.physical_device);
+  const std::string family = "the queue family " + std::to_string(host.queue_family);
+  if (host.queue_family >= families.size())
+    throw Error(ErrorCode::usage, family + " does not exist: the physical device has " +
+                                      std::to_string(families.size()) + ", numbered from 0");
+  const VkQueueFlags flags = families[host.queue_family].queueFlags;
+  if ((flags & kQueues) == kQueues) return;
+  const char* const lacks = flags & VK_QUEUE_COMPUTE_BIT    ? "graphics"
+                            : flags & VK_QUEUE_GRAPHICS_BIT ? "compute"
+                                                            : "graphics and compute";
+  throw Error(ErrorCode::usage, family + " lacks " + lacks + "; choose one with graphics and compute");
+}
+
+/// Throws when the host created its device without a feature.
+void check_enabled_features(const void* chain) {
+  const auto missing = first_missing(chain);
+  if (!missing) throw Error(ErrorCode::usage, "`enabled_features`: " + missing.failure().message);
+  if (*missing)
+    throw Error(ErrorCode::no_device,
+                std::string("the device was created without ") + (*missing)->name + "; enable it");
 }
 
 }  // namespace
@@ -48,6 +77,8 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
     throw Error(ErrorCode::no_device, "the host's physical device is not one of its instance");
   if (!info_.unsupported.empty())
     throw Error(ErrorCode::no_device, "the device " + info_.name + " cannot be used: " + info_.unsupported);
+  check_queue_family(vk_, host);
+  if (host.enabled_features) check_enabled_features(host.enabled_features);
   vk_.load_device(device_);
   read_properties();
   // What a host is short of comes and goes in smaller blocks.
@@ -67,7 +98,8 @@ void Context::create_device(const Presentation& presentation) {
   queue.pQueuePriorities = &priority;
 
   // The device, with a swapchain for presentation.
-  const DeviceFeatures features;
+  DeviceFeatures features;
+  features.vulkan12.timelineSemaphore = VK_TRUE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = features.chain();

@@ -31,7 +31,7 @@ struct ContextOptions {
 };
 
 /// Handles lent by a host, which must outlive the Context. The device must support Vulkan 1.3 and have the
-/// features of DeviceFeatures (device_features.hpp) enabled.
+/// required_features() enabled.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
@@ -39,6 +39,8 @@ struct HostDevice {
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;  ///< With graphics and compute. The queue itself remains the host's.
   MemoryCallbacks memory{};
+  /// The chain with which the device was created, read by the constructor; null: not checked.
+  const void* enabled_features = nullptr;
 };
 
 /// Additional semaphores of a submission: null, or one to wait for before writing a window's image, and one
@@ -70,7 +72,8 @@ class Context {
  public:
   /// Creates its own instance and device. Throws no_device when no device fits.
   explicit Context(const ContextOptions& options);
-  /// Uses the host's device: records only, never submits or waits.
+  /// Uses the host's device: records only, never submits or waits. Throws no_device when device or driver
+  /// lack something, and usage for another queue family.
   explicit Context(const HostDevice& host);
   /// The device has completed all that was recorded.
   ~Context();

@@ -4,7 +4,31 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/error.hpp"
+
 namespace brume::gpu {
+
+/// A VkBool32 in a struct of a chain.
+struct FeatureMember {
+  VkStructureType type;
+  std::size_t offset;
+};
+
+/// A required feature.
+struct Feature {
+  const char* name;
+  FeatureMember of_version;  ///< In the struct of all features of a version of Vulkan.
+  /// In the struct of this feature alone; offset 0: there is none.
+  FeatureMember alone = {};
+};
+
+/// The features that a host's device needs. Devices of our own have timelineSemaphore in addition, which
+/// every device of Vulkan 1.2 supports.
+std::span<const Feature> required_features();
 
 /// The features as a chain for VkDeviceCreateInfo::pNext, to which a host can append its own. The chain
 /// points into this object, which must not move before the device is created.
@@ -13,23 +37,31 @@ struct DeviceFeatures {
   VkPhysicalDeviceVulkan12Features vulkan12{};
   VkPhysicalDeviceFeatures2 features{};
 
-  DeviceFeatures() {
-    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    vulkan13.dynamicRendering = VK_TRUE;
-    vulkan13.synchronization2 = VK_TRUE;
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    vulkan12.pNext = &vulkan13;
-    vulkan12.timelineSemaphore = VK_TRUE;
-    vulkan12.scalarBlockLayout = VK_TRUE;
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &vulkan12;
-    features.features.samplerAnisotropy = VK_TRUE;
-    features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-  }
+  /// All required features are set, or none.
+  explicit DeviceFeatures(VkBool32 enabled = VK_TRUE);
   DeviceFeatures(const DeviceFeatures&) = delete;
   DeviceFeatures& operator=(const DeviceFeatures&) = delete;
 
   const void* chain() const { return &features; }
 };
+
+/// The first required feature that no struct of a chain sets; null: all are set. Fails for a chain without
+/// VkPhysicalDeviceFeatures2, and for a circle.
+Result<const Feature*> first_missing(const void* chain);
+
+/// Structs of single features.
+struct FeatureStructs {
+  struct Single {
+    VkStructureType type;
+    void* next;
+    VkBool32 enabled;
+  };
+  std::array<Single, 8> singles;
+};
+
+/// Sets the required features in a chain. Structs that it lacks are appended, in `structs`: those of single
+/// features, which fit the struct of any other feature, but not the one of their own version of Vulkan. Fails
+/// as first_missing; the chain is then unchanged.
+Result<void> merge_features(void* chain, FeatureStructs& structs);
 
 }  // namespace brume::gpu

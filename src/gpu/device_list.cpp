@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/error.hpp"
+#include "gpu/device_features.hpp"
 #include "gpu/instance.hpp"
 
 namespace brume::gpu {
@@ -27,20 +28,10 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
 std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version) {
   if (api_version < VK_API_VERSION_1_3) return "supports only Vulkan versions before 1.3";
 
-  // Features.
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  VkPhysicalDeviceVulkan12Features features12{};
-  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-  features12.pNext = &features13;
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12, {}};
-  vk.GetPhysicalDeviceFeatures2(device, &features);
-  if (!features13.dynamicRendering) return "lacks dynamicRendering";
-  if (!features13.synchronization2) return "lacks synchronization2";
-  if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
-  if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
-  if (!features.features.samplerAnisotropy) return "lacks samplerAnisotropy";
-  if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
+  DeviceFeatures supported(VK_FALSE);
+  vk.GetPhysicalDeviceFeatures2(device, &supported.features);
+  if (const Feature* const missing = *first_missing(supported.chain()))
+    return std::string("lacks ") + missing->name;
 
   // Operations of subgroups.
   VkPhysicalDeviceSubgroupProperties subgroups{};

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void missing(const char* name) {
   throw Error(ErrorCode::no_device,
-              std::string("the Vulkan driver lacks vk") + name + "; Vulkan 1.3 is needed");
+              std::string("vk") + name + " is missing: driver and instance must be of Vulkan 1.3");
 }
 
 }  // namespace

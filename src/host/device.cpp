@@ -16,10 +16,17 @@ HostDevice host_device(const brume_device_params& params) {
   require(params.device != VK_NULL_HANDLE, "`device` is null");
   require((params.allocate_memory == nullptr) == (params.free_memory == nullptr),
           "`allocate_memory` and `free_memory` must both be given, or neither");
-  return {params.get_instance_proc_addr, params.instance,
-          params.physical_device,        params.device,
-          params.queue_family,           {params.memory_user, params.allocate_memory, params.free_memory}};
+  return {.get_instance_proc_addr = params.get_instance_proc_addr,
+          .instance = params.instance,
+          .physical_device = params.physical_device,
+          .device = params.device,
+          .queue_family = params.queue_family,
+          .memory = {params.memory_user, params.allocate_memory, params.free_memory},
+          .enabled_features = params.enabled_features};
 }
+
+static_assert(sizeof(brume_feature_storage) == sizeof(gpu::FeatureStructs) &&
+              alignof(brume_feature_storage) >= alignof(gpu::FeatureStructs));
 
 }  // namespace
 }  // namespace brume::host
@@ -29,6 +36,14 @@ extern "C" {
 const void* brume_vulkan_features(void) BRUME_NOEXCEPT {
   static const DeviceFeatures features;
   return features.chain();
+}
+
+brume_result brume_vulkan_merge_features(void* chain, brume_feature_storage* storage) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call&) {
+    require(chain != nullptr, "`chain` is null");
+    unwrap(
+        brume::gpu::merge_features(chain, *new (&required(storage, "storage")) brume::gpu::FeatureStructs));
+  });
 }
 
 brume_result brume_device_create(brume_context* context, const brume_device_params* params,

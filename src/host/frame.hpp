@@ -14,7 +14,8 @@ namespace brume::api {
 // The sizes of 0.1 and 0.2. The members of brume_frame_params had another order then: it has no earlier size.
 template <>
 inline constexpr std::array kEarlierSizes<brume_device_params>{
-    std::uint32_t{offsetof(brume_device_params, memory_user)}};
+    std::uint32_t{offsetof(brume_device_params, memory_user)},
+    std::uint32_t{offsetof(brume_device_params, enabled_features)}};
 template <>
 inline constexpr std::array kEarlierSizes<brume_renderer_params>{
     std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};

@@ -45,7 +45,8 @@ class SharedDevice {
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    const DeviceFeatures features;
+    DeviceFeatures features;
+    features.vulkan12.timelineSemaphore = VK_TRUE;  // of `done_`
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = features.chain();

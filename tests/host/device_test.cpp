@@ -1,54 +1,269 @@
-// Devices that lack a feature are refused when they are handed over.
-#include <cstring>
+// Devices are refused when they are handed over, unless they have what the renderer needs.
+#include <regex>
 
+#include "core/file.hpp"
+#include "tests/gpu/interposer.hpp"
 #include "tests/host/hosted_smoke.hpp"
 
 namespace brume::host {
 namespace {
 
-PFN_vkGetInstanceProcAddr g_proc_addr_of_all = nullptr;
-PFN_vkGetPhysicalDeviceFeatures2 g_all_features = nullptr;
-VkBool32 VkPhysicalDeviceVulkan12Features::*g_missing_of_12 = nullptr;
-VkBool32 VkPhysicalDeviceVulkan13Features::*g_missing_of_13 = nullptr;
+/// What a physical device reports in the place of the truth.
+struct Reported {
+  static inline const gpu::Feature* missing = nullptr;
+  static inline std::uint32_t api_version = 0;
+  static inline VkSubgroupFeatureFlags lost_operations = 0;
+  static inline VkShaderStageFlags lost_stages = 0;
+  static inline VkQueueFlags lost_queues = 0;
 
-void VKAPI_PTR features_without(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features) {
-  g_all_features(device, features);
-  for (auto* each = static_cast<VkBaseOutStructure*>(features->pNext); each; each = each->pNext) {
-    if (g_missing_of_12 && each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
-      reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(each)->*g_missing_of_12 = VK_FALSE;
-    if (g_missing_of_13 && each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES)
-      reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(each)->*g_missing_of_13 = VK_FALSE;
+  static void reset() {
+    missing = nullptr;
+    api_version = 0;
+    lost_operations = 0;
+    lost_stages = 0;
+    lost_queues = 0;
   }
-}
+  static void call(PFN_vkGetPhysicalDeviceFeatures2 real, VkPhysicalDevice device,
+                   VkPhysicalDeviceFeatures2* features) {
+    real(device, features);
+    if (!missing) return;
+    for (auto* each = reinterpret_cast<VkBaseOutStructure*>(features); each; each = each->pNext)
+      if (each->sType == missing->of_version.type)
+        *reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(each) + missing->of_version.offset) = 0;
+  }
+  static void call(PFN_vkGetPhysicalDeviceProperties2 real, VkPhysicalDevice device,
+                   VkPhysicalDeviceProperties2* properties) {
+    real(device, properties);
+    if (api_version > 0) properties->properties.apiVersion = api_version;
+    for (auto* each = static_cast<VkBaseOutStructure*>(properties->pNext); each; each = each->pNext) {
+      if (each->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) continue;
+      auto& subgroups = *reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(each);
+      subgroups.supportedOperations &= ~lost_operations;
+      subgroups.supportedStages &= ~lost_stages;
+    }
+  }
+  static void call(PFN_vkGetPhysicalDeviceQueueFamilyProperties real, VkPhysicalDevice device,
+                   std::uint32_t* count, VkQueueFamilyProperties* families) {
+    real(device, count, families);
+    for (std::uint32_t i = 0; families && i < *count; ++i) families[i].queueFlags &= ~lost_queues;
+  }
+};
 
-PFN_vkVoidFunction VKAPI_PTR proc_addr_without(VkInstance instance, const char* name) {
-  const PFN_vkVoidFunction real = g_proc_addr_of_all(instance, name);
-  if (std::strcmp(name, "vkGetPhysicalDeviceFeatures2") != 0) return real;
-  g_all_features = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(real);
-  return reinterpret_cast<PFN_vkVoidFunction>(features_without);
-}
-
-TEST(DeviceTest, IsRefusedWithoutAFeature) {
-  gpu::HostApplication application(1);
-  const api::Context context;
-  brume_device_params params = params_of(application.device());
-  g_proc_addr_of_all = std::exchange(params.get_instance_proc_addr, proc_addr_without);
-  const auto expect_named = [&](const char* feature) {
+class DeviceTest : public testing::Test {
+ protected:
+  DeviceTest() : params_(params_of(application_.device())) {
+    Reported::reset();
+    params_.get_instance_proc_addr = gpu::Interposer::over(
+        params_.get_instance_proc_addr, {BRUME_INTERPOSED(Reported, GetPhysicalDeviceFeatures2),
+                                         BRUME_INTERPOSED(Reported, GetPhysicalDeviceProperties2),
+                                         BRUME_INTERPOSED(Reported, GetPhysicalDeviceQueueFamilyProperties)});
+  }
+  void TearDown() override {
+    for (const std::string& message : application_.take_messages()) ADD_FAILURE() << message;
+  }
+  void expect_refused_device(brume_result result, const std::string& words) {
     brume_device* device = nullptr;
-    expect_refused(brume_device_create(context.get(), &params, &device), BRUME_ERROR_DEVICE, feature);
+    expect_refused(brume_device_create(context_.get(), &params_, &device), result, words);
     EXPECT_EQ(device, nullptr);
-  };
-  g_missing_of_12 = &VkPhysicalDeviceVulkan12Features::scalarBlockLayout;
-  expect_named("lacks scalarBlockLayout");
-  g_missing_of_12 = &VkPhysicalDeviceVulkan12Features::timelineSemaphore;
-  expect_named("lacks timelineSemaphore");
-  g_missing_of_12 = nullptr;
-  g_missing_of_13 = &VkPhysicalDeviceVulkan13Features::synchronization2;
-  expect_named("lacks synchronization2");
-  g_missing_of_13 = nullptr;
-  brume_device* device = nullptr;
-  EXPECT_OK(brume_device_create(context.get(), &params, &device));
-  EXPECT_OK(brume_device_destroy(device));
+  }
+  void expect_taken() {
+    brume_device* device = nullptr;
+    EXPECT_OK(brume_device_create(context_.get(), &params_, &device));
+    EXPECT_OK(brume_device_destroy(device));
+  }
+
+  gpu::HostApplication application_{1};
+  const api::Context context_;
+  brume_device_params params_;
+};
+
+TEST_F(DeviceTest, IsRefusedWithoutAFeature) {
+  for (const gpu::Feature& feature : gpu::required_features()) {
+    Reported::missing = &feature;
+    expect_refused_device(BRUME_ERROR_DEVICE, std::string("lacks ") + feature.name);
+  }
+  Reported::reset();
+  expect_taken();
+}
+
+TEST_F(DeviceTest, IsRefusedBeforeVulkan13) {
+  Reported::api_version = VK_API_VERSION_1_2;
+  expect_refused_device(BRUME_ERROR_DEVICE, "only Vulkan versions before 1.3");
+  Reported::api_version = VK_API_VERSION_1_3;
+  expect_taken();
+}
+
+TEST_F(DeviceTest, IsRefusedWithoutSubgroupOperations) {
+  for (const VkSubgroupFeatureFlags operation :
+       {VK_SUBGROUP_FEATURE_VOTE_BIT, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, VK_SUBGROUP_FEATURE_BALLOT_BIT}) {
+    Reported::lost_operations = operation;
+    expect_refused_device(BRUME_ERROR_DEVICE, "lacks subgroup vote, arithmetic or ballot");
+  }
+  Reported::reset();
+  Reported::lost_stages = VK_SHADER_STAGE_COMPUTE_BIT;
+  expect_refused_device(BRUME_ERROR_DEVICE, "in compute shaders");
+  Reported::reset();
+  Reported::lost_operations = VK_SUBGROUP_FEATURE_QUAD_BIT;
+  expect_taken();
+}
+
+TEST_F(DeviceTest, IsRefusedForAnotherQueueFamily) {
+  std::uint32_t families = 0;
+  gpu::Context(application_.device())
+      .vk()
+      .GetPhysicalDeviceQueueFamilyProperties(params_.physical_device, &families, nullptr);
+  params_.queue_family = families;
+  expect_refused_device(BRUME_ERROR_ARGUMENT, "the physical device has " + std::to_string(families));
+  params_.queue_family = UINT32_MAX;
+  expect_refused_device(BRUME_ERROR_ARGUMENT, "the queue family 4294967295 does not exist");
+  params_.queue_family = 0;
+  const std::pair<VkQueueFlags, const char*> cases[] = {
+      {VK_QUEUE_GRAPHICS_BIT, "the queue family 0 lacks graphics;"},
+      {VK_QUEUE_COMPUTE_BIT, "the queue family 0 lacks compute;"},
+      {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, "the queue family 0 lacks graphics and compute;"}};
+  for (const auto& [lost, sentence] : cases) {
+    Reported::lost_queues = lost;
+    expect_refused_device(BRUME_ERROR_ARGUMENT, sentence);
+  }
+  Reported::lost_queues = VK_QUEUE_TRANSFER_BIT;
+  expect_taken();
+}
+
+TEST_F(DeviceTest, IsRefusedWhereTheHostForgotAFeature) {
+  for (const gpu::Feature& feature : gpu::required_features()) {
+    gpu::DeviceFeatures all;
+    for (auto* each = reinterpret_cast<VkBaseOutStructure*>(&all.features); each; each = each->pNext)
+      if (each->sType == feature.of_version.type)
+        *reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(each) + feature.of_version.offset) = 0;
+    params_.enabled_features = all.chain();
+    expect_refused_device(BRUME_ERROR_DEVICE, std::string("the device was created without ") + feature.name);
+  }
+  params_.enabled_features = brume_vulkan_features();
+  expect_taken();
+
+  VkPhysicalDeviceVulkan12Features other{};
+  other.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  params_.enabled_features = &other;
+  expect_refused_device(BRUME_ERROR_ARGUMENT, "has no VkPhysicalDeviceFeatures2");
+  other.pNext = &other;
+  expect_refused_device(BRUME_ERROR_ARGUMENT, "is a circle");
+}
+
+/// A host's own chain of features, of any of the structs below.
+struct OwnChain {
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
+  VkPhysicalDeviceVulkan12Features vulkan12{};
+  VkPhysicalDeviceVulkan13Features vulkan13{};
+  VkPhysicalDeviceTimelineSemaphoreFeatures timeline{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, nullptr, VK_TRUE};
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalar{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, nullptr, VK_FALSE};
+  VkPhysicalDeviceSynchronization2Features synchronization{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_FALSE};
+
+  OwnChain() {
+    features.features.shaderInt64 = VK_TRUE;
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    vulkan12.timelineSemaphore = VK_TRUE;
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    vulkan13.maintenance4 = VK_TRUE;
+  }
+  /// Links structs behind `features`.
+  template <typename... Structs>
+  void link(Structs&... structs) {
+    void** end = &features.pNext;
+    ((*end = &structs, end = &structs.pNext), ...);
+  }
+};
+
+class MergeTest : public DeviceTest {
+ protected:
+  /// The merged chain creates a device, without a word of the layers, which is then taken.
+  void expect_merged(void* chain, const OwnChain& own) {
+    brume_feature_storage storage;
+    ASSERT_OK(brume_vulkan_merge_features(chain, &storage));
+    EXPECT_TRUE(own.features.features.shaderInt64 && own.vulkan12.timelineSemaphore &&
+                own.vulkan13.maintenance4 && own.timeline.timelineSemaphore);
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue{
+        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority};
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = chain;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    gpu::Functions vk = gpu::SharedDevice<true>::get().instance.vk();
+    ASSERT_EQ(vk.CreateDevice(params_.physical_device, &info, nullptr, &params_.device), VK_SUCCESS);
+    vk.load_device(params_.device);
+    params_.enabled_features = chain;
+    expect_taken();
+    vk.DestroyDevice(params_.device, nullptr);
+    for (const std::string& message : application_.take_messages()) ADD_FAILURE() << message;
+  }
+};
+
+TEST_F(MergeTest, AddsWhatAChainLacks) {
+  OwnChain own;
+  expect_merged(&own.features, own);
+}
+
+TEST_F(MergeTest, SetsTheStructsOfVersions) {
+  OwnChain own;
+  own.link(own.vulkan12, own.vulkan13);
+  expect_merged(&own.features, own);
+  EXPECT_EQ(own.vulkan13.pNext, nullptr) << "nothing was missing";
+}
+
+TEST_F(MergeTest, SetsTheStructsOfSingleFeatures) {
+  OwnChain own;
+  own.link(own.timeline, own.synchronization, own.scalar);
+  expect_merged(&own.features, own);
+  EXPECT_TRUE(own.scalar.scalarBlockLayout && own.synchronization.synchronization2);
+}
+
+TEST_F(MergeTest, SetsBothKindsOfStructs) {
+  OwnChain own;
+  own.link(own.synchronization, own.vulkan12);
+  expect_merged(&own.features, own);
+}
+
+TEST_F(MergeTest, TakesFeatures2InAnyPlaceAndTwice) {
+  OwnChain own;
+  own.vulkan13.pNext = &own.features;
+  brume_feature_storage storage;
+  ASSERT_OK(brume_vulkan_merge_features(&own.vulkan13, &storage));
+  const void* const appended = own.features.pNext;
+  EXPECT_NE(appended, nullptr);
+  brume_feature_storage second;
+  ASSERT_OK(brume_vulkan_merge_features(&own.vulkan13, &second));
+  EXPECT_EQ(own.features.pNext, appended);
+  params_.enabled_features = &own.vulkan13;
+  expect_taken();
+}
+
+TEST_F(MergeTest, RefusesWhatIsNoChainOfFeatures) {
+  OwnChain own;
+  brume_feature_storage storage;
+  expect_refused(brume_vulkan_merge_features(&own.vulkan12, &storage), BRUME_ERROR_ARGUMENT,
+                 "has no VkPhysicalDeviceFeatures2");
+  EXPECT_FALSE(own.vulkan12.scalarBlockLayout);
+  EXPECT_EQ(own.vulkan12.pNext, nullptr);
+  expect_refused(brume_vulkan_merge_features(nullptr, &storage), BRUME_ERROR_ARGUMENT, "`chain` is null");
+  expect_refused(brume_vulkan_merge_features(&own.features, nullptr), BRUME_ERROR_ARGUMENT,
+                 "`storage` is null");
+  EXPECT_FALSE(own.features.features.samplerAnisotropy);
+}
+
+TEST(DeviceDocs, HaveTheTableOfFeatures) {
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/docs/reference/c-api.md");
+  const std::size_t from = page.find("## Vulkan device features"), to = page.find("\n## ", from);
+  const std::string section = page.substr(from, to - from);
+  static const std::regex kRow(R"(\n\| `(\w+)` \|)");
+  std::vector<std::string> documented, required;
+  for (std::sregex_iterator row(section.begin(), section.end(), kRow), end; row != end; ++row)
+    documented.push_back((*row)[1]);
+  for (const gpu::Feature& feature : gpu::required_features()) required.emplace_back(feature.name);
+  EXPECT_EQ(documented, required);
 }
 
 }  // namespace

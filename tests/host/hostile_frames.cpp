@@ -98,6 +98,7 @@ void HostileFrames::device() {
   params.physical_device = chance(0.05) ? VK_NULL_HANDLE : host.physical_device;
   params.device = chance(0.05) ? VK_NULL_HANDLE : host.device;
   spoil(params.queue_family, 0.2);
+  if (chance(0.5)) params.enabled_features = brume_vulkan_features();
   if (devices_.empty() || chance(0.3)) {
     auto out = output<brume_device*>();
     const brume_result result = brume_device_create(handle(contexts_), spoiled(params), out.pointer());
@@ -210,7 +211,11 @@ void HostileFrames::volume_create() {
 void HostileFrames::volume_read() {
   read<brume_volume_info>("brume_volume_describe", volumes_, brume_volume_describe);
   checked("brume_volume_destroy", brume_volume_destroy(wrong_handle<brume_volume>()), true);
-  EXPECT_NE(brume_vulkan_features(), nullptr);
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
+  if (chance(0.2)) features.pNext = &features;
+  brume_feature_storage storage;
+  const brume_result merged = brume_vulkan_merge_features(chance(0.2) ? nullptr : &features, &storage);
+  checked("brume_vulkan_merge_features", merged, !features.features.samplerAnisotropy);
 }
 
 void HostileFrames::decal_create() {
