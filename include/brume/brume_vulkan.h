@@ -43,7 +43,8 @@
 //
 // The rules of brume.h for results, handles, threads and structs hold here, too. In addition:
 //
-// Submitting  No function submits commands or waits for the device. Functions that take a command buffer in
+// Submitting  No function submits commands or waits for the device (see brume_renderer_params::timings for
+//             drivers that do). Functions that take a command buffer in
 //             the recording state, outside vkCmdBeginRendering, only record. Submit the commands to one
 //             queue, in the order of their frames. If you do not submit the commands of a frame, submit no
 //             later frame either.
@@ -179,9 +180,12 @@ typedef struct brume_renderer_params {
   /// 1: the first frame compiles all pipelines of smoke, for all march scales, so that no later frame of
   /// smoke waits for a pipeline.
   uint32_t prepare_all;
+  /// 1: brume_renderer_timings has the GPU times of passes. Some drivers, such as Mesa's lavapipe, then wait
+  /// for the device in brume_renderer_record. 0: no timestamps are written.
+  uint32_t timings;
 } brume_renderer_params;
 
-/// Returns the defaults: 1280 x 720, a ray per pixel, no accumulation, no lights, no triangles.
+/// Returns the defaults: 1280 x 720, a ray per pixel, no accumulation, no lights, no triangles, no timings.
 static inline brume_renderer_params brume_renderer_defaults(void) {
   brume_renderer_params params = BRUME_ZERO;
   params.struct_size = sizeof(brume_renderer_params);
@@ -445,8 +449,9 @@ typedef struct brume_timing {
   double milliseconds;  ///< Its time on the device [ms].
 } brume_timing;
 
-/// Writes the times of the newest frame that the device had completed when the last frame was recorded; no
-/// times before that.
+/// Writes the times of the newest frame that the device had completed when the last frame was recorded. No
+/// times before that, without brume_renderer_params::timings, and where the queue family has no timestamps
+/// (VkQueueFamilyProperties::timestampValidBits is 0).
 BRUME_API brume_result brume_renderer_timings(const brume_renderer* renderer, brume_timing* timings,
                                               size_t capacity, size_t* count) BRUME_NOEXCEPT;
 

@@ -2,7 +2,7 @@
 
 namespace brume::gpu {
 
-CommandRunner::CommandRunner(Context& context) : context_(context), slot_(context) {
+CommandRunner::CommandRunner(Context& context) : context_(context), slot_(context, true) {
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   pool.queueFamilyIndex = context.queue_family();

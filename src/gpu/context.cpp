@@ -133,6 +133,8 @@ void Context::read_properties() {
   vk_.GetPhysicalDeviceProperties2(info_.handle, &properties);
   limits_ = properties.properties.limits;
   max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
+  const std::uint32_t bits = queue_families(vk_, info_.handle)[queue_family_].timestampValidBits;
+  timestamp_mask_ = bits == 0 ? 0 : ~std::uint64_t{0} >> (64 - bits);
 }
 
 Context::~Context() {

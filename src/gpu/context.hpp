@@ -90,6 +90,8 @@ class Context {
   std::uint32_t queue_family() const { return queue_family_; }
   /// Nanoseconds per timestamp tick.
   double timestamp_period() const { return static_cast<double>(limits_.timestampPeriod); }
+  /// The bits of a timestamp that are valid; 0: the queue family has no timestamps.
+  std::uint64_t timestamp_mask() const { return timestamp_mask_; }
   Memory& memory() { return *memory_; }
   const Memory& memory() const { return *memory_; }
   /// All live pipelines, which register and unregister themselves.
@@ -141,6 +143,7 @@ class Context {
   std::uint32_t queue_family_ = 0;
   VkPhysicalDeviceLimits limits_{};
   std::uint64_t max_allocation_bytes_ = 0;
+  std::uint64_t timestamp_mask_ = 0;
   std::unique_ptr<Memory> memory_;
   std::vector<Pipeline*> pipelines_;
 

@@ -24,7 +24,7 @@ VkDescriptorPool make_descriptor_pool(Context& context) {
 
 }  // namespace
 
-FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
+FrameSlot::FrameSlot(Context& context, bool timed) : context_(context), timings_(context, timed) {
   add_descriptors();
 }
 

@@ -14,7 +14,7 @@ namespace brume::gpu {
 /// Reused when the device is done with the frame.
 class FrameSlot {
  public:
-  explicit FrameSlot(Context& context);
+  FrameSlot(Context& context, bool timed);
   ~FrameSlot();
   FrameSlot(const FrameSlot&) = delete;
   FrameSlot& operator=(const FrameSlot&) = delete;

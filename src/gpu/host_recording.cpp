@@ -10,7 +10,8 @@ namespace brume::gpu {
 HostRecording::Slot& HostRecording::take_slot(bool is_frame) {
   const auto is_free = [&](const Slot& slot) { return slot.frame <= completed_; };
   const auto oldest = std::ranges::min_element(slots_, {}, &Slot::frame);
-  Slot& slot = oldest != slots_.end() && is_free(*oldest) ? *oldest : slots_.emplace_back(context_);
+  Slot& slot =
+      oldest != slots_.end() && is_free(*oldest) ? *oldest : slots_.emplace_back(context_, is_timed_);
   slot.frame = frame_;
   slot.is_frame = is_frame;
   return slot;
@@ -31,7 +32,7 @@ void HostRecording::begin(VkCommandBuffer commands, std::uint64_t frame, std::ui
   frame_ = frame;
   completed_ = completed;
   if (preparations_) preparations_->slot->frame = frame;
-  read_timings();
+  if (is_timed_) read_timings();
 }
 
 Recorder& HostRecording::recorder() {

@@ -11,8 +11,9 @@ namespace brume::gpu {
 
 class HostRecording : public CommandStream {
  public:
-  /// `context` is of a host's device and must outlive it.
-  explicit HostRecording(Context& context) : context_(context) {}
+  /// `context` is of a host's device and must outlive it. `timed`: measures the time of frames, for
+  /// timings().
+  explicit HostRecording(Context& context, bool timed = false) : context_(context), is_timed_(timed) {}
   /// Frees nothing that the device uses: see Context::retire.
   ~HostRecording() override = default;
   HostRecording(const HostRecording&) = delete;
@@ -35,12 +36,13 @@ class HostRecording : public CommandStream {
   /// device of our own they will be executed once this returns, whatever becomes of the frame.
   void run(const std::function<void(Recorder&)>& record) override;
 
-  /// GPU times of the newest frame that the device had completed when the present one began; empty: of none.
+  /// GPU times of the newest frame that the device had completed when the present one began. Empty: there was
+  /// none, or no times are taken. Some drivers wait for the device before they give times.
   const std::vector<Timings::Scope>& timings() const { return timings_; }
 
  private:
   struct Slot {
-    explicit Slot(Context& context) : resources(context) {}
+    Slot(Context& context, bool timed) : resources(context, timed) {}
     FrameSlot resources;
     std::uint64_t frame = 0;  ///< The last one that it was used for; 0: none.
     bool is_frame = false;    ///< For its own commands, not for preparations.
@@ -55,6 +57,7 @@ class HostRecording : public CommandStream {
   void read_timings();
 
   Context& context_;
+  const bool is_timed_;
   std::list<Slot> slots_;                      // as many as frames and preparations were in flight, and one
   VkCommandBuffer commands_ = VK_NULL_HANDLE;  // the frame's; null: outside of a frame
   std::uint64_t frame_ = 0, completed_ = 0;

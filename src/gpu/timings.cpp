@@ -5,7 +5,8 @@
 
 namespace brume::gpu {
 
-Timings::Timings(Context& context) : context_(context) {
+Timings::Timings(Context& context, bool enabled) : context_(context) {
+  if (!enabled || context.timestamp_mask() == 0) return;
   context.expect_retirement();
   VkQueryPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
@@ -15,12 +16,13 @@ Timings::Timings(Context& context) : context_(context) {
 }
 
 Timings::~Timings() {
-  context_.retire({.queries = pool_});
+  if (pool_) context_.retire({.queries = pool_});
 }
 
 void Timings::reset(CommandList& list) {
   names_.clear();
   is_recorded_ = false;
+  if (!pool_) return;
   list.add([pool = pool_](const Functions& vk, VkCommandBuffer commands) {
     vk.CmdResetQueryPool(commands, pool, 0, 2 * kMaxScopes);
   });
@@ -35,12 +37,13 @@ void Timings::write(CommandList& list, std::size_t query) const {
 }
 
 void Timings::begin(CommandList& list, const char* name) {
+  if (!pool_) return;
   names_.push_back(name);
   write(list, 2 * names_.size() - 2);
 }
 
 void Timings::end(CommandList& list) {
-  write(list, 2 * names_.size() - 1);
+  if (pool_) write(list, 2 * names_.size() - 1);
 }
 
 std::vector<Timings::Scope> Timings::read() const {
@@ -62,7 +65,7 @@ void Timings::read(std::vector<Scope>& scopes, bool wait) const {
   if (result == VK_NOT_READY) return;
   check(result, "vkGetQueryPoolResults");
   for (std::size_t i = 0; i < count; ++i) {
-    const auto duration = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
+    const auto duration = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & context_.timestamp_mask());
     scopes.push_back({names_[i], duration * context_.timestamp_period() * 1e-6});
   }
 }

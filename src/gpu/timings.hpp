@@ -17,7 +17,8 @@ class Timings {
     double milliseconds = 0;
   };
 
-  explicit Timings(Context& context);
+  /// Takes times unless the queue family has no timestamps; where not `enabled`, it does nothing at all.
+  Timings(Context& context, bool enabled);
   ~Timings();
   Timings(const Timings&) = delete;
   Timings& operator=(const Timings&) = delete;
@@ -38,7 +39,7 @@ class Timings {
   void read(std::vector<Scope>& scopes, bool wait) const;
 
   Context& context_;
-  VkQueryPool pool_ = VK_NULL_HANDLE;
+  VkQueryPool pool_ = VK_NULL_HANDLE;  // null: no times
   void write(CommandList& list, std::size_t query) const;
 
   std::vector<const char*> names_;

@@ -11,7 +11,8 @@
 
 namespace brume::api {
 
-// The sizes of 0.1 and 0.2. The members of brume_frame_params had another order then: it has no earlier size.
+// The sizes of 0.1 and 0.2; `timings` lies in what was padding then. The members of brume_frame_params had
+// another order then: it has no earlier size.
 template <>
 inline constexpr std::array kEarlierSizes<brume_device_params>{
     std::uint32_t{offsetof(brume_device_params, memory_user)},

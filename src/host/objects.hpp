@@ -88,7 +88,7 @@ struct brume_renderer : brume::api::Handle {
   brume_renderer(std::shared_ptr<brume::api::Settings> context_settings,
                  std::shared_ptr<brume::host::DeviceData> device_data, brume::scene::Scene renderer_scene,
                  std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas,
-                 const brume::render::RendererOptions& renderer_options);
+                 const brume::render::RendererOptions& renderer_options, bool timed);
   ~brume_renderer();
 
   std::shared_ptr<brume::host::DeviceData> device;

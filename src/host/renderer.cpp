@@ -12,13 +12,13 @@ brume_renderer::brume_renderer(std::shared_ptr<Settings> context_settings,
                                std::shared_ptr<brume::host::DeviceData> device_data,
                                brume::scene::Scene renderer_scene,
                                std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas,
-                               const brume::render::RendererOptions& renderer_options)
+                               const brume::render::RendererOptions& renderer_options, bool timed)
     : Handle(kKind, std::move(context_settings)),
       device(std::move(device_data)),
       scene(std::move(renderer_scene)),
       masks(std::move(mask_atlas)),
       options(renderer_options),
-      recording(device->context) {
+      recording(device->context, timed) {
   options.smoke.masks = masks.get();
   ++device->renderers;
 }
@@ -61,7 +61,8 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.memory_follows_view = true;
   options.media_alone = true;
   const std::scoped_lock lock(owner.data->mutex);
-  create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options);
+  create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options,
+         params.timings != 0);
 }
 
 /// Whether the device can blend over a picture of a format of Vulkan 1.0.

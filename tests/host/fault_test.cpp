@@ -61,6 +61,7 @@ class FaultTest : public testing::Test {
         recording_(gpu_),
         depth_(gpu_, depth_info()) {
     HostedSmoke::size = kFaultSize;
+    HostedSmoke::is_timed = true;
     scenario_.timeline.doors.clear();
     const float all = 1;
     brume_decal_params params = brume_decal_defaults();
@@ -70,6 +71,7 @@ class FaultTest : public testing::Test {
   }
   ~FaultTest() override {
     HostedSmoke::size = kSize;
+    HostedSmoke::is_timed = false;
     host_.wait();
     EXPECT_OK(brume_decal_destroy(decal_));
     EXPECT_OK(brume_volume_destroy(volume_));

@@ -108,7 +108,7 @@ inline std::vector<brume_light> lights_of(const scene::Scene& scene) {
 /// A renderer of the interface, on a host's device.
 struct HostedSmoke {
   enum class Failure { none, allowed };
-  static inline bool prepares_all = false, is_temporal = false;
+  static inline bool prepares_all = false, is_temporal = false, is_timed = false;
   static inline glm::uvec2 size = kSize;
 
   /// Where failure is allowed, made() tries again.
@@ -145,6 +145,7 @@ struct HostedSmoke {
     params.march_scale = march_scale;
     params.prepare_all = prepares_all ? 1 : 0;
     params.temporal = is_temporal ? 1 : 0;
+    params.timings = is_timed ? 1 : 0;
     const std::vector<brume_light> lights = lights_of(scenario.scene);
     params.lights = lights.data();
     params.light_count = lights.size();

@@ -11,6 +11,7 @@ using RendererTest = HostedPair;
 
 TEST_F(RendererTest, DrawsWhatTheRendererDraws) {
   // host_test.cpp of tests/render has every number of frames in flight at one resolution.
+  HostedSmoke::is_timed = true;
   for (const auto& [march_scale, in_flight] : {std::pair{1u, 3u}, std::pair{2u, 1u}}) {
     make_sides(in_flight, march_scale);
     for (const double seconds : {0.5, 2.0, 3.25, 5.125, 5.25}) draw_both(seconds, march_scale);
@@ -26,6 +27,7 @@ TEST_F(RendererTest, DrawsWhatTheRendererDraws) {
     TearDown();
     host_.reset();
   }
+  HostedSmoke::is_timed = false;
 }
 
 // Also while frames that use the images of the size before are in flight.

@@ -116,6 +116,7 @@ class YardTest : public testing::Test {
     params.lights = &light;
     params.light_count = 1;
     params.temporal = is_temporal_ ? 1 : 0;
+    params.timings = is_timed_ ? 1 : 0;
     params.march_scale = march_scale;
     return brume_renderer_create(device_, &params, &renderer_);
   }
@@ -179,6 +180,7 @@ class YardTest : public testing::Test {
 
   glm::uvec2 first_;
   bool is_temporal_ = true;
+  bool is_timed_ = false;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;
   gpu::Context gpu_;

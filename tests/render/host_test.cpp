@@ -59,7 +59,7 @@ class HostTest : public gpu::GpuTest {
 class HostedRenderer {
  public:
   HostedRenderer(const gpu::HostDevice& device, const scenario::Scenario& scenario)
-      : context(device), recording(context), scenario_(scenario) {}
+      : context(device), recording(context, true), scenario_(scenario) {}
 
   void record(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed,
               const FrameInput& input) {
