@@ -142,7 +142,7 @@ bool ShaderReload::install(gpu::Context& context, Compiled compiled) {
   const Words& words = installed_.back();
   // Pipelines refer to the key as the name of their shader, so it must outlive them.
   const auto in_use = in_use_.emplace(compiled.name, nullptr).first;
-  for (gpu::Pipeline* pipeline : context.pipelines()) {
+  for (gpu::Pipeline* pipeline : context.pipelines().all()) {
     if (const auto done = replace(*pipeline, in_use->first, words); !done) {
       errors_[compiled.name] = done.failure().message;
       return false;
@@ -170,8 +170,8 @@ bool ShaderReload::update(gpu::Context& context) {
     });
     changed_.pop_front();
   }
-  // Pipelines created after the change, by a debug view or on a new device, still have the built-in shader.
-  for (gpu::Pipeline* pipeline : context.pipelines()) {
+  // Pipelines first made after the change, by a debug view or on a new device, still have the built-in shader.
+  for (gpu::Pipeline* pipeline : context.pipelines().all()) {
     for (const auto& [name, words] : in_use_) {
       if (!words) continue;
       if (const auto done = replace(*pipeline, name, *words); !done) errors_[name] = done.failure().message;

@@ -113,6 +113,10 @@ typedef struct brume_device_params {
   /// VkPhysicalDeviceFeatures2: brume_device_create then checks that it enables all features. Null: what you
   /// enabled is not checked.
   const void* enabled_features;
+  /// Your cache for pipelines, which must outlive the brume_device; null: none. It is used while calls
+  /// compile, also in their threads, so create it without
+  /// VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT.
+  VkPipelineCache pipeline_cache;
 } brume_device_params;
 
 /// Returns the defaults: queue family 0, no memory functions. Set the other members.
@@ -178,7 +182,7 @@ typedef struct brume_renderer_params {
   size_t index_count;        ///< Number of `indices`: a multiple of 3, below 2^30.
   const brume_masks* masks;  ///< The masks of the fields that it draws; null: none.
   /// 1: the first frame compiles all pipelines of smoke, for all march scales, so that no later frame of
-  /// smoke waits for a pipeline.
+  /// smoke waits for a pipeline. Compiled pipelines belong to the device: later renderers use them, too.
   uint32_t prepare_all;
   /// 1: brume_renderer_timings has the GPU times of passes. Some drivers, such as Mesa's lavapipe, then wait
   /// for the device in brume_renderer_record. 0: no timestamps are written.
@@ -195,7 +199,8 @@ static inline brume_renderer_params brume_renderer_defaults(void) {
   return params;
 }
 
-/// Creates a renderer. Its first frame uploads lights and triangles. The arrays are copied.
+/// Creates a renderer. Its first frame uploads lights and triangles, and compiles pipelines that no renderer
+/// of the device has used before. The arrays are copied.
 BRUME_API brume_result brume_renderer_create(brume_device* device, const brume_renderer_params* params,
                                              brume_renderer** renderer) BRUME_NOEXCEPT;
 /// Destroys a renderer; null is ignored. Its device keeps resources of frames in flight until they complete.

@@ -66,6 +66,7 @@ Context::Context(const ContextOptions& options)
   create_device(options.presentation);
   read_properties();
   memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, MemoryOptions{.fill = options.validation});
+  pipelines_.emplace(vk_, device_, VK_NULL_HANDLE);
 }
 
 Context::Context(const HostDevice& host) : device_(host.device), queue_family_(host.queue_family) {
@@ -85,6 +86,7 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
   memory_ = std::make_unique<Memory>(
       vk_, info_.handle, device_,
       MemoryOptions{.block_bytes = 16u << 20, .dedicated_bytes = 4u << 20, .callbacks = host.memory});
+  pipelines_.emplace(vk_, device_, host.pipeline_cache);
 }
 
 void Context::create_device(const Presentation& presentation) {
@@ -143,13 +145,11 @@ Context::~Context() {
   vk_.DeviceWaitIdle(device_);  // Fails for a lost device, which is destroyed all the same.
   vk_.DestroySemaphore(device_, done_, nullptr);
   memory_.reset();
+  pipelines_.reset();
   vk_.DestroyDevice(device_, nullptr);
 }
 
 void Context::destroy(const Retired& handles) noexcept {
-  vk_.DestroyPipeline(device_, handles.pipeline, nullptr);
-  vk_.DestroyPipelineLayout(device_, handles.layout, nullptr);
-  vk_.DestroyDescriptorSetLayout(device_, handles.set_layout, nullptr);
   vk_.DestroyDescriptorPool(device_, handles.descriptors, nullptr);
   vk_.DestroyQueryPool(device_, handles.queries, nullptr);
   vk_.DestroySampler(device_, handles.sampler, nullptr);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "gpu/functions.hpp"
 #include "gpu/instance.hpp"
 #include "gpu/memory.hpp"
+#include "gpu/pipeline_store.hpp"
 #include "gpu/tuning.hpp"
 
 namespace brume::gpu {
@@ -41,6 +43,7 @@ struct HostDevice {
   MemoryCallbacks memory{};
   /// The chain with which the device was created, read by the constructor; null: not checked.
   const void* enabled_features = nullptr;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< For the driver's compilations; null: none.
 };
 
 /// Additional semaphores of a submission: null, or one to wait for before writing a window's image, and one
@@ -48,8 +51,6 @@ struct HostDevice {
 struct WindowSemaphores {
   VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
-
-class Pipeline;
 
 /// A recording of a context. RecordingId{} stands for none.
 enum class RecordingId : std::uint64_t {};
@@ -60,9 +61,6 @@ struct Retired {
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
   VkSampler sampler = VK_NULL_HANDLE;
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkDescriptorPool descriptors = VK_NULL_HANDLE;
   VkQueryPool queries = VK_NULL_HANDLE;
   Memory::Range range = {};
@@ -94,8 +92,8 @@ class Context {
   std::uint64_t timestamp_mask() const { return timestamp_mask_; }
   Memory& memory() { return *memory_; }
   const Memory& memory() const { return *memory_; }
-  /// All live pipelines, which register and unregister themselves.
-  std::vector<Pipeline*>& pipelines() { return pipelines_; }
+  /// The pipelines of the device.
+  PipelineStore& pipelines() { return *pipelines_; }
   bool owns_device() const { return instance_ != nullptr; }
 
   /// Destroys handles once the device has completed the frames that were begun before: at once on a device of
@@ -145,7 +143,7 @@ class Context {
   std::uint64_t max_allocation_bytes_ = 0;
   std::uint64_t timestamp_mask_ = 0;
   std::unique_ptr<Memory> memory_;
-  std::vector<Pipeline*> pipelines_;
+  std::optional<PipelineStore> pipelines_;
 
   /// Recordings one after the other that were dropped.
   struct DroppedRange {

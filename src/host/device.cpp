@@ -22,7 +22,8 @@ HostDevice host_device(const brume_device_params& params) {
           .device = params.device,
           .queue_family = params.queue_family,
           .memory = {params.memory_user, params.allocate_memory, params.free_memory},
-          .enabled_features = params.enabled_features};
+          .enabled_features = params.enabled_features,
+          .pipeline_cache = params.pipeline_cache};
 }
 
 static_assert(sizeof(brume_feature_storage) == sizeof(gpu::FeatureStructs) &&

@@ -25,7 +25,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
       frame_(context, sizeof(shared::FrameConstants),
              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT),
-      level_(context, stream, scene),
+      level_(context, stream, scene,
+             options.media_alone ? LevelPart::Surfaces::of_host : LevelPart::Surfaces::of_scene),
       smoke_(context, stream, most_lights(level_), options.size_px, options.smoke),
       volumes_(context, stream),
       march_(context, stream, options.size_px, options.smoke),
@@ -34,6 +35,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
       particles_(context),
       smoke_budget_(options.smoke.reserved_bricks),
       memory_follows_view_(options.smoke.memory_follows_view) {
+  // The surfaces of a host, or a picture of its own.
   if (options.media_alone)
     host_.emplace(context);
   else

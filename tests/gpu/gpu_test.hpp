@@ -6,20 +6,15 @@
 #include <vector>
 
 #include "gpu/read_back.hpp"
-#include "tests/gpu/shared_pipelines.hpp"
 
 namespace brume::gpu {
 
 class GpuTest : public testing::Test {
  protected:
   static Context& context() {
-    // One device for all tests: creating one takes longer than most of them. One pipeline of each kind, too.
-    struct Device {
-      Device() { SharedPipelines<GpuTest>::install(const_cast<Functions&>(context.vk()), context.device()); }
-      Context context{ContextOptions{"", true}};
-    };
-    static Device device;
-    return device.context;
+    // One device for all tests, with its pipelines: creating one takes longer than most of them.
+    static Context device(ContextOptions{"", true});
+    return device;
   }
   static CommandRunner& runner() {
     static CommandRunner instance(context());

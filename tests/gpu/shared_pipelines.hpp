@@ -1,5 +1,6 @@
-// Shader modules and compute pipelines of a device that are made once, however often they are created: the
-// driver compiles the pipelines of one renderer for longer than it draws the frames of a test.
+// Shader modules and compute pipelines of a host's device that are made once, however often the library is
+// given the device: the driver compiles the pipelines of one renderer for longer than it draws the frames of
+// a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,14 +36,6 @@ class SharedPipelines {
   static void begin(const Functions& functions, VkDevice device) {
     vk_ = functions;
     device_ = device;
-  }
-  /// The same through a table of functions that is already in use; the device must outlive all tests. Nothing
-  /// counts its frames, so nothing is checked for being in flight: programs of our own devices wait first.
-  static void install(Functions& functions, VkDevice device) {
-    begin(functions, device);
-#define X(function, own) functions.function = &own;
-    BRUME_SHARED_FUNCTIONS
-#undef X
   }
   static void destroy_all() {
     for (const auto& [handle, use] : uses_) {

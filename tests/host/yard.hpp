@@ -101,6 +101,7 @@ class YardTest : public testing::Test {
 
     brume_device_params on = params_of(host_.device());
     on.get_instance_proc_addr = gpu::Interposer::over(on.get_instance_proc_addr, replacements_);
+    on.pipeline_cache = cache_;
     on.memory_user = &memory_;
     on.allocate_memory = HostMemory::allocate;
     on.free_memory = HostMemory::free;
@@ -181,6 +182,7 @@ class YardTest : public testing::Test {
   glm::uvec2 first_;
   bool is_temporal_ = true;
   bool is_timed_ = false;
+  VkPipelineCache cache_ = VK_NULL_HANDLE;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;
   gpu::Context gpu_;

@@ -68,19 +68,22 @@ TEST_F(ShaderReloadTest, LaterPipelinesGetTheChangedShader) {
   const auto copy = folder.path() / "shaders";
   std::filesystem::copy(kShaders, copy, std::filesystem::copy_options::recursive);
   ShaderReload reload(copy);
-  EXPECT_FALSE(reload.update(context()));
+  gpu::Context device(gpu::ContextOptions{"", true});  // its pipelines end before the shaders of `reload`
+  EXPECT_FALSE(reload.update(device));
   // A different time than that of the copy, whatever the resolution of the file system.
   std::filesystem::last_write_time(
       copy / "display.comp",
       std::filesystem::last_write_time(copy / "display.comp") + std::chrono::seconds(2));
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);  // only ends a hang
-  while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.update(context());
+  while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.update(device);
   ASSERT_EQ(reload.reloads(), 1u);
-  const gpu::ComputePipeline pipeline(context(), shaders::display_comp);
+  const gpu::ComputePipeline made(device, shaders::display_comp);
+  const gpu::Pipeline& pipeline = made;
   ASSERT_EQ(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
-  reload.update(context());
+  reload.update(device);
   EXPECT_NE(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
   EXPECT_TRUE(reload.errors().empty());
+  for (const std::string& message : device.take_validation_messages()) ADD_FAILURE() << message;
 }
 
 }  // namespace

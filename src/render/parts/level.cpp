@@ -28,17 +28,18 @@ passes::PanePass::Needs pane_needs(const FramePlan& plan, bool has_tanks) {
 
 }  // namespace
 
-LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene)
+LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene,
+                     Surfaces surfaces)
     : context_(context),
       stream_(stream),
       scene_(passes::upload_scene(context, stream, scene)),
-      gbuffer_pass_(context),
       shadow_pass_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       solid_(context),
       sky_light_(context),
       indirect_light_(context),
       light_cells_maker_(scene) {
+  if (surfaces == Surfaces::of_scene) gbuffer_pass_.emplace(context);
   shadow_pass_.record(context, stream, scene_, {}, shadows_);
   if (scene_.has_panes) pane_pass_.emplace(context);
 }
@@ -125,8 +126,8 @@ void LevelPart::record_light(gpu::Recorder& recorder, const FramePlan& plan, con
 void LevelPart::record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan,
                                const FrameResources& in) const {
   const planning::LevelState& level = plan.input.level;
-  gbuffer_pass_.record(recorder, scene_, moving_draws(scene_, level), level.hidden_objects, plan.frustum,
-                       in.frame, in.targets.gbuffer);
+  gbuffer_pass_->record(recorder, scene_, moving_draws(scene_, level), level.hidden_objects, plan.frustum,
+                        in.frame, in.targets.gbuffer);
 }
 
 void LevelPart::record_panes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,

@@ -12,8 +12,10 @@ namespace brume::render {
 
 class LevelPart {
  public:
+  /// Whose surfaces a frame shows: the scene's, or those of a host, for which record_gbuffer is not called.
+  enum class Surfaces { of_scene, of_host };
   /// Uploads the scene and draws its shadows. All three must outlive the part. Throws resource_limit.
-  LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene);
+  LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene, Surfaces surfaces);
 
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
   /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
@@ -50,8 +52,8 @@ class LevelPart {
   gpu::Context& context_;
   gpu::CommandStream& stream_;
   passes::SceneResources scene_;
-  passes::GBufferPass gbuffer_pass_;
-  std::optional<passes::PanePass> pane_pass_;  ///< Where the scene has panes.
+  std::optional<passes::GBufferPass> gbuffer_pass_;  ///< Where Surfaces::of_scene.
+  std::optional<passes::PanePass> pane_pass_;        ///< Where the scene has panes.
   passes::ShadowPass shadow_pass_;
   passes::ShadowMaps shadows_;
   /// The objects without a shadow in the maps, rising; empty: a failure left the maps undefined.
