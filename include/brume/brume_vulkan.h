@@ -131,6 +131,13 @@ static inline brume_device_params brume_device_defaults(void) {
 /// BRUME_ERROR_ARGUMENT for a queue family that does not exist or lacks graphics or compute.
 BRUME_API brume_result brume_device_create(brume_context* context, const brume_device_params* params,
                                            brume_device** device) BRUME_NOEXCEPT;
+/// Compiles all pipelines of smoke, of its shadows on surfaces and of decals, for all march scales and
+/// qualities, so that frames need not. `picture_format` is the brume_picture::format of your frames;
+/// VK_FORMAT_UNDEFINED: they have no picture. The call records nothing and may run in another thread, while
+/// renderers of the device are created and record: they wait at most for a pipeline that they need and that
+/// is being compiled. It allocates some MB of device memory, and frees them; your memory functions may then
+/// be called by both threads at once. Volumes and tanks compile more, in their first frame.
+BRUME_API brume_result brume_device_compile(brume_device* device, VkFormat picture_format) BRUME_NOEXCEPT;
 /// Destroys a device; null is ignored. The GPU must have completed all frames, which is not checked. Errors:
 /// BRUME_ERROR_ORDER unless all renderers of the device have been destroyed.
 BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT;

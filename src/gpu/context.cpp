@@ -66,10 +66,11 @@ Context::Context(const ContextOptions& options)
   create_device(options.presentation);
   read_properties();
   memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, MemoryOptions{.fill = options.validation});
-  pipelines_.emplace(vk_, device_, VK_NULL_HANDLE);
+  pipelines_ = std::make_shared<PipelineStore>(vk_, device_, VK_NULL_HANDLE);
 }
 
-Context::Context(const HostDevice& host) : device_(host.device), queue_family_(host.queue_family) {
+Context::Context(const HostDevice& host, Context* pipelines_of)
+    : device_(host.device), queue_family_(host.queue_family) {
   vk_.load_instance(host.get_instance_proc_addr, host.instance);
   for (const DeviceInfo& device : list_devices(vk_, host.instance)) {
     if (device.handle == host.physical_device) info_ = device;
@@ -86,7 +87,8 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
   memory_ = std::make_unique<Memory>(
       vk_, info_.handle, device_,
       MemoryOptions{.block_bytes = 16u << 20, .dedicated_bytes = 4u << 20, .callbacks = host.memory});
-  pipelines_.emplace(vk_, device_, host.pipeline_cache);
+  pipelines_ = pipelines_of ? pipelines_of->pipelines_
+                            : std::make_shared<PipelineStore>(vk_, device_, host.pipeline_cache);
 }
 
 void Context::create_device(const Presentation& presentation) {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,8 +70,9 @@ class Context {
   /// Creates its own instance and device. Throws no_device when no device fits.
   explicit Context(const ContextOptions& options);
   /// Uses the host's device: records only, never submits or waits. Throws no_device when device or driver
-  /// lack something, and usage for another queue family.
-  explicit Context(const HostDevice& host);
+  /// lack something, and usage for another queue family. `pipelines_of`: a context of the same device, which
+  /// must outlive this one, to share its pipelines; each of both may be used by a thread of its own.
+  explicit Context(const HostDevice& host, Context* pipelines_of = nullptr);
   /// The device has completed all that was recorded.
   ~Context();
   Context(const Context&) = delete;
@@ -143,7 +143,7 @@ class Context {
   std::uint64_t max_allocation_bytes_ = 0;
   std::uint64_t timestamp_mask_ = 0;
   std::unique_ptr<Memory> memory_;
-  std::optional<PipelineStore> pipelines_;
+  std::shared_ptr<PipelineStore> pipelines_;
 
   /// Recordings one after the other that were dropped.
   struct DroppedRange {

@@ -22,6 +22,9 @@ void Functions::load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance
   if (!name) missing(#name);
   BRUME_VK_INSTANCE_FUNCTIONS(X)
 #undef X
+#define X(name) name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name));
+  BRUME_VK_DEBUG_FUNCTIONS(X)
+#undef X
 }
 
 void Functions::load_device(VkDevice device) {

@@ -32,6 +32,10 @@
   X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
   X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
 
+// Names for debuggers; null unless the instance has VK_EXT_debug_utils.
+#define BRUME_VK_DEBUG_FUNCTIONS(X) \
+  X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)
+
 // Only for presentation in a window.
 #define BRUME_VK_SURFACE_FUNCTIONS(X) \
   X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) X(GetPhysicalDeviceSurfaceFormatsKHR) \
@@ -47,6 +51,7 @@ struct Functions {
 #define X(name) PFN_vk##name name = nullptr;
   BRUME_VK_INSTANCE_FUNCTIONS(X)
   BRUME_VK_DEVICE_FUNCTIONS(X)
+  BRUME_VK_DEBUG_FUNCTIONS(X)
   BRUME_VK_SURFACE_FUNCTIONS(X)
   BRUME_VK_SWAPCHAIN_FUNCTIONS(X)
 #undef X

@@ -258,8 +258,20 @@ Pipeline::~Pipeline() {
 
 VkPipeline Pipeline::handle() const {
   const std::scoped_lock lock(mutex_);
-  if (handle_ == VK_NULL_HANDLE) check(make(shaders_, &handle_), shaders_.front().name);
+  if (handle_ == VK_NULL_HANDLE) {
+    check(make(shaders_, &handle_), shaders_.front().name);
+    set_name(handle_);
+  }
   return handle_;
+}
+
+/// For debuggers: the name of its last shader.
+void Pipeline::set_name(VkPipeline made) const {
+  if (!maker_.vk.SetDebugUtilsObjectNameEXT) return;
+  const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr,
+                                           VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(made),
+                                           shaders_.back().name};
+  (void)maker_.vk.SetDebugUtilsObjectNameEXT(maker_.device, &info);  // Without a name it works, too.
 }
 
 Result<void> Pipeline::replace_shader(const ShaderCode& code) {

@@ -83,6 +83,8 @@ class Pipeline {
 
  private:
   friend class PipelineStore;
+  void set_name(VkPipeline made) const;
+
   Maker maker_;
   mutable std::mutex mutex_;  // held while it is compiled
   mutable VkPipeline handle_ = VK_NULL_HANDLE;

@@ -381,12 +381,19 @@ void Recorder::end_rendering() {
 
 void Recorder::begin_scope(const char* name) {
   flush_transfers();
+  if (context_.vk().CmdBeginDebugUtilsLabelEXT)
+    list_.add([name](const Functions& vk, VkCommandBuffer commands) {
+      const VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name, {}};
+      vk.CmdBeginDebugUtilsLabelEXT(commands, &label);
+    });
   slot_.timings_.begin(list_, name);
 }
 
 void Recorder::end_scope() {
   flush_transfers();
   slot_.timings_.end(list_);
+  if (context_.vk().CmdEndDebugUtilsLabelEXT)
+    list_.add([](const Functions& vk, VkCommandBuffer commands) { vk.CmdEndDebugUtilsLabelEXT(commands); });
 }
 
 void Recorder::record(VkCommandBuffer commands) {

@@ -111,6 +111,7 @@ class Recorder {
   void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
   void bind_for_draws(const Pipeline& pipeline, Bundles bundles, BoundResources resources);
 
+  /// A scope has a time (Timings) and, where debuggers can see it, its name, a constant.
   void begin_scope(const char* name);
   void end_scope();
 

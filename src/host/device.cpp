@@ -1,4 +1,5 @@
 #include "gpu/device_features.hpp"
+#include "gpu/dropped_commands.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
 
@@ -7,6 +8,14 @@ using brume::gpu::DeviceFeatures;
 using brume::gpu::HostDevice;
 
 namespace brume::host {
+
+bool can_blend(const gpu::Context& context, VkFormat format) {
+  if (format <= VK_FORMAT_UNDEFINED || format > VK_FORMAT_ASTC_12x12_SRGB_BLOCK) return false;
+  VkFormatProperties properties{};
+  context.vk().GetPhysicalDeviceFormatProperties(context.info().handle, format, &properties);
+  return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
+}
+
 namespace {
 
 HostDevice host_device(const brume_device_params& params) {
@@ -24,6 +33,24 @@ HostDevice host_device(const brume_device_params& params) {
           .memory = {params.memory_user, params.allocate_memory, params.free_memory},
           .enabled_features = params.enabled_features,
           .pipeline_cache = params.pipeline_cache};
+}
+
+/// Makes what a renderer of smoke has, without a frame, in a context of its own: the device's other contexts
+/// go on meanwhile.
+void compile(DeviceData& device, VkFormat picture_format) {
+  if (picture_format != VK_FORMAT_UNDEFINED)
+    require(can_blend(device.context, picture_format),
+            "`picture_format` must be one that the device can blend");
+  gpu::Context context(device.host, &device.context);
+  gpu::DroppedCommands commands(context);
+  const scene::Scene nothing;
+  render::RendererOptions options;
+  options.size_px = {1, 1};
+  options.media_alone = true;
+  options.smoke.prepare_all = true;
+  options.smoke.temporal = true;
+  render::Renderer renderer(context, commands, nothing, options);
+  renderer.reserve_over({.decals = true, .shadows = true, .picture = picture_format});
 }
 
 static_assert(sizeof(brume_feature_storage) == sizeof(gpu::FeatureStructs) &&
@@ -54,6 +81,13 @@ brume_result brume_device_create(brume_context* context, const brume_device_para
     required(device, "device");
     create(device, owner.settings,
            brume::host::host_device(required_params(params, brume_device_defaults())));
+  });
+}
+
+brume_result brume_device_compile(brume_device* device, VkFormat picture_format) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const std::shared_ptr<brume::host::DeviceData> data = call.handle(device).data;
+    brume::host::compile(*data, picture_format);
   });
 }
 

@@ -18,13 +18,19 @@ namespace brume::host {
 
 /// A host's device, and the frame that its renderers recorded last.
 struct DeviceData {
-  explicit DeviceData(const gpu::HostDevice& host) : context(host) {}
+  explicit DeviceData(const gpu::HostDevice& given) : host(given), context(given) {
+    host.enabled_features = nullptr;
+  }
+  gpu::HostDevice host;  ///< Without `enabled_features`, which were the caller's.
   gpu::Context context;
   /// Held while a renderer is made, records or ends: the context is used by one thread at a time.
   std::mutex mutex;
   std::uint64_t frame = 0, completed = 0;
   std::atomic<int> renderers = 0;
 };
+
+/// Whether the device can blend over a picture of a format of Vulkan 1.0.
+bool can_blend(const gpu::Context& context, VkFormat format);
 
 /// A file of grids or a sequence of them.
 struct VolumeData {

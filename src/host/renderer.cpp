@@ -65,14 +65,6 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
          params.timings != 0);
 }
 
-/// Whether the device can blend over a picture of a format of Vulkan 1.0.
-bool can_blend(const gpu::Context& context, VkFormat format) {
-  if (format <= VK_FORMAT_UNDEFINED || format > VK_FORMAT_ASTC_12x12_SRGB_BLOCK) return false;
-  VkFormatProperties properties{};
-  context.vk().GetPhysicalDeviceFormatProperties(context.info().handle, format, &properties);
-  return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
-}
-
 void check_frame(const brume_renderer& renderer, const brume_field* field, const brume_frame_params& params) {
   require(params.commands != VK_NULL_HANDLE, "`commands` is null");
   if (params.frame_number <= renderer.device->frame)

@@ -54,11 +54,18 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
   cube_ = make_image(context, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
 }
 
-void IndirectLightPass::reserve(const surfaces::LightCells& level, std::size_t most_lights,
-                                std::uint32_t casters) {
+void IndirectLightPass::reserve_pipelines(std::uint32_t casters) {
   if (!medium_passes_.contains(casters & kCellMedia))
     medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
                                std::vector{casters & kCellMedia});
+  for (const std::uint32_t media : {0u, 1u})
+    if (const std::array key{media, small_emitters_}; !gather_passes_.contains(key))
+      gather_passes_.try_emplace(key, context_, shaders::indirect_gather_comp,
+                                 std::vector{media, small_emitters_});
+}
+
+void IndirectLightPass::reserve(const surfaces::LightCells& level, std::size_t most_lights,
+                                std::uint32_t casters) {
   patch_count_ = static_cast<std::uint32_t>(level.patches.size());
   probe_count_ = static_cast<std::uint32_t>(level.probes.size());
   gpu::grow(context_, patches_, std::max<std::size_t>(patch_count_, 1) * sizeof(shared::SurfacePatch));
@@ -68,10 +75,7 @@ void IndirectLightPass::reserve(const surfaces::LightCells& level, std::size_t m
   gpu::grow(context_, hits_,
             std::max<std::size_t>(probe_count_, 1) * shared::kProbeRays * sizeof(std::uint32_t));
   small_emitters_ = level.emitter_rays.empty() ? 0 : 1;
-  for (const std::uint32_t media : {0u, 1u})
-    if (const std::array key{media, small_emitters_}; !gather_passes_.contains(key))
-      gather_passes_.try_emplace(key, context_, shaders::indirect_gather_comp,
-                                 std::vector{media, small_emitters_});
+  reserve_pipelines(casters);
   gpu::grow(context_, emitter_samples_,
             std::max<std::size_t>(level.emitter_samples.size(), 1) * sizeof(shared::EmitterSample));
   gpu::grow(context_, emitter_rays_,

@@ -23,6 +23,8 @@ class IndirectLightPass {
   /// Makes room for a level of these cells, for as many lights as any of its frames has. Outside of a
   /// recording, when the device is done with what was recorded before. Throws resource_limit.
   void reserve(const surfaces::LightCells& level, std::size_t most_lights, std::uint32_t casters);
+  /// Its pipelines alone.
+  void reserve_pipelines(std::uint32_t casters);
 
   struct Inputs {
     const gpu::Buffer& frame;

@@ -52,10 +52,14 @@ planning::SmokeLightRoom SmokeLightPass::room() const {
   return {items(texel_lists_, shared::kTexelListWords), items(ray_pages_, shared::kTexelsPerBrick)};
 }
 
-void SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
-  if (!plan.shadow_rays.empty() && !rays_passes_.contains(casters & kRayMedia))
+void SmokeLightPass::reserve_pipelines(std::uint32_t casters) {
+  if (!rays_passes_.contains(casters & kRayMedia))
     rays_passes_.try_emplace(casters & kRayMedia, context_, shaders::light_rays_comp,
                              std::vector{casters & kRayMedia});
+}
+
+void SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
+  if (!plan.shadow_rays.empty()) reserve_pipelines(casters);
   // What is cached: twice what the plan needs, since a larger buffer loses it.
   const auto grow = [&](gpu::Buffer& buffer, std::size_t words) {
     const std::size_t bytes = words * sizeof(std::uint32_t), most = context_.limits().maxStorageBufferRange;

@@ -28,6 +28,8 @@ class SmokeLightPass {
   /// end of a recording, and only when the device is done with what it recorded before. Throws
   /// resource_limit.
   void reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters);
+  /// Its pipelines alone.
+  void reserve_pipelines(std::uint32_t casters);
   /// Gives back what was cached; the next plan must not rely on it. When `reserve` may be called.
   void trim();
   /// Uploads the reserved plan.

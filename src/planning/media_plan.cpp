@@ -369,9 +369,11 @@ void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeIn
   }
 }
 
-std::array<std::uint32_t, 2> media_of_other_quality(std::uint32_t media) {
-  if ((media & shared::kMediumSmoke) == 0) return {media, media};
-  return {media ^ shared::kMediumFineShadows, media & ~shared::kMediaOfSmoke};
+std::array<std::uint32_t, 4> media_of_all_qualities(std::uint32_t media) {
+  if ((media & shared::kMediumSmoke) == 0) return {media, media, media, media};
+  const std::uint32_t plain = media & ~shared::kMediaOfSmoke;
+  return {plain, plain | shared::kMediumFineShadows, plain | shared::kMediumDetail,
+          plain | shared::kMediaOfSmoke};
 }
 
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan) {

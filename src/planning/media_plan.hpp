@@ -68,8 +68,8 @@ FrameVector<Box<float>> caster_boxes(const MediaPlan& plan, const SmokeVisibilit
 /// Adds what light follows from of all that it may meet but the smoke, whose caches have keys of their own.
 void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
 
-/// The sets of media that frames of other qualities march through instead of this one.
-std::array<std::uint32_t, 2> media_of_other_quality(std::uint32_t media);
+/// The sets of media that frames of all qualities and looks march through instead of this one.
+std::array<std::uint32_t, 4> media_of_all_qualities(std::uint32_t media);
 
 /// The volumes of a plan that may be in view.
 std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);

@@ -35,6 +35,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
       particles_(context),
       smoke_budget_(options.smoke.reserved_bricks),
       memory_follows_view_(options.smoke.memory_follows_view) {
+  if (options.smoke.prepare_all) level_.prepare();
   // The surfaces of a host, or a picture of its own.
   if (options.media_alone)
     host_.emplace(context);

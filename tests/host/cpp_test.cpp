@@ -35,6 +35,7 @@ TEST(CppInterface, IsTheCInterface) {
     EXPECT_EQ(std::string(error.what()), brume_last_error());
   }
   device.set_memory_limit(1 << 20);
+  EXPECT_THROW(device.compile(VK_FORMAT_R32_UINT), api::Error);
 
   // Assets.
   const cli::WorkFolder folder;

@@ -104,6 +104,8 @@ void HostileFrames::device() {
     const brume_result result = brume_device_create(handle(contexts_), spoiled(params), out.pointer());
     if (checked("brume_device_create", result, out.untouched())) devices_.push_back(out.value());
   }
+  const VkFormat format = chance(0.1) ? VK_FORMAT_UNDEFINED : VK_FORMAT_R32_UINT;
+  checked("brume_device_compile", brume_device_compile(handle(devices_), format), true);
   read<std::uint64_t>("brume_device_memory", devices_, brume_device_memory);
   const std::uint64_t limit = chance(0.5) ? UINT64_MAX : static_cast<std::uint64_t>(below(100)) << 20;
   checked("brume_device_set_memory_limit", brume_device_set_memory_limit(handle(devices_), limit), true);

@@ -1,4 +1,8 @@
 // Pipelines belong to the device: what one renderer has compiled, no other compiles again.
+#include <atomic>
+#include <set>
+#include <thread>
+
 #include "tests/host/yard.hpp"
 
 namespace brume::host {
@@ -6,31 +10,40 @@ namespace {
 
 /// Pipelines that are compiled, and what with.
 struct Compiled {
-  static inline int count = 0, destroyed = 0;
-  static inline std::uint32_t most_colours = 0;
+  static inline std::atomic<int> count = 0, destroyed = 0;
+  static inline std::atomic<std::uint32_t> most_colours = 0;
   static inline VkPipelineCache cache = VK_NULL_HANDLE;
   static inline bool is_cached = true;  // all with `cache`
 
+  static inline std::mutex mutex;
+  static inline std::set<VkPipelineLayout> layouts;  // each pipeline has its own
+
   static void reset() {
     count = destroyed = 0;
+    layouts.clear();
     most_colours = 0;
     cache = VK_NULL_HANDLE;
     is_cached = true;
   }
+  template <typename Info>
+  static void add(VkPipelineCache used, std::uint32_t number, const Info* infos) {
+    const std::scoped_lock lock(mutex);
+    for (std::uint32_t i = 0; i < number; ++i) layouts.insert(infos[i].layout);
+    count += static_cast<int>(number);
+    is_cached &= used == cache;
+  }
   static VkResult call(PFN_vkCreateComputePipelines real, VkDevice device, VkPipelineCache used,
                        std::uint32_t number, const VkComputePipelineCreateInfo* infos,
                        const VkAllocationCallbacks* callbacks, VkPipeline* made) {
-    count += static_cast<int>(number);
-    is_cached &= used == cache;
+    add(used, number, infos);
     return real(device, used, number, infos, callbacks, made);
   }
   static VkResult call(PFN_vkCreateGraphicsPipelines real, VkDevice device, VkPipelineCache used,
                        std::uint32_t number, const VkGraphicsPipelineCreateInfo* infos,
                        const VkAllocationCallbacks* callbacks, VkPipeline* made) {
-    count += static_cast<int>(number);
-    is_cached &= used == cache;
+    add(used, number, infos);
     for (std::uint32_t i = 0; i < number; ++i)
-      most_colours = std::max(most_colours, infos[i].pColorBlendState->attachmentCount);
+      most_colours = std::max(most_colours.load(), infos[i].pColorBlendState->attachmentCount);
     return real(device, used, number, infos, callbacks, made);
   }
   static void call(PFN_vkDestroyPipeline real, VkDevice device, VkPipeline pipeline,
@@ -118,11 +131,104 @@ TEST_F(PipelinesTest, AllUseTheCacheOfTheHost) {
   destroy_cache(device, cache_, nullptr);
 }
 
+// With holes, accumulation, indirect light, shadows on surfaces, and at every march scale.
+TEST_F(PipelinesTest, ACompiledDeviceLeavesNoneToFrames) {
+  make_yard();
+  ASSERT_OK(brume_device_compile(device_, VK_FORMAT_UNDEFINED));
+  const int compiled = Compiled::count;
+  EXPECT_GT(compiled, 10);
+  brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 45);
+  shot.u.shot.toward = position_of(sim::position_from_metres({6, 1, 6}));
+  append(shot);
+  advance(50);
+  for (const std::uint32_t scale : {1u, 2u, 4u}) {
+    ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
+    for (const std::uint32_t skip_fine_shadows : {0u, 1u})
+      for (const float detail_reduction : {0.0f, 1.0f})
+        draw({1, 2, 1}, {1, -0.1f, 1}, 0.8, [&](brume_frame_params& params) {
+          params.quality.skip_fine_shadows = skip_fine_shadows;
+          params.detail_reduction = detail_reduction;
+          params.bounces = 1;
+          params.shadow_light_count = 1;
+          ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+        });
+  }
+  EXPECT_EQ(Compiled::count, compiled);
+  ASSERT_OK(brume_device_compile(device_, VK_FORMAT_R8G8B8A8_UNORM));
+  EXPECT_EQ(Compiled::count, compiled + 1) << "the layer over the picture";
+  expect_refused(brume_device_compile(device_, VK_FORMAT_R32_UINT), BRUME_ERROR_ARGUMENT, "picture_format");
+  destroy();
+  EXPECT_EQ(Compiled::destroyed, compiled + 1);
+}
+
+TEST_F(PipelinesTest, FramesAreDrawnWhileAnotherThreadCompiles) {
+  make_yard();
+  brume_result result = BRUME_ERROR_INTERNAL;
+  {
+    const std::jthread thread([&] { result = brume_device_compile(device_, VK_FORMAT_UNDEFINED); });
+    draw_some();
+  }
+  EXPECT_EQ(result, BRUME_OK);
+  const int compiled = Compiled::count;
+  EXPECT_EQ(Compiled::layouts.size(), static_cast<std::size_t>(compiled)) << "a pipeline was compiled twice";
+  draw_some();
+  EXPECT_EQ(Compiled::count, compiled);
+}
+
+// Without smoke in its first frame.
+TEST_F(PipelinesTest, ARendererThatPreparesAllCompilesInItsFirstFrame) {
+  prepares_all_ = true;
+  make({32, 16, 32}, 0.25f);
+  advance(1);
+  draw({1, 2, 1}, {1, -0.1f, 1}, 0);
+  const int compiled = Compiled::count;
+  EXPECT_GT(compiled, 10);
+  smoke(1, {3, 0.6f, 3}, 500, 100);
+  advance(40);
+  draw_some();
+  ASSERT_OK(brume_renderer_set_march_scale(renderer_, 2));
+  draw_some();
+  EXPECT_EQ(Compiled::count, compiled);
+}
+
 // The surfaces are the host's: no pipeline draws into a G-buffer.
 TEST_F(PipelinesTest, NoneDrawsIntoSeveralColours) {
   make_yard();
   draw_some();
   EXPECT_LE(Compiled::most_colours, 1u);
+}
+
+/// The names that debuggers show.
+struct Named {
+  static inline std::set<std::string> objects, passes;
+  static inline int depth = 0;
+  static VkResult call(PFN_vkSetDebugUtilsObjectNameEXT real, VkDevice device,
+                       const VkDebugUtilsObjectNameInfoEXT* info) {
+    objects.insert(info->pObjectName);
+    return real(device, info);
+  }
+  static void call(PFN_vkCmdBeginDebugUtilsLabelEXT real, VkCommandBuffer commands,
+                   const VkDebugUtilsLabelEXT* label) {
+    passes.insert(label->pLabelName);
+    ++depth;
+    real(commands, label);
+  }
+  static void call(PFN_vkCmdEndDebugUtilsLabelEXT real, VkCommandBuffer commands) {
+    --depth;
+    real(commands);
+  }
+};
+
+TEST_F(PipelinesTest, AndPassesHaveNames) {
+  for (const gpu::Replacement& replacement : {BRUME_INTERPOSED(Named, SetDebugUtilsObjectNameEXT),
+                                              BRUME_INTERPOSED(Named, CmdBeginDebugUtilsLabelEXT),
+                                              BRUME_INTERPOSED(Named, CmdEndDebugUtilsLabelEXT)})
+    replacements_.push_back(replacement);
+  make_yard();
+  draw_some();
+  EXPECT_TRUE(Named::objects.contains("march.comp"));
+  EXPECT_TRUE(Named::passes.contains("march"));
+  EXPECT_EQ(Named::depth, 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 
 #include "tests/gpu/interposer.hpp"
 #include "tests/host/hosted_smoke.hpp"
@@ -27,8 +28,9 @@ inline const std::vector<gpu::Replacement> kWaiting{
 };
 // clang-format on
 
-/// Memory of the device by the host's own functions.
+/// Memory of the device by the host's own functions, in any thread.
 struct HostMemory {
+  std::mutex mutex;
   gpu::Functions vk;
   VkDevice device = VK_NULL_HANDLE;
   std::map<VkDeviceMemory, VkDeviceSize> blocks;
@@ -39,6 +41,7 @@ struct HostMemory {
     auto& own = *static_cast<HostMemory*>(user);
     const VkResult result = own.vk.AllocateMemory(own.device, info, nullptr, memory);
     if (result != VK_SUCCESS) return result;
+    const std::scoped_lock lock(own.mutex);
     own.blocks[*memory] = info->allocationSize;
     own.bytes += info->allocationSize;
     ++own.allocations;
@@ -46,6 +49,7 @@ struct HostMemory {
   }
   static void free(void* user, VkDeviceMemory memory, VkDeviceSize size) {
     auto& own = *static_cast<HostMemory*>(user);
+    const std::scoped_lock lock(own.mutex);
     EXPECT_EQ(own.blocks.at(memory), size);
     own.blocks.erase(memory);
     own.bytes -= size;
@@ -118,6 +122,7 @@ class YardTest : public testing::Test {
     params.light_count = 1;
     params.temporal = is_temporal_ ? 1 : 0;
     params.timings = is_timed_ ? 1 : 0;
+    params.prepare_all = prepares_all_ ? 1 : 0;
     params.march_scale = march_scale;
     return brume_renderer_create(device_, &params, &renderer_);
   }
@@ -180,8 +185,7 @@ class YardTest : public testing::Test {
   }
 
   glm::uvec2 first_;
-  bool is_temporal_ = true;
-  bool is_timed_ = false;
+  bool is_temporal_ = true, is_timed_ = false, prepares_all_ = false;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;

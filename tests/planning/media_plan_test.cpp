@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "planning/device_camera.hpp"
 #include "shared/phase.h"
@@ -137,13 +138,16 @@ TEST(MediaPlan, CountsWhatCastsShadows) {
   EXPECT_EQ(plan.caster_bounds, (Box<float>{glm::vec3(0), {8, 8, 108}}));
 }
 
-TEST(MediaPlan, OtherQualitiesDifferByTheNoiseOfSmokeAlone) {
+TEST(MediaPlan, QualitiesDifferByTheNoiseOfSmokeAlone) {
   const std::uint32_t volumes = shared::kMediumVolumes | shared::kMediumLit;
-  for (const std::uint32_t other : media_of_other_quality(volumes)) EXPECT_EQ(other, volumes);
-  const std::uint32_t smoke = volumes | shared::kMediumSmoke | shared::kMediumFineShadows;
-  EXPECT_EQ(media_of_other_quality(smoke)[0], smoke & ~shared::kMediumFineShadows);
-  EXPECT_EQ(media_of_other_quality(smoke & ~shared::kMediumFineShadows)[0], smoke);
-  EXPECT_EQ(media_of_other_quality(smoke | shared::kMediumDetail)[1], volumes | shared::kMediumSmoke);
+  for (const std::uint32_t other : media_of_all_qualities(volumes)) EXPECT_EQ(other, volumes);
+  const std::uint32_t smoke = volumes | shared::kMediumSmoke;
+  const std::set<std::uint32_t> expected{smoke, smoke | shared::kMediumFineShadows,
+                                         smoke | shared::kMediumDetail, smoke | shared::kMediaOfSmoke};
+  for (const std::uint32_t media : expected) {
+    const auto all = media_of_all_qualities(media);
+    EXPECT_EQ(std::set<std::uint32_t>(all.begin(), all.end()), expected);
+  }
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ struct MediaOptions {
   bool count_samples = false;      ///< Count the texture samples of the march (slower).
   bool brute_force_holes = false;  ///< See MarchPass::Options.
   std::uint32_t march_scale = 1;   ///< Pixels per ray of the march along each axis: 1, 2 or 4.
-  /// Prepares at once what any later frame may need, so that none waits for it: pipelines of all march
-  /// scales, the noise of smoke. Otherwise each is prepared for the first frame that needs it.
+  /// Prepares at once what any later frame of smoke may need, so that none waits for it: pipelines of all
+  /// march scales and qualities, the noise. Otherwise each is prepared for the first frame that needs it.
   bool prepare_all = false;
   /// Draws the volumes alone, one by one, without light from each other; needs march_scale 1.
   std::optional<passes::RaycastForm> raycast = {};

@@ -44,6 +44,10 @@ LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const sc
   if (scene_.has_panes) pane_pass_.emplace(context);
 }
 
+void LevelPart::prepare() {
+  for (const std::uint32_t casters : {0u, shared::kMediumSmoke}) indirect_light_.reserve_pipelines(casters);
+}
+
 void LevelPart::reserve(const FramePlan& plan) {
   const planning::LevelState& level = plan.input.level;
   solid_.reserve(level.voxels);

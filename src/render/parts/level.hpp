@@ -17,6 +17,8 @@ class LevelPart {
   /// Uploads the scene and draws its shadows. All three must outlive the part. Throws resource_limit.
   LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene, Surfaces surfaces);
 
+  /// Compiles what frames of indirect light in smoke need.
+  void prepare();
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
   /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
   void reserve(const FramePlan& plan);

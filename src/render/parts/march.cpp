@@ -41,7 +41,15 @@ MarchPart::MarchPart(gpu::Context& context, gpu::CommandStream& stream, glm::uve
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
   resize(size_px);
   set_march_scale(options.march_scale);
-  if (options.prepare_all) make_noise();
+  if (options.prepare_all) prepare();
+}
+
+/// What frames with smoke need, and those without.
+void MarchPart::prepare() {
+  make_noise();
+  march_pass_.reserve(0, passes::MarchRays::all);
+  for (const std::uint32_t media : planning::media_of_all_qualities(shared::kMediumSmoke))
+    march_pass_.reserve(media, passes::MarchRays::all);
 }
 
 void MarchPart::make_noise() {
@@ -87,7 +95,7 @@ void MarchPart::reserve(const FramePlan& plan) {
 
   // With or without, whatever later frames choose.
   if (!options_.prepare_all) return;
-  for (const std::uint32_t other : planning::media_of_other_quality(media)) march_pass_.reserve(other, rays);
+  for (const std::uint32_t other : planning::media_of_all_qualities(media)) march_pass_.reserve(other, rays);
 }
 
 void MarchPart::upload(gpu::Recorder& recorder, const FrameResources& in) {

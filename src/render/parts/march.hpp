@@ -51,6 +51,7 @@ class MarchPart {
     const gpu::Buffer& counters;
   };
   March march_of(const FrameResources& in) const;
+  void prepare();
   void make_noise();
   void record_raycast(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) const;
 

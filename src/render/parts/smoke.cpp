@@ -16,7 +16,9 @@ SmokePart::SmokePart(gpu::Context& context, gpu::CommandStream& stream, std::siz
       light_pass_(context),
       fine_light_pass_(context) {
   resize(size_px);
-  if (options.prepare_all) shadow_pass_.reserve(shared::kMediumSmoke);
+  if (!options.prepare_all) return;
+  for (const std::uint32_t casters : {0u, shared::kMediumSmoke}) shadow_pass_.reserve(casters);
+  light_pass_.reserve_pipelines(shared::kMediumSmoke);
 }
 
 void SmokePart::resize(glm::uvec2 size_px) {
