@@ -179,7 +179,7 @@ typedef struct brume_renderer_params {
   /// hides.
   uint32_t march_scale;
   uint32_t temporal;  ///< 1: smoke is accumulated over frames with brume_frame_params::continues_previous.
-  /// Lights that stay for the renderer's life, with shadow maps. At most 1024.
+  /// Lights that stay until brume_renderer_set_lights, with shadow maps. At most 1024.
   const brume_light* lights;
   size_t light_count;  ///< Number of `lights`.
   /// Triangles that cast shadows into the smoke, as in brume_triangles_params. None: nothing casts shadows.
@@ -220,6 +220,12 @@ BRUME_API brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t 
 /// Changes the renderer's march_scale (brume_renderer_params) to 1, 2 or 4, from the next frame on.
 BRUME_API brume_result brume_renderer_set_march_scale(brume_renderer* renderer,
                                                       uint32_t march_scale) BRUME_NOEXCEPT;
+
+/// Replaces the lights of brume_renderer_params from the next frame on, which draws their shadow maps and
+/// finds all light in the smoke again. Lights that change in each frame belong into brume_frame_params. The
+/// array is copied.
+BRUME_API brume_result brume_renderer_set_lights(brume_renderer* renderer, const brume_light* lights,
+                                                 size_t light_count) BRUME_NOEXCEPT;
 
 // ---- Frames ----
 

@@ -111,6 +111,10 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   void set_march_scale(std::uint32_t march_scale) {
     check(brume_renderer_set_march_scale(get(), march_scale));
   }
+  /// brume_renderer_set_lights.
+  void set_lights(const std::vector<brume_light>& lights) {
+    check(brume_renderer_set_lights(get(), lights.data(), lights.size()));
+  }
   /// brume_renderer_record. `field` may be null: no smoke, and no level.
   void record(const Field* field, const brume_frame_params& params) {
     check(brume_renderer_record(get(), field ? field->get() : nullptr, &params));

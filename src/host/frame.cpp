@@ -190,12 +190,17 @@ scene::Light scene_light(const brume_light& light, std::size_t number) {
   return made;
 }
 
+std::vector<scene::Light> scene_lights(const brume_light* lights, std::size_t count) {
+  require(count <= kMostLights, "at most 1024 lights");
+  if (count > 0) api::required(lights, "lights");
+  std::vector<scene::Light> made;
+  for (std::size_t i = 0; i < count; ++i) made.push_back(scene_light(lights[i], i));
+  return made;
+}
+
 scene::Scene to_scene(const brume_renderer_params& params) {
   scene::Scene scene;
-  require(params.light_count <= kMostLights, "at most 1024 lights");
-  if (params.light_count > 0) api::required(params.lights, "lights");
-  for (std::size_t i = 0; i < params.light_count; ++i)
-    scene.lights.push_back(scene_light(params.lights[i], i));
+  scene.lights = scene_lights(params.lights, params.light_count);
   scene.meshes.resize(1);
   add_triangles(params, scene.meshes[0]);
   scene.materials.resize(1);

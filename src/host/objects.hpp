@@ -98,7 +98,8 @@ struct brume_renderer : brume::api::Handle {
   ~brume_renderer();
 
   std::shared_ptr<brume::host::DeviceData> device;
-  const brume::scene::Scene scene;
+  brume::scene::Scene scene;
+  bool has_other_lights = false;  ///< `scene` has other lights than `renderer`.
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;

@@ -93,8 +93,15 @@ void check_frame(const brume_renderer& renderer, const brume_field* field, const
 /// What a frame needs whatever it shows, which no limit of memory refuses.
 void reserve(brume_renderer& renderer, const brume_frame_params& params) {
   const gpu::Memory::Unlimited always(renderer.device->context.memory());
+  try {
+    if (renderer.renderer && renderer.has_other_lights) renderer.renderer->set_lights(renderer.scene.lights);
+  } catch (...) {
+    renderer.renderer.reset();  // some of it has the lights before
+    throw;
+  }
   if (!renderer.renderer)
     renderer.renderer.emplace(renderer.device->context, renderer.recording, renderer.scene, renderer.options);
+  renderer.has_other_lights = false;
   renderer.renderer->reserve_over(
       {.decals = params.decal_count > 0,
        .shadows = params.shadow_light_count > 0,
@@ -220,6 +227,17 @@ brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t m
       object.renderer.reset();
       throw;
     }
+  });
+}
+
+brume_result brume_renderer_set_lights(brume_renderer* renderer, const brume_light* lights,
+                                       size_t light_count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_renderer& object = call.handle(renderer);
+    std::vector<brume::scene::Light> changed = brume::host::scene_lights(lights, light_count);
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    object.scene.lights = std::move(changed);
+    object.has_other_lights = true;
   });
 }
 

@@ -152,19 +152,27 @@ shared::DrawConstants draw_constants(const Draw& draw, const shared::MaterialCon
   return constants;
 }
 
+void upload_lights(gpu::Context& context, gpu::CommandStream& stream, const std::vector<scene::Light>& lights,
+                   SceneResources& scene) {
+  scene.light_list =
+      planning::device_lights(lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
+  // With room for flashes.
+  scene.lights = gpu::Buffer(context, (scene.light_list.size() + kMaxFlashes) * sizeof(shared::Light),
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  stream.run([&](gpu::Recorder& recorder) {
+    recorder.upload(scene.lights, 0, std::as_bytes(std::span(scene.light_list)));
+  });
+}
+
 SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene) {
   SceneResources out;
   const Geometry geometry = gather_geometry(scene);
-  out.light_list =
-      planning::device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
+  upload_lights(context, stream, scene.lights, out);
 
-  // Geometry, lights with room for flashes, and textures.
+  // Geometry and textures.
   stream.run([&](gpu::Recorder& recorder) {
     out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    out.lights = gpu::Buffer(context, (out.light_list.size() + kMaxFlashes) * sizeof(shared::Light),
-                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    recorder.upload(out.lights, 0, std::as_bytes(std::span(out.light_list)));
   });
   upload_images(context, stream, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));

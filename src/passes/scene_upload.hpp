@@ -60,5 +60,8 @@ struct SceneResources {
 
 /// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
 SceneResources upload_scene(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene);
+/// Other lights in the place of the scene's. Throws resource_limit.
+void upload_lights(gpu::Context& context, gpu::CommandStream& stream, const std::vector<scene::Light>& lights,
+                   SceneResources& scene);
 
 }  // namespace brume::passes

@@ -222,12 +222,16 @@ void PlanHistory::commit() {
   level.commit();
 }
 
-void PlanHistory::invalidate() {
-  noise.invalidate();
+void PlanHistory::invalidate_light() {
   smoke_shadows.invalidate();
   smoke_light.invalidate();
   volume_light.invalidate();
   indirect_light.invalidate();
+}
+
+void PlanHistory::invalidate() {
+  noise.invalidate();
+  invalidate_light();
   volume_streaming = {};
   resident = std::make_unique<ResidentSmoke>();
   ++plans;  // earlier plans are no longer valid

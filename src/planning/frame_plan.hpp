@@ -113,6 +113,8 @@ struct PlanHistory {
   void commit();
   /// The device lost all that is cached, or the smoke is another volume's.
   void invalidate();
+  /// The device lost all light that is cached.
+  void invalidate_light();
 };
 
 /// Plans a frame. History moves when the frame is committed; a frame that is not leaves it as it was, and may

@@ -67,6 +67,13 @@ void Renderer::set_masks(const smoke::MaskAtlas& masks) {
   history_.smoke_light.invalidate();
 }
 
+void Renderer::set_lights(const std::vector<scene::Light>& lights) {
+  commit_recorded();
+  level_.set_lights(lights);
+  smoke_.set_most_lights(most_lights(level_), targets_.size_px);
+  history_.invalidate_light();
+}
+
 void Renderer::invalidate() {
   history_.invalidate();
 }

@@ -54,6 +54,10 @@ class Renderer {
   /// Replaces the masks of the holes and uploads them. Call when the device has finished all recorded frames.
   void set_masks(const smoke::MaskAtlas& masks);
 
+  /// Replaces the scene's lights from the next frame on, which computes all light again. Call when the device
+  /// has finished all recorded frames. Throws resource_limit.
+  void set_lights(const std::vector<scene::Light>& lights);
+
   /// Makes the next frame compute all light again, whatever is cached: call it when the next frame's smoke is
   /// another SmokeVolume than before.
   void invalidate();

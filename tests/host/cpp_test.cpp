@@ -27,6 +27,7 @@ TEST(CppInterface, IsTheCInterface) {
   renderer.resize(16, 9);
   EXPECT_THROW(renderer.resize(0, 9), api::Error);
   renderer.set_march_scale(2);
+  renderer.set_lights({});
   try {
     renderer.set_march_scale(3);
     FAIL();

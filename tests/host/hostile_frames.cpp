@@ -169,6 +169,10 @@ void HostileFrames::renderer_change() {
   std::uint32_t scale = number(5);
   if (scales_ == Scales::full && scale != 1) scale = 3 + 2 * scale;
   checked("brume_renderer_set_march_scale", brume_renderer_set_march_scale(handle(renderers_), scale), true);
+  const std::vector<brume_light> lights(below(3), light());
+  checked("brume_renderer_set_lights",
+          brume_renderer_set_lights(handle(renderers_), chance(0.1) ? nullptr : lights.data(), lights.size()),
+          true);
   checked("brume_renderer_destroy", brume_renderer_destroy(wrong_handle<brume_renderer>()), true);
 }
 

@@ -44,6 +44,12 @@ LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const sc
   if (scene_.has_panes) pane_pass_.emplace(context);
 }
 
+void LevelPart::set_lights(const std::vector<scene::Light>& lights) {
+  passes::upload_lights(context_, stream_, lights, scene_);
+  shadows_ = shadow_pass_.make_maps(context_, scene_);
+  without_shadow_.reset();
+}
+
 void LevelPart::prepare() {
   for (const std::uint32_t casters : {0u, shared::kMediumSmoke}) indirect_light_.reserve_pipelines(casters);
 }

@@ -17,6 +17,9 @@ class LevelPart {
   /// Uploads the scene and draws its shadows. All three must outlive the part. Throws resource_limit.
   LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene, Surfaces surfaces);
 
+  /// Other lights in the place of the scene's; the next `reserve` draws their shadows. Outside of a recording,
+  /// when the device is done with the frame before. Throws resource_limit.
+  void set_lights(const std::vector<scene::Light>& lights);
   /// Compiles what frames of indirect light in smoke need.
   void prepare();
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.

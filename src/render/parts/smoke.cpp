@@ -25,6 +25,11 @@ void SmokePart::resize(glm::uvec2 size_px) {
   shadows_ = shadow_pass_.make_shadows(context_, size_px, most_lights_);
 }
 
+void SmokePart::set_most_lights(std::size_t most_lights, glm::uvec2 size_px) {
+  most_lights_ = most_lights;
+  resize(size_px);
+}
+
 void SmokePart::set_masks(const smoke::MaskAtlas& masks) {
   hole_clusters_.set_masks(context_, stream_, masks);
 }

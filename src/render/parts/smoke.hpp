@@ -16,6 +16,7 @@ class SmokePart {
 
   // When the device is done with what was recorded before; all throw resource_limit.
   void resize(glm::uvec2 size_px);
+  void set_most_lights(std::size_t most_lights, glm::uvec2 size_px);
   /// Other masks of the holes; uploads them.
   void set_masks(const smoke::MaskAtlas& masks);
   /// Gives back what frames grew, but for an atlas of this size: a frame that finds all light again must

@@ -1,0 +1,82 @@
+// A renderer whose lights are replaced draws what one with these lights from the start draws.
+#include "gpu/read_back.hpp"
+#include "tests/host/yard.hpp"
+
+namespace brume::host {
+namespace {
+
+class LightsTest : public YardTest {
+ protected:
+  static constexpr glm::uvec2 kPicture{32, 18};
+
+  LightsTest() : YardTest(true, kPicture) {}
+  void make_yard() {
+    make({32, 16, 32}, 0.25f);
+    smoke(1, {3, 0.6f, 3}, 500, 100);
+    advance(40);
+  }
+  /// A renderer with lights and a wall that shadows them.
+  brume_renderer* renderer_of(const std::vector<brume_light>& lights) {
+    const std::vector<brume_point> wall{{2, 0, 4}, {4, 0, 4}, {3, 4, 4}};
+    const std::vector<std::uint32_t> indices{0, 1, 2};
+    brume_renderer_params params = brume_renderer_defaults();
+    params.width = kPicture.x;
+    params.height = kPicture.y;
+    params.lights = lights.data();
+    params.light_count = lights.size();
+    params.points = wall.data();
+    params.point_count = wall.size();
+    params.indices = indices.data();
+    params.index_count = indices.size();
+    brume_renderer* renderer = nullptr;
+    EXPECT_OK(brume_renderer_create(device_, &params, &renderer));
+    return renderer;
+  }
+  /// The smoke of a frame, half floats.
+  std::vector<std::uint64_t> picture_of(brume_renderer* renderer) {
+    const gpu::Buffer copy = gpu::readback_buffer(gpu_, VkDeviceSize{8} * kPicture.x * kPicture.y);
+    draw({1, 2, 1}, {1, -0.2f, 1}, 0.7, [&](brume_frame_params& params) {
+      params.jitter_index = 0;
+      params.bounces = 1;
+      ASSERT_OK(brume_renderer_record(renderer, field_, &params));
+      VkImage image = VK_NULL_HANDLE;
+      ASSERT_OK(brume_renderer_smoke(renderer, &image, nullptr));
+      host_.copy(params.commands, image, {kPicture.x, kPicture.y}, copy.handle());
+    });
+    host_.wait();
+    const auto texels = gpu::values_of<std::uint64_t>(copy);
+    return {texels.begin(), texels.end()};
+  }
+};
+
+TEST_F(LightsTest, AreReplaced) {
+  make_yard();
+  const std::vector<brume_light> one{{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {3, 3, 2}, 0, 1}},
+      several{{BRUME_LIGHT_SUN, {0, 0, 0}, {0.3f, -1, -0.4f}, {2, 2, 2}, 0, 1},
+              {BRUME_LIGHT_SPOT, {3, 3, 6}, {0, -0.5f, -1}, {9, 1, 1}, 0.3f, 0.8f},
+              {BRUME_LIGHT_POINT, {1, 3, 1}, {0, -1, 0}, {1, 4, 1}, 0, 1}},
+      none;
+  brume_renderer* const changed = renderer_of(one);
+  std::vector<std::uint64_t> before = picture_of(changed);
+  for (const std::vector<brume_light>* lights : {&several, &none, &one}) {
+    ASSERT_OK(brume_renderer_set_lights(changed, lights->data(), lights->size()));
+    const std::vector<std::uint64_t> after = picture_of(changed);
+    brume_renderer* const made = renderer_of(*lights);
+    EXPECT_EQ(after, picture_of(made)) << lights->size() << " lights";
+    EXPECT_NE(after, before);
+    EXPECT_OK(brume_renderer_destroy(made));
+    before = after;
+  }
+  EXPECT_OK(brume_renderer_destroy(changed));
+}
+
+TEST_F(LightsTest, AreRefusedAsThoseOfANewRenderer) {
+  make_yard();
+  const brume_light nowhere{BRUME_LIGHT_POINT, {NAN, 0, 0}, {0, -1, 0}, {1, 1, 1}, 0, 1};
+  expect_refused(brume_renderer_set_lights(renderer_, nullptr, 1), BRUME_ERROR_ARGUMENT, "`lights` is null");
+  expect_refused(brume_renderer_set_lights(renderer_, &nowhere, 1025), BRUME_ERROR_ARGUMENT, "at most 1024");
+  expect_refused(brume_renderer_set_lights(renderer_, &nowhere, 1), BRUME_ERROR_ARGUMENT, "light.position");
+}
+
+}  // namespace
+}  // namespace brume::host
