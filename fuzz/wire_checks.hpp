@@ -44,11 +44,7 @@ inline Result<sim::State> state_of(const PacketHead& head, const sim::State& bas
   ByteReader in(head.body);
   const auto world = read_world(in);
   if (!world) return world.failure();
-  sim::State empty;
-  empty.layout = world->layout;
-  empty.ticks_per_second = world->ticks_per_second;
-  empty.masks = world->masks;
-  return read_body(in.remaining(), empty, head.tick, kFuzzLimits);
+  return read_body(in.remaining(), first_state(*world), head.tick, kFuzzLimits);
 }
 
 /// Any decoded state must survive all queries and must be sendable.
@@ -66,8 +62,7 @@ inline void check_state(const sim::State& base, const sim::State& state) {
   const auto received = receiver.receive(write_keyframe(state));
   BRUME_ASSERT(received, received.failure().message);
   BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe gives another state");
-  if (base.tick >= state.tick || base.events > state.events || base.layout != state.layout ||
-      base.ticks_per_second != state.ticks_per_second || base.masks != state.masks)
+  if (base.tick >= state.tick || base.events > state.events || sim::foreign_reason(state, base, "the base"))
     return;
   const std::vector<std::byte> delta = write_delta(base, state);
   const auto head = read_head(delta);
@@ -78,7 +73,7 @@ inline void check_state(const sim::State& base, const sim::State& state) {
 
 /// A receiver must keep its state and request a new one after any packet that it rejects.
 inline void receive_all(const std::vector<Input>& packets) {
-  Receiver receiver(kFuzzLimits);
+  Receiver receiver(ReceiverSettings{.limits = kFuzzLimits});
   for (const Input packet : packets) {
     static_cast<void>(read_request(packet));
     const bool had = receiver.state() != nullptr;

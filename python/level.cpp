@@ -195,6 +195,9 @@ Raises FileNotFoundError, ValueError for a damaged file, MemoryError for an axis
           "roles", [](const Level& l) { return role_array(l.voxels->solids()); },
           "What each voxel stops: a new array of uint8, shape (x, y, z). 0: wall, 1: glass, 2: grille, 3: "
           "nothing, it is free. MemoryError beyond 2^30 voxels.")
+      .def_property_readonly(
+          "hash", [](const Level& l) { return l.voxels->level_hash(); },
+          "Hash of the voxels and surfaces: levels of one hash give the same smoke and lines of sight.")
       .def("__repr__", &description);
 }
 

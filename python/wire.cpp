@@ -53,9 +53,12 @@ class Receiver {
   const sim::State* state() const { return receiver_.state(); }
 
  public:
+  explicit Receiver(const Level* level) : receiver_(settings_of(level)) {}
   const char* receive(const py::bytes& packet) {
     const std::vector<std::byte> copy = copy_of(packet);
     const wire::Reception reception = with([&] { return receiver_.receive(copy).value_or_throw(); });
+    if (reception == wire::Reception::foreign)
+      throw Error(ErrorCode::bad_input, "packet: of another level than the receiver's; load the sender's");
     return reception == wire::Reception::applied ? "applied"
            : reception == wire::Reception::old   ? "old"
                                                  : "missed";
@@ -80,6 +83,12 @@ class Receiver {
   }
 
  private:
+  static wire::ReceiverSettings settings_of(const Level* level) {
+    wire::ReceiverSettings settings;
+    if (level) settings.level_hash = level->voxels->level_hash();
+    return settings;
+  }
+
   std::mutex mutex_;
   wire::Receiver receiver_;
 };
@@ -103,13 +112,15 @@ Raises ValueError when the tick is not above the last one's, or the world is ano
 Raises ValueError for bytes that are no request, and before the first push.)");
   py::class_<Receiver>(
       module, "Receiver",
-      "Turns packets, in any order and with gaps, into the sender's states. It has no level.")
-      .def(py::init<>(), "A receiver without a state.")
+      "Turns packets, in any order and with gaps, into the sender's states, without a world.")
+      .def(py::init<const Level*>(), py::kw_only(), "level"_a = py::none(),
+           "level: the level that states must be of; None: any.")
       .def("receive", &Receiver::receive, "packet"_a,
            R"(Takes a packet of Sender.push or Sender.answer.
 
 Returns "applied", "old" (of an earlier tick; ignored) or "missed" (what it builds on is missing; send a
-request). Raises ValueError for damaged bytes; the state stays as it was.)")
+request). Raises ValueError for damaged bytes, and for a whole state of another level than the receiver's;
+the state stays as it was.)")
       .def("request", &Receiver::request, "What to send to the sender when states are missing, as bytes.")
       .def_property_readonly("behind", &Receiver::behind, "Whether a state is known to be missing.")
       .def_property_readonly("tick", &Receiver::tick, "Tick of the newest state; None before the first one.")
@@ -118,7 +129,7 @@ request). Raises ValueError for damaged bytes; the state stays as it was.)")
       .def("restore", &Receiver::restore, "world"_a,
            R"(Gives the newest state to a World of the same level, for queries.
 
-Raises ValueError before the first state, and for a world of another size, tick rate or other masks.)");
+Raises ValueError before the first state, and for a world of another level, tick rate or other masks.)");
 }
 
 }  // namespace brume::python

@@ -60,7 +60,7 @@ World::World(Level level, float extinction, std::uint32_t ticks_per_second,
     : level_(std::move(level)),
       masks_(pack_masks(masks)),
       extinction_(extinction),
-      world_(level_.voxels->solids(), {ticks_per_second, masks_.key()}) {
+      world_(level_.voxels->solids(), {ticks_per_second, masks_.key(), level_.voxels->level_hash()}) {
   if (!(extinction >= 0 && extinction <= 1e6f)) refuse("extinction", "expected 0 to 1,000,000 per metre");
 }
 

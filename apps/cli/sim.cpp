@@ -272,7 +272,7 @@ void simulate(const SimOptions& options, Outputs& outputs) {
   const std::vector<sim::Event> events = scenario::events_of(scenario, schedule.rate).value_or_throw();
 
   // Simulate. A recording holds the level, the events and a checksum of each tick.
-  const sim::WorldSettings settings{schedule.rate, scenario.masks.key()};
+  const sim::WorldSettings settings{schedule.rate, scenario.masks.key(), scenario.voxels.level_hash()};
   wire::Replay replay = wire::make_replay(scenario.voxels.solids(), settings, events);
   sim::World world(scenario.voxels.solids(), settings);
   world.append(events).value_or_throw();

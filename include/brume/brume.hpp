@@ -141,6 +141,10 @@ class Level : public detail::Handle<brume_level, brume_level_destroy> {
   brume_layout layout() const {
     return detail::value_of<brume_layout>([&](brume_layout* out) { return brume_level_layout(get(), out); });
   }
+  /// Levels of one hash give the same smoke and lines of sight: brume_level_hash.
+  std::uint64_t hash() const {
+    return detail::value_of<std::uint64_t>([&](std::uint64_t* out) { return brume_level_hash(get(), out); });
+  }
   /// 1 for each solid voxel of the box, else 0.
   Bytes solid(brume_voxel low, brume_voxel high) const {
     Bytes out(detail::voxels_of(low, high));
@@ -245,7 +249,7 @@ class World : public detail::Handle<brume_world, brume_world_destroy> {
   void advance_to(std::uint32_t tick) { check(brume_world_advance_to(get(), tick)); }
   /// Moves to the next tick.
   void step() { check(brume_world_step(get())); }
-  /// Drops history before a tick.
+  /// Drops the history before a tick, and refuses events before it from now on.
   void forget_before(std::uint32_t tick) { check(brume_world_forget_before(get(), tick)); }
   /// Adopts a state.
   void restore(const State& state) { check(brume_world_restore(get(), state.get())); }

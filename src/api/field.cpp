@@ -29,11 +29,13 @@ void create_field(Call& call, const brume_level* level, const brume_field_params
 }
 
 void update(brume_field& field, const sim::State& state) {
-  const smoke::Field& smoke = field.field->smoke();
-  if (state.layout != smoke.layout())
-    fail(BRUME_ERROR_MISMATCH, "the state is of another level layout than the field");
-  if (state.masks != smoke.masks())
-    fail(BRUME_ERROR_MISMATCH, "the state's world has other masks than the field");
+  // A field follows worlds of any tick rate.
+  sim::State own;
+  own.layout = field.level->grid.layout();
+  own.level_hash = field.level->hash;
+  own.ticks_per_second = state.ticks_per_second;
+  own.masks = field.field->smoke().masks();
+  if (const auto reason = sim::foreign_reason(state, own, "the field")) fail(BRUME_ERROR_MISMATCH, *reason);
   if (state.edits) unwrap(sim::check_event(sim::LevelEdit{0, *state.edits}, state.layout), BRUME_ERROR_DATA);
   if (field.broken) field.renew();
   field.field->update(state);

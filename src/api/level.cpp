@@ -82,10 +82,11 @@ LevelData level_of(const brume_voxels_params& params) {
   if (params.byte_count != bytes)
     refuse("`byte_count` is " + std::to_string(params.byte_count) + ", expected " + std::to_string(bytes));
   required(params.bits, "bits");
-  LevelData level{grid_of(params.bits, layout), {}};
-  if (params.glass_bits) level.roles.sight = voxel::without(level.grid, grid_of(params.glass_bits, layout));
-  if (params.grille_bits) level.roles.bodies = voxel::united(level.grid, grid_of(params.grille_bits, layout));
-  return level;
+  BitGrid grid = grid_of(params.bits, layout);
+  voxel::RoleGrids roles;
+  if (params.glass_bits) roles.sight = voxel::without(grid, grid_of(params.glass_bits, layout));
+  if (params.grille_bits) roles.bodies = voxel::united(grid, grid_of(params.grille_bits, layout));
+  return {std::move(grid), {}, std::move(roles)};
 }
 
 /// The role of a triangle in params.roles. Throws a CallFailure for a number that is no role.
@@ -211,6 +212,13 @@ brume_result brume_level_layout(const brume_level* level, brume_layout* layout) 
     required(layout, "layout") = {{from.size.x, from.size.y, from.size.z},
                                   from.voxel_size,
                                   {from.origin_world.x, from.origin_world.y, from.origin_world.z}};
+  });
+}
+
+brume_result brume_level_hash(const brume_level* level, uint64_t* hash) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_level& object = call.handle(level);
+    required(hash, "hash") = object.data->hash;
   });
 }
 

@@ -1,10 +1,18 @@
 // The sender and receiver of packets.
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "api/objects.hpp"
 #include "wire/packet.hpp"
 
 namespace brume::api {
+
+// The size of 0.1 and 0.2.
+template <>
+inline constexpr std::array kEarlierSizes<brume_receiver_params>{
+    std::uint32_t{offsetof(brume_receiver_params, level)}};
+
 namespace {
 
 constexpr std::uint32_t kMaxHistory = 65536;
@@ -22,11 +30,8 @@ void push(brume_sender& sender, const sim::State& state) {
       fail(BRUME_ERROR_ORDER, "expected a state after tick " + std::to_string(sender.last->tick) +
                                   ", not of tick " + std::to_string(state.tick));
     const bool is_new = state.events < sender.last->events;
-    if (!is_new &&
-        (state.layout != sender.last->layout || state.ticks_per_second != sender.last->ticks_per_second ||
-         state.masks != sender.last->masks))
-      fail(BRUME_ERROR_MISMATCH,
-           "the state is of another layout, ticks per second or masks than the last one");
+    if (const auto reason = sim::foreign_reason(state, *sender.last, "the last state"); reason && !is_new)
+      fail(BRUME_ERROR_MISMATCH, *reason);
   }
   sender.packet = unwrap(sender.sender.push(state));
   sender.last = state;
@@ -46,14 +51,16 @@ void answer(brume_sender& sender, std::span<const std::byte> request, void* buff
   write_bytes(sender.answer.data(), sender.answer.size(), buffer, capacity, size);
 }
 
-wire::Limits limits_of(const brume_receiver_params* given) {
+wire::ReceiverSettings settings_of(Call& call, const brume_receiver_params* given) {
   const brume_receiver_params most = brume_receiver_defaults();
   const brume_receiver_params params = params_or(given, most);
   require(params.max_bytes >= 1 && params.max_bytes <= most.max_bytes, "`max_bytes` must be from 1 to 2^24");
   require(params.max_voxels >= 1 && params.max_voxels <= most.max_voxels,
           "`max_voxels` must be from 1 to 2^26");
   require(params.max_items >= 1 && params.max_items <= most.max_items, "`max_items` must be from 1 to 2^20");
-  return {params.max_bytes, params.max_voxels, params.max_items};
+  wire::ReceiverSettings settings{{params.max_bytes, params.max_voxels, params.max_items}};
+  if (params.level) settings.level_hash = call.handle(params.level).data->hash;
+  return settings;
 }
 
 }  // namespace
@@ -110,7 +117,7 @@ brume_result brume_receiver_create(brume_context* context, const brume_receiver_
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(receiver, "receiver");
-    create(receiver, owner.settings, limits_of(params));
+    create(receiver, owner.settings, settings_of(call, params));
   });
 }
 
@@ -124,6 +131,8 @@ brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet
     brume_receiver& object = call.handle(receiver);
     call.change(object, [&] {
       const auto became = unwrap(object.receiver.receive(bytes_of(packet, size)), BRUME_ERROR_DATA);
+      if (became == brume::wire::Reception::foreign)
+        fail(BRUME_ERROR_MISMATCH, "the packet is of another level than the receiver's; load the sender's");
       if (reception) *reception = static_cast<std::uint32_t>(became);
     });
   });

@@ -9,6 +9,7 @@
 #include "api/call.hpp"
 #include "sim/world.hpp"
 #include "smoke/mask_atlas.hpp"
+#include "voxel/level_hash.hpp"
 #include "voxel/solids.hpp"
 #include "voxel/surface_planes.hpp"
 #include "wire/receiver.hpp"
@@ -18,9 +19,16 @@ namespace brume::api {
 
 /// What levels share with their worlds and fields.
 struct LevelData {
+  LevelData(voxel::BitGrid voxels, voxel::SurfacePlanes surfaces, voxel::RoleGrids role_grids)
+      : grid(std::move(voxels)),
+        planes(std::move(surfaces)),
+        roles(std::move(role_grids)),
+        hash(voxel::level_hash(solids(), planes)) {}
+
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
-  voxel::RoleGrids roles = {};
+  voxel::RoleGrids roles;
+  std::uint64_t hash;
   voxel::Solids solids() const { return {grid, roles}; }
 };
 
@@ -94,8 +102,9 @@ struct brume_sender : brume::api::Handle {
 
 struct brume_receiver : brume::api::Handle {
   static constexpr auto kKind = brume::api::Kind::receiver;
-  brume_receiver(std::shared_ptr<brume::api::Settings> context_settings, const brume::wire::Limits& limits)
-      : Handle(kKind, std::move(context_settings)), receiver(limits) {}
+  brume_receiver(std::shared_ptr<brume::api::Settings> context_settings,
+                 const brume::wire::ReceiverSettings& receiver_settings)
+      : Handle(kKind, std::move(context_settings)), receiver(receiver_settings) {}
 
   brume::wire::Receiver receiver;
 };

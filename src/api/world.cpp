@@ -15,7 +15,8 @@ void create_world(Call& call, const brume_level* level, const brume_world_params
           "`ticks_per_second` must be from 1 to 1000");
   const auto atlas = atlas_of(call, params.masks);
   const sim::MaskKey masks = atlas ? atlas->key() : sim::MaskKey{};
-  create(world, owner.settings, owner.data, sim::WorldSettings{params.ticks_per_second, masks});
+  create(world, owner.settings, owner.data,
+         sim::WorldSettings{params.ticks_per_second, masks, owner.data->hash});
 }
 
 /// Changes the log: `change(world, events)`, where only history can still fail.
@@ -39,10 +40,9 @@ void advance(brume_world& world, std::uint32_t tick) {
 
 /// Restores a state into a new world where the present one is broken.
 void restore(brume_world& world, const sim::State& state) {
+  if (const auto reason = sim::foreign_reason(state, world.world->state(), "the world"))
+    fail(BRUME_ERROR_MISMATCH, *reason);
   const sim::WorldSettings settings = world.world->settings();
-  if (state.layout != world.level->grid.layout() || state.ticks_per_second != settings.ticks_per_second ||
-      state.masks != settings.masks)
-    fail(BRUME_ERROR_MISMATCH, "the state is of another layout, ticks per second or masks than the world");
   if (world.broken) world.world.emplace(world.level->solids(), settings);
   unwrap(world.world->restore(state), BRUME_ERROR_DATA);
 }

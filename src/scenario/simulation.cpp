@@ -20,7 +20,8 @@ std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
 
 Simulation::Simulation(const Scenario& scenario, std::vector<LevelEvent> level_events)
     : level_events_(std::move(level_events)),
-      world_(scenario.voxels.solids(), {.masks = scenario.masks.key()}),
+      world_(scenario.voxels.solids(),
+             {.masks = scenario.masks.key(), .level_hash = scenario.voxels.level_hash()}),
       field_(scenario.voxels.solids(), scenario.voxels.planes, &scenario.masks) {}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(const Scenario& scenario) {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "scene/scene.hpp"
+#include "voxel/level_hash.hpp"
 #include "voxel/solids.hpp"
 #include "voxel/surface_planes.hpp"
 
@@ -19,6 +20,8 @@ struct Voxels {
   std::uint64_t triangles = 0;  ///< Triangles that stop smoke.
   voxel::RoleGrids roles = {};
   voxel::Solids solids() const { return {grid, roles}; }
+  /// voxel::level_hash, computed by each call.
+  std::uint64_t level_hash() const { return voxel::level_hash(solids(), planes); }
 };
 
 /// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and

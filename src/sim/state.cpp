@@ -110,7 +110,22 @@ std::uint64_t State::hash() const {
       words.add(edit.make_glass);
       words.add(edit.make_grille);
     }
+  // The level, where its hash is known.
+  if (level_hash != 0) words.add(level_hash);
   return words.hash();
+}
+
+std::optional<std::string> foreign_reason(const State& state, const State& own, const std::string& owner) {
+  const std::string start = "the state is of ";
+  if (state.layout != own.layout)
+    return start + "a level with another layout than " + owner + "'s; load the same level";
+  if (state.level_hash != own.level_hash)
+    return start + "another level than " + owner + "'s; load the same triangles or voxels, in the same order";
+  if (state.ticks_per_second != own.ticks_per_second)
+    return start + "a world with " + std::to_string(state.ticks_per_second) + " ticks per second, but " +
+           owner + " has " + std::to_string(own.ticks_per_second);
+  if (state.masks != own.masks) return start + "a world with other masks than " + owner + "'s; load the same";
+  return std::nullopt;
 }
 
 std::vector<Grenade> grenades_of(const State& state) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/blast.hpp"
@@ -54,7 +56,8 @@ struct Body {
 struct State {
   voxel::GridLayout layout;
   std::uint32_t ticks_per_second = 64;
-  MaskKey masks = {};  ///< The masks that its holes refer to.
+  MaskKey masks = {};            ///< The masks that its holes refer to.
+  std::uint64_t level_hash = 0;  ///< The level of its world: WorldSettings::level_hash.
   std::uint32_t tick = 0;
   std::uint32_t events = 0;  ///< Number of events applied so far: the id of the next one.
   /// Differences from the level as loaded; null: none.
@@ -75,6 +78,10 @@ struct State {
   /// Hash of the whole state: equal states have equal hashes on every machine.
   std::uint64_t hash() const;
 };
+
+/// Nothing where both states are of worlds with one level, tick rate and masks; else one sentence about the
+/// first difference. `owner` is who has the second state, as in "this world".
+std::optional<std::string> foreign_reason(const State& state, const State& own, const std::string& owner);
 
 /// Calls visit(what, member) for each list of a state: what it lists, and a pointer to it. The one place that
 /// enumerates them, in the order in which they are hashed and coded.

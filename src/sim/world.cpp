@@ -92,6 +92,7 @@ World::World(const voxel::Solids& level, const WorldSettings& settings)
   state_.layout = level.smoke.layout();
   state_.ticks_per_second = settings.ticks_per_second;
   state_.masks = settings.masks;
+  state_.level_hash = settings.level_hash;
   first_ = state_;
   next_end_ = kNever;
 }
@@ -226,12 +227,8 @@ void World::adopt(State target, bool is_first) {
 }
 
 Result<void> World::restore(const State& state) {
-  if (state.layout != grid().layout() || state.ticks_per_second != settings_.ticks_per_second)
-    return Failure{ErrorCode::bad_input,
-                   "state: expected the same grid and ticks per second as this world's"};
-  if (state.masks != settings_.masks)
-    return Failure{ErrorCode::bad_input,
-                   "state: its holes use different masks than this world; load the same timeline"};
+  if (auto reason = foreign_reason(state, state_, "this world"))
+    return Failure{ErrorCode::bad_input, std::move(*reason)};
   if (next_end(state) <= state.tick)
     return Failure{ErrorCode::bad_input, "state: contains something that ended before its tick"};
   if (state.edits)

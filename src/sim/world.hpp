@@ -19,6 +19,9 @@ namespace brume::sim {
 struct WorldSettings {
   std::uint32_t ticks_per_second = 64;  ///< [1, 1000]
   MaskKey masks = {};                   ///< The masks its shots may refer to: MaskAtlas::key().
+  /// voxel::level_hash of the world's level; 0: not known. States carry it, so that states of another level
+  /// are refused.
+  std::uint64_t level_hash = 0;
 };
 
 constexpr std::uint32_t kGrenadeMetresPerSecond = 20;
@@ -68,7 +71,7 @@ class World {
   voxel::Solids solids() const { return level_.solids(); }
 
   /// Adopts a state, from another world's state() or received. Log events up to the state's tick are dropped,
-  /// later ones are retained. Fails with bad_input when the state has another layout, ticks_per_second or
+  /// later ones are retained. Fails with bad_input when the state has another level, ticks_per_second or
   /// masks, or contains something that has already ended.
   Result<void> restore(const State& state);
   /// The first tick that can be rolled back to: 0, or the tick of the earliest state retained or restored.

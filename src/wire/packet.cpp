@@ -34,15 +34,15 @@ std::vector<std::byte> write_keyframe(const sim::State& state) {
   out.number(first_byte(PacketKind::keyframe));
   out.varint(state.tick);
   out.number(checksum_of(state));
-  write_world(out, {state.layout, state.ticks_per_second, state.masks});
+  write_world(out, archive_of(state));
   out.raw(write_body(sim::State{}, state));
   return out.take();
 }
 
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now) {
-  BRUME_ASSERT(base.tick < now.tick && base.events <= now.events && base.layout == now.layout &&
-                   base.ticks_per_second == now.ticks_per_second && base.masks == now.masks,
-               std::to_string(base.tick) + " to " + std::to_string(now.tick));
+  BRUME_ASSERT(
+      base.tick < now.tick && base.events <= now.events && !sim::foreign_reason(now, base, "the base"),
+      std::to_string(base.tick) + " to " + std::to_string(now.tick));
   ByteWriter out;
   out.number(first_byte(PacketKind::delta));
   out.varint(now.tick);
@@ -105,11 +105,7 @@ Result<sim::State> read_keyframe(const PacketHead& head, const Limits& limits) {
   ByteReader in(head.body);
   const auto world = read_world(in);
   if (!world) return refused(world.failure().message);
-  sim::State empty;
-  empty.layout = world->layout;
-  empty.ticks_per_second = world->ticks_per_second;
-  empty.masks = world->masks;
-  return checked(read_body(in.remaining(), empty, head.tick, limits), head);
+  return checked(read_body(in.remaining(), first_state(*world), head.tick, limits), head);
 }
 
 Result<sim::State> read_delta(const PacketHead& head, const sim::State& base, const Limits& limits) {

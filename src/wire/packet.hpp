@@ -19,7 +19,7 @@ namespace brume::wire {
 
 /// Version of packets, event logs and replays, and of the rules that states follow: programs of other
 /// versions would not agree.
-constexpr std::uint8_t kVersion = 3;
+constexpr std::uint8_t kVersion = 4;
 
 /// Largest tick that can be sent: about a year at 64 ticks per second.
 constexpr std::uint32_t kMaxPacketTick = (1u << 31) - 1;
@@ -48,7 +48,7 @@ std::uint32_t checksum_of(const sim::State& state);
 
 /// state.tick <= kMaxPacketTick.
 std::vector<std::byte> write_keyframe(const sim::State& state);
-/// base.tick < now.tick <= kMaxPacketTick, base.events <= now.events; both of the same layout,
+/// base.tick < now.tick <= kMaxPacketTick, base.events <= now.events; both of the same level,
 /// ticks_per_second and masks.
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now);
 std::vector<std::byte> write_request(const Request& request);

@@ -12,7 +12,7 @@ constexpr std::size_t kStates = 32;
 
 Result<Reception> Receiver::receive(std::span<const std::byte> packet) {
   // Find the state that a delta is relative to.
-  const auto head = read_head(packet, limits_);
+  const auto head = read_head(packet, settings_.limits);
   if (!head) {
     behind_ = true;
     return head.failure();
@@ -28,11 +28,12 @@ Result<Reception> Receiver::receive(std::span<const std::byte> packet) {
   }
 
   // Decode the packet and append its state.
-  auto state = base ? read_delta(*head, *base, limits_) : read_keyframe(*head, limits_);
+  auto state = base ? read_delta(*head, *base, settings_.limits) : read_keyframe(*head, settings_.limits);
   if (!state) {
     behind_ = true;
     return state.failure();
   }
+  if (state->level_hash != settings_.level_hash.value_or(state->level_hash)) return Reception::foreign;
   states_.push_back(std::move(*state));
   if (states_.size() > kStates) states_.pop_front();
   behind_ = false;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,12 +20,18 @@ namespace brume::wire {
 enum class Reception {
   applied,  ///< state() is now the packet's.
   old,      ///< Ignored: state() is of that tick or a later one.
-  missed    ///< Ignored: the state it is relative to is missing. Send a request.
+  missed,   ///< Ignored: the state it is relative to is missing. Send a request.
+  foreign   ///< Ignored: a keyframe of another level than ReceiverSettings::level_hash.
+};
+
+struct ReceiverSettings {
+  Limits limits = {};
+  std::optional<std::uint64_t> level_hash = {};  ///< The level of all states; none: any.
 };
 
 class Receiver {
  public:
-  explicit Receiver(const Limits& limits = {}) : limits_(limits) {}
+  explicit Receiver(const ReceiverSettings& settings = {}) : settings_(settings) {}
 
   /// Processes a packet. Fails with bad_input, in one line, and changes nothing but behind() when it is
   /// damaged or gives another state than the sender's; send a request then, too.
@@ -45,7 +52,7 @@ class Receiver {
  private:
   const sim::State* find(std::uint32_t tick) const;
 
-  Limits limits_;
+  ReceiverSettings settings_;
   std::deque<sim::State> states_;  // sorted by tick; older ones are the bases of late deltas
   bool behind_ = false;
 };

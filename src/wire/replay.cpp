@@ -107,7 +107,8 @@ Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
   ByteWriter out;
   out.raw(kMagic);
   out.varint(kVersion);
-  write_world(out, {replay.level.layout(), replay.settings.ticks_per_second, replay.settings.masks});
+  write_world(out, {replay.level.layout(), replay.settings.ticks_per_second, replay.settings.masks,
+                    replay.settings.level_hash});
   out.section(*level);
   out.section(write_events(replay.events, replay.level.layout()));
   out.varint(replay.checksums.size());
@@ -151,7 +152,8 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   if (!level) return level.failure();
   auto events = read_events(event_bytes, world->layout);
   if (!events) return damaged("replay: " + events.failure().message);
-  Replay replay{std::move(*level), {world->ticks_per_second, world->masks}, std::move(*events), {}};
+  Replay replay{
+      std::move(*level), {world->ticks_per_second, world->masks, world->level_hash}, std::move(*events), {}};
   for (std::uint64_t tick = 0; tick < ticks; ++tick) replay.checksums.push_back(in.number<std::uint32_t>());
   if (in.remaining().size() > kHashBytes)
     if (auto done = decode_roles(in, replay); !done) return done.failure();

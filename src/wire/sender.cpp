@@ -23,11 +23,12 @@ Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
     packet = keyframe_ = write_keyframe(state);
   } else {
     const sim::State& last = history_.back();
-    if (state.tick <= last.tick || state.layout != last.layout ||
-        state.ticks_per_second != last.ticks_per_second || state.masks != last.masks)
-      return Failure{ErrorCode::bad_input, "sender: expected a state of the same world after tick " +
+    if (state.tick <= last.tick)
+      return Failure{ErrorCode::bad_input, "sender: expected a state after tick " +
                                                std::to_string(last.tick) + ", not of tick " +
                                                std::to_string(state.tick)};
+    if (auto reason = sim::foreign_reason(state, last, "the last state"))
+      return Failure{ErrorCode::bad_input, "sender: " + *reason};
     packet = write_delta(last, state);
     keyframe_.clear();
   }

@@ -24,7 +24,7 @@ class Sender {
 
   /// Takes the state of a tick and returns the packet to send to every receiver: a delta from the previous
   /// state, or a keyframe for the first one and for one with fewer events than the last (a new world). Fails
-  /// with bad_input when the tick is not above the last one's or above kMaxPacketTick, or layout,
+  /// with bad_input when the tick is not above the last one's or above kMaxPacketTick, or level,
   /// ticks_per_second or masks have changed.
   Result<std::vector<std::byte>> push(const sim::State& state);
 

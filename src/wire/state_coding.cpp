@@ -330,6 +330,7 @@ Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& 
   now.layout = base.layout;
   now.ticks_per_second = base.ticks_per_second;
   now.masks = base.masks;
+  now.level_hash = base.level_hash;
   now.tick = tick;
   Decoder coder(body);
   const auto archive = std::make_unique<Archive<Decoder>>(coder, now.layout, now.tick, limits);

@@ -12,7 +12,7 @@
 
 namespace brume::wire {
 
-/// The differences of `now` from `base`. `base` has no more events than `now`, and either the same layout,
+/// The differences of `now` from `base`. `base` has no more events than `now`, and either the same level,
 /// ticks_per_second and masks, or is a default State.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now);
 

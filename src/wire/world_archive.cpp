@@ -12,6 +12,19 @@ constexpr std::uint32_t kMaxTicksPerSecond = 1000;
 
 }  // namespace
 
+WorldArchive archive_of(const sim::State& state) {
+  return {state.layout, state.ticks_per_second, state.masks, state.level_hash};
+}
+
+sim::State first_state(const WorldArchive& world) {
+  sim::State state;
+  state.layout = world.layout;
+  state.ticks_per_second = world.ticks_per_second;
+  state.masks = world.masks;
+  state.level_hash = world.level_hash;
+  return state;
+}
+
 void write_world(ByteWriter& out, const WorldArchive& world) {
   for (int axis = 0; axis < 3; ++axis) out.varint(static_cast<std::uint64_t>(world.layout.size[axis]));
   out.number(std::bit_cast<std::uint32_t>(world.layout.voxel_size));
@@ -20,6 +33,7 @@ void write_world(ByteWriter& out, const WorldArchive& world) {
   out.varint(world.ticks_per_second);
   out.varint(world.masks.count);
   if (world.masks.count > 0) out.number(world.masks.hash);
+  out.number(world.level_hash);
 }
 
 Result<WorldArchive> read_world(ByteReader& in) {
@@ -31,6 +45,7 @@ Result<WorldArchive> read_world(ByteReader& in) {
   world.ticks_per_second = static_cast<std::uint32_t>(in.varint(kMaxTicksPerSecond));
   world.masks.count = static_cast<std::uint32_t>(in.varint(sim::kMaxMasks));
   if (world.masks.count > 0) world.masks.hash = in.number<std::uint64_t>();
+  world.level_hash = in.number<std::uint64_t>();
   if (!in.ok() || world.ticks_per_second == 0)
     return Failure{
         ErrorCode::bad_input,

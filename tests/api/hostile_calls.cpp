@@ -98,6 +98,7 @@ void Hostile::level_destroy() {
 
 void Hostile::level_read() {
   read<brume_layout>("brume_level_layout", levels_, brume_level_layout);
+  read<std::uint64_t>("brume_level_hash", levels_, brume_level_hash);
   read_box("brume_level_solid",
            [&](brume_voxel low, brume_voxel high, std::uint8_t* out, std::size_t voxels) {
              return brume_level_solid(handle(levels_), low, high, out, voxels);
@@ -244,6 +245,7 @@ void Hostile::receiver_create() {
   if (chance(0.1)) params.max_bytes = number(1000);
   if (chance(0.1)) params.max_voxels = number(1000);
   if (chance(0.1)) params.max_items = number(10);
+  if (chance(0.5)) params.level = handle(levels_);
   auto out = output<brume_receiver*>();
   keep("brume_receiver_create", brume_receiver_create(handle(contexts_), spoiled(params), out.pointer()), out,
        receivers_, brume_receiver_destroy);

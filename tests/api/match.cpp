@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/level_edit.hpp"
+#include "voxel/level_hash.hpp"
 
 namespace brume::api {
 namespace {
@@ -133,7 +134,8 @@ std::vector<smoke::Mask> Match::sim_masks() const {
 }
 
 sim::World Match::sim_world(const voxel::BitGrid& level) const {
-  sim::World world(level, {.masks = smoke::MaskAtlas::pack(sim_masks())->key()});
+  const std::uint64_t hash = voxel::level_hash(level, voxel::SurfacePlanes::build(triangles(), level));
+  sim::World world(level, {.masks = smoke::MaskAtlas::pack(sim_masks())->key(), .level_hash = hash});
   for (const brume_event& event : events) world.append(sim_event(event, grid_layout())).value_or_throw();
   return world;
 }

@@ -30,6 +30,7 @@
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
 #include "tests/determinism/match.hpp"
+#include "voxel/level_hash.hpp"
 
 namespace brume::determinism {
 namespace {
@@ -82,21 +83,6 @@ class Report {
   std::size_t compared_ = 0;
   std::string differing_;
 };
-
-std::uint64_t hash_level(const MatchLevel& level) {
-  std::uint64_t hash = 0;
-  level.grid.for_each_brick([&](glm::ivec3 at, const voxel::BitGrid::Brick& brick) {
-    const std::int32_t place[3] = {at.x, at.y, at.z};
-    hash = hash_values(std::span<const std::int32_t>(place), hash);
-    hash = hash_values(std::span<const std::uint64_t>(brick), hash);
-  });
-  hash = hash_values(level.planes.keys(), hash);
-  for (const voxel::Plane& plane : level.planes.planes()) {
-    const float numbers[4] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset};
-    hash = hash_values(std::span<const float>(numbers), hash);
-  }
-  return hash;
-}
 
 /// The densities of all voxels that may contain smoke.
 std::uint64_t hash_densities(const sim::State& state) {
@@ -261,7 +247,7 @@ int play(const Options& options) {
   const MatchLevel level = make_level();
   const std::vector<sim::Event> events = make_events(level.grid.layout());
   Report report(options.expect);
-  report.add(0, "level", hash_level(level));
+  report.add(0, "level", voxel::level_hash(level.grid, level.planes));
   Match match(level, report);
   if (options.mode == "straight") play_straight(match, events, options.calls);
   if (options.mode == "rollback") play_rollback(match, events);

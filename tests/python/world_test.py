@@ -218,6 +218,21 @@ class StateTest(unittest.TestCase):
         receiver.restore(other)
         self.assertEqual(other.state_hash, world.state_hash)
 
+    def test_another_level_is_refused(self):
+        level, world = two_rooms(), smoky_world(0.5)
+        self.assertEqual(level.hash, two_rooms().hash)
+        solid = level.solid
+        solid[0, 0, 0] = not solid[0, 0, 0]
+        other = brume.Level.from_array(solid, level.voxel_size, level.origin)
+        self.assertNotEqual(other.hash, level.hash)
+        self.assertNotEqual(brume.World(other).state_hash, brume.World(level).state_hash)
+        with self.assertRaisesRegex(ValueError, "another level"):
+            brume.World(other).restore(world.save())
+        packet = brume.Sender().push(world)
+        with self.assertRaisesRegex(ValueError, "another level"):
+            brume.Receiver(level=other).receive(packet)
+        self.assertEqual(brume.Receiver(level=two_rooms()).receive(packet), "applied")
+
     def test_dropped_history_is_gone(self):
         world, other = smoky_world(), smoky_world()
         for one in (world, other):

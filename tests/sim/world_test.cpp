@@ -460,8 +460,24 @@ TEST(World, StateDependsOnTheMasks) {
   EXPECT_TRUE(same.restore(world.state()));
   const auto mismatch = other.restore(world.state());
   EXPECT_EQ(mismatch.failure().message,
-            "state: its holes use different masks than this world; load the same timeline");
+            "the state is of a world with other masks than this world's; load the same");
   EXPECT_NE(other.state_hash(), World(grid, {.masks = {2, 77}}).state_hash());
+}
+
+TEST(World, StateDependsOnTheLevel) {
+  const BitGrid grid = make_house();
+  World world(grid, {.level_hash = 5});
+  World same(grid, {.level_hash = 5}), other(grid, {.level_hash = 6});
+  EXPECT_EQ(world.state_hash(), same.state_hash());
+  EXPECT_NE(world.state_hash(), other.state_hash());
+  EXPECT_NE(world.state_hash(), World(grid).state_hash());
+  world.advance_to(3);
+  EXPECT_TRUE(same.restore(world.state()));
+  const auto mismatch = other.restore(world.state());
+  EXPECT_EQ(mismatch.failure().message,
+            "the state is of another level than this world's; load the same triangles or voxels, in the same "
+            "order");
+  EXPECT_EQ(other.tick(), 0u);
 }
 
 TEST(World, ShotThatMissesTheSmokeLeavesNoHole) {

@@ -165,6 +165,35 @@ TEST(Sender, SendsTheMissingState) {
   EXPECT_EQ(read_head(ask({100, checksums[100]}))->kind, PacketKind::keyframe);
 }
 
+TEST(Link, StatesOfAnotherLevelAreRefused) {
+  const voxel::BitGrid level = yard({12, 6, 12});
+  sim::World here(level, {.level_hash = 1}), there(level, {.level_hash = 2});
+  Sender sender;
+  const Bytes keyframe = *sender.push(here.state());
+  EXPECT_EQ(read_keyframe(*read_head(keyframe))->level_hash, 1u);
+  here.advance_to(1);
+  const Bytes delta = *sender.push(here.state());
+  there.advance_to(2);
+  const auto refused = sender.push(there.state());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.failure().message.find("another level"), std::string::npos) << refused.failure().message;
+  EXPECT_TRUE(sender.answer(write_request({1, checksum_of(here.state())}))->empty()) << "nothing has changed";
+
+  Receiver receiver(ReceiverSettings{.level_hash = 2});
+  EXPECT_EQ(*receiver.receive(keyframe), Reception::foreign);
+  EXPECT_EQ(receiver.state(), nullptr);
+  EXPECT_EQ(*receiver.receive(delta), Reception::missed);
+  EXPECT_EQ(*receiver.receive(write_keyframe(there.state())), Reception::applied);
+  EXPECT_EQ(receiver.state()->level_hash, 2u);
+  here.advance_to(9);
+  EXPECT_EQ(*receiver.receive(write_keyframe(here.state())), Reception::foreign);
+  EXPECT_EQ(receiver.state()->tick, 2u);
+  Receiver any;
+  EXPECT_EQ(*any.receive(keyframe), Reception::applied);
+  EXPECT_EQ(*any.receive(delta), Reception::applied);
+  EXPECT_EQ(any.state()->level_hash, 1u);
+}
+
 TEST(Receiver, ReportsTheResultOfAPacket) {
   const voxel::BitGrid level = yard({12, 6, 12});
   sim::World world(level);
