@@ -143,8 +143,9 @@ a tick before earliest_tick or after 2^29.)")
           "The first tick that can be rolled back to.")
       .def("forget_before", &World::forget_before, "time"_a = py::none(), py::kw_only(),
            "tick"_a = py::none(),
-           "Drops history before a time [s] or tick that no event will change any more; a server calls it "
-           "each tick.")
+           "Drops the history before a time [s] or tick, and refuses events before it from now on. A server "
+           "calls "
+           "it each tick.")
       .def(
           "save", &World::save,
           R"(The state of the present tick as bytes, a few hundred for a smoke. The level and later events are not

@@ -82,13 +82,9 @@ smoke::SightLook World::sight_look(bool drawn) const {
   return look;
 }
 
-bool World::is_complete(std::uint32_t tick) const {
-  return tick == world_.earliest_tick() && (tick > 0 || is_restored_);
-}
-
 std::uint32_t World::tick_of(std::optional<double> time, std::optional<std::int64_t> tick) const {
   if (time && tick) refuse("time, tick", "give one of them");
-  if (!time && !tick) return world_.tick() + (is_complete(world_.tick()) ? 1 : 0);
+  if (!time && !tick) return std::max(world_.tick(), world_.first_open_tick());
   const double rate = world_.settings().ticks_per_second;
   const double at = tick ? static_cast<double>(*tick) : *time * rate;
   if (!(at >= 0 && at <= sim::kMaxTick))
@@ -165,15 +161,11 @@ void World::restore(const py::bytes& bytes) {
     if (head.kind != wire::PacketKind::keyframe)
       throw Error(ErrorCode::bad_input, "state: the packet is not a keyframe; give a Receiver its deltas");
     world_.restore(wire::read_keyframe(head).value_or_throw()).value_or_throw();
-    is_restored_ = true;
   });
 }
 
 void World::restore_state(const sim::State& state) {
-  change([&] {
-    world_.restore(state).value_or_throw();
-    is_restored_ = true;
-  });
+  change([&] { world_.restore(state).value_or_throw(); });
 }
 
 }  // namespace brume::python

@@ -60,8 +60,6 @@ class World : public Smoke {
   smoke::SightLook sight_look(bool drawn) const override;
 
  private:
-  /// Whether all events of a tick are in a state whose history is dropped.
-  bool is_complete(std::uint32_t tick) const;
   std::uint32_t tick_of(std::optional<double> time, std::optional<std::int64_t> tick) const;
   void append_event(const When& when, sim::Event event);
 
@@ -69,7 +67,6 @@ class World : public Smoke {
   smoke::MaskAtlas masks_;
   float extinction_;
   sim::World world_;
-  bool is_restored_ = false;
   std::unique_ptr<smoke::Field> field_;  // null: to be made
 };
 

@@ -515,8 +515,8 @@ BRUME_API brume_result brume_world_destroy(brume_world* world) BRUME_NOEXCEPT;
 /// Adds events to the log, all or none, at most BRUME_MAX_EVENTS. Events at or before the present tick change
 /// the past: the world rolls back once and replays to the present, with the same result as if they had come
 /// in time. Events of one tick take effect in the order in which they were appended. Errors:
-/// BRUME_ERROR_HISTORY for an event of a tick that brume_world_forget_before or brume_world_restore has
-/// dropped.
+/// BRUME_ERROR_HISTORY for an event before the last tick that was given to brume_world_forget_before, and for
+/// one at or before the tick of a restored state.
 BRUME_API brume_result brume_world_append(brume_world* world, const brume_event* events,
                                           size_t count) BRUME_NOEXCEPT;
 /// Replaces all events at or after `tick` by others, each of that tick or later; a client corrects its
@@ -533,9 +533,11 @@ BRUME_API brume_result brume_world_step(brume_world* world) BRUME_NOEXCEPT;
 BRUME_API brume_result brume_world_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT;
 /// Writes the earliest tick to which the world can roll back.
 BRUME_API brume_result brume_world_earliest_tick(const brume_world* world, uint32_t* tick) BRUME_NOEXCEPT;
-/// Drops the history before the last checkpoint at or before `tick`, which becomes the earliest tick; in a
-/// busy match checkpoints are about 64 ticks apart. Call it every tick: without it, memory grows with the
-/// length of the match. The call is cheap.
+/// Drops the history before `tick`, and refuses late input exactly from there on: an event before `tick` is
+/// BRUME_ERROR_HISTORY, one of `tick` or later is accepted, also in a match in which nothing has happened.
+/// `tick` becomes the earliest tick; if it is after the present one, events before it are refused as well,
+/// and the present tick becomes the earliest. A lower tick than before changes nothing. Call it every tick:
+/// without it, memory grows with the length of the match. The call is cheap.
 BRUME_API brume_result brume_world_forget_before(brume_world* world, uint32_t tick) BRUME_NOEXCEPT;
 /// Writes the hash of the present state, its level included. Equal states have equal hashes on every machine;
 /// at tick 0, equal hashes show that worlds have the same level, tick rate and masks.

@@ -141,9 +141,9 @@ Result<void> World::check(std::span<const Event> events, std::uint32_t first, co
     if (auto ok = check_event(event, grid().layout()); !ok) return ok;
     if (auto ok = check_mask(event, masks); !ok) return ok;
   }
-  if (first >= first_free_tick_) return {};
+  if (first >= first_open_tick_) return {};
   return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +
-                                           std::to_string(first_free_tick_) +
+                                           std::to_string(first_open_tick_) +
                                            " or later; earlier history was dropped"};
 }
 
@@ -162,7 +162,7 @@ void World::replace_log(std::uint32_t first, std::size_t retained, std::vector<E
 }
 
 void World::advance_to(std::uint32_t tick) {
-  tick = std::max(tick, first_.tick);
+  tick = std::max(tick, earliest_tick_);
   if (tick < state_.tick) go_back_before(tick + 1);
   go_forward_to(tick);
   const std::uint64_t events = events_until(tick);
@@ -240,7 +240,8 @@ Result<void> World::restore(const State& state) {
   previous_.reset();
   level_.replace(state.edits);
   state_ = first_ = state;
-  first_free_tick_ = state.tick + 1;
+  earliest_tick_ = state.tick;
+  first_open_tick_ = state.tick + 1;
   changed_at_ = state.tick;
   next_event_ = 0;
   next_end_ = next_end(state_);
@@ -248,12 +249,15 @@ Result<void> World::restore(const State& state) {
 }
 
 void World::forget_before(std::uint32_t tick) {
-  // The last checkpoint that is early enough becomes the first state.
-  const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), std::min(tick, state_.tick),
-                                      [](std::uint32_t t, const State& state) { return t < state.tick; });
+  first_open_tick_ = std::max(first_open_tick_, tick);
+  earliest_tick_ = std::max(earliest_tick_, std::min(tick, state_.tick));
+
+  // The last checkpoint before `tick`, from which its events are applied, becomes the first state.
+  const auto after =
+      std::lower_bound(checkpoints_.begin(), checkpoints_.end(), std::min(tick, state_.tick + 1),
+                       [](const State& state, std::uint32_t t) { return state.tick < t; });
   if (after == checkpoints_.begin()) return;
   first_ = *std::prev(after);
-  first_free_tick_ = first_.tick + 1;
   checkpoints_.erase(checkpoints_.begin(), after);
   if (previous_ && previous_->tick < first_.tick) previous_.reset();
 

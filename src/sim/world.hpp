@@ -43,8 +43,7 @@ class World {
 
   /// Adds an event to the log. One at or before the present tick changes the past: the world rolls back and
   /// replays to the present. Fails with bad_input as check_event does, for a shot with a mask that the
-  /// settings lack, and for an event of a tick before dropped or restored history ends; the world is then
-  /// unchanged.
+  /// settings lack, and for an event before first_open_tick(); the world is then unchanged.
   Result<void> append(Event event);
   /// The same for many events with a single replay. Adds all or none.
   Result<void> append(std::vector<Event> events);
@@ -74,13 +73,18 @@ class World {
   /// later ones are retained. Fails with bad_input when the state has another level, ticks_per_second or
   /// masks, or contains something that has already ended.
   Result<void> restore(const State& state);
-  /// The first tick that can be rolled back to: 0, or the tick of the earliest state retained or restored.
-  std::uint32_t earliest_tick() const { return first_.tick; }
-  /// Drops history before the last checkpoint at or before `tick`, which becomes earliest_tick(). Cheap: a
-  /// server may call it every tick.
+  /// The first tick that can be rolled back to: 0, the tick of a restored state, or what was given to
+  /// forget_before.
+  std::uint32_t earliest_tick() const { return earliest_tick_; }
+  /// The first tick whose events may still be appended or replaced.
+  std::uint32_t first_open_tick() const { return first_open_tick_; }
+  /// Refuses events before `tick` from now on; if it is not after the present tick, it becomes
+  /// earliest_tick(), else the present one does. Drops what no later event requires. A tick that was given
+  /// before, or an earlier one, changes nothing. Cheap: a server may call it every tick.
   void forget_before(std::uint32_t tick);
 
-  /// The events since earliest_tick(), sorted by tick; events of one tick in the order appended.
+  /// The events that are kept: those since a state at or before earliest_tick(). Sorted by tick; events of
+  /// one tick in the order appended.
   std::span<const Event> log() const { return log_; }
 
  private:
@@ -104,7 +108,8 @@ class World {
   std::vector<Event> log_;
   std::size_t next_event_ = 0;  // index into the log: the first event not yet in state_
   State first_, state_;
-  std::uint32_t first_free_tick_ = 0;  // the first tick whose events are not in first_
+  std::uint32_t earliest_tick_ = 0;    // first_.tick or a later one
+  std::uint32_t first_open_tick_ = 0;  // no event before it is accepted
   std::vector<State> checkpoints_;     // sorted by tick, each including the events of its tick
   std::optional<State> previous_;      // before the last tick played: for events of the present
   std::uint32_t next_end_ = 0;         // next_end(state_)

@@ -272,16 +272,66 @@ TEST_F(BusyWorld, RestoringDoesNotDependOnThePreviousState) {
 TEST_F(BusyWorld, DroppingHistoryDoesNotChangeTheState) {
   world_.forget_before(300);
   EXPECT_EQ(world_.state_hash(), hashes_.back());
-  const std::uint32_t earliest = world_.earliest_tick();
-  EXPECT_GT(earliest, 300u - 128);  // events occur every few ticks, and a snapshot is stored every 64
-  EXPECT_LE(earliest, 300u);
+  EXPECT_EQ(world_.earliest_tick(), 300u);
+  // Events occur every few ticks, and a snapshot is stored every 64.
   EXPECT_TRUE(std::all_of(world_.log().begin(), world_.log().end(),
-                          [&](const Event& event) { return tick_of(event) > earliest; }));
+                          [&](const Event& event) { return tick_of(event) > 300u - 128; }));
   world_.advance_to(310);
   EXPECT_EQ(world_.state_hash(), hashes_[310]);
   world_.advance_to(5);
-  EXPECT_EQ(world_.tick(), earliest);
-  EXPECT_FALSE(world_.append(MoveBody{earliest, 1, {0, 0, 0}}));
+  EXPECT_EQ(world_.tick(), 300u);
+  EXPECT_EQ(world_.state_hash(), hashes_[300]);
+  EXPECT_FALSE(world_.append(MoveBody{299, 1, {0, 0, 0}}));
+  EXPECT_EQ(world_.state_hash(), hashes_[300]);
+}
+
+// Whatever has happened before, and whichever snapshots there are.
+TEST_F(BusyWorld, TheLimitOfLateEventsIsExact) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 60; ++i) {
+    World world(grid_);
+    fill(world, i % 3 == 0 ? kBusyTicks : 0);
+    const auto present = static_cast<std::uint32_t>(random() % (kBusyTicks - 1));
+    world.advance_to(present);
+    std::uint32_t limit = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto tick = static_cast<std::uint32_t>(random() % (present + 10));
+      world.forget_before(tick);
+      limit = std::max(limit, tick);
+      ASSERT_EQ(world.first_open_tick(), limit);
+      ASSERT_EQ(world.earliest_tick(), std::min(limit, present));
+    }
+    const std::uint64_t hash = world.state_hash();
+    if (limit > 0) {
+      EXPECT_FALSE(world.append(MoveBody{limit - 1, 99, {0, 0, 0}})) << limit;
+      EXPECT_FALSE(world.append(MoveBody{0, 99, {0, 0, 0}})) << limit;
+      EXPECT_FALSE(world.replace_from(limit - 1, {})) << limit;
+    }
+    ASSERT_EQ(world.state_hash(), hash);
+
+    // At the limit, an event has the effect that it has without a limit.
+    World unlimited(grid_);
+    fill(unlimited, i % 3 == 0 ? kBusyTicks : 0);
+    for (World* one : {&world, &unlimited}) {
+      ASSERT_TRUE(one->append(MoveBody{limit, 99, {5, 6, 7}})) << limit;
+      one->advance_to(kBusyTicks - 1);
+    }
+    ASSERT_EQ(world.state_hash(), unlimited.state_hash()) << limit << " at " << present;
+  }
+}
+
+TEST(World, LateEventsOfAQuietMatchAreRefused) {
+  const BitGrid grid = make_house();
+  World world(grid);
+  for (std::uint32_t tick = 0; tick < 64 * 60; ++tick) {
+    world.advance_to(tick);
+    if (tick > 64) world.forget_before(tick - 64);
+  }
+  const auto refused = world.append(MoveBody{64 * 60 - 66, 1, {0, 0, 0}});
+  EXPECT_EQ(refused.failure().message,
+            "event at tick 3774: expected tick 3775 or later; earlier history was dropped");
+  EXPECT_TRUE(world.append(MoveBody{64 * 60 - 65, 1, {0, 0, 0}}));
+  EXPECT_EQ(world.state().events, 1u);
 }
 
 TEST_F(BusyWorld, TakesLateEventsWhenEveryTickIsDropped) {
