@@ -72,8 +72,8 @@ inline void check_state(const sim::State& base, const sim::State& state) {
 }
 
 /// A receiver must keep its state and request a new one after any packet that it rejects.
-inline void receive_all(const std::vector<Input>& packets) {
-  Receiver receiver(ReceiverSettings{.limits = kFuzzLimits});
+inline void receive_all(const std::vector<Input>& packets, std::uint32_t hold_ticks) {
+  Receiver receiver({.limits = kFuzzLimits, .level_hash = {}, .hold_ticks = hold_ticks});
   for (const Input packet : packets) {
     static_cast<void>(read_request(packet));
     const bool had = receiver.state() != nullptr;
@@ -100,17 +100,19 @@ inline void decode_all(const std::vector<Input>& packets) {
   check_state(base, state);
 }
 
-/// The first byte selects one of the two; then follow packets, each after its length.
+/// The first byte selects one of the two, and how many ticks a receiver holds; then follow packets, each
+/// after its length.
 inline void check_packets(Input bytes) {
   ByteReader in(bytes);
-  const bool as_they_are = in.number<std::uint8_t>() % 4 == 0;
+  const auto choice = in.number<std::uint8_t>();
+  const bool as_they_are = choice % 4 == 0;
   std::vector<Input> packets;
   while (in.ok() && !in.remaining().empty() && packets.size() < 4) {
     const Input remaining = in.remaining();
     packets.push_back(in.section());
     if (!in.ok()) packets.back() = remaining;
   }
-  as_they_are ? receive_all(packets) : decode_all(packets);
+  as_they_are ? receive_all(packets, choice / 4u) : decode_all(packets);
 }
 
 /// The events with small smokes and blasts, to keep runs short.

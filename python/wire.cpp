@@ -53,7 +53,7 @@ class Receiver {
   const sim::State* state() const { return receiver_.state(); }
 
  public:
-  explicit Receiver(const Level* level) : receiver_(settings_of(level)) {}
+  Receiver(const Level* level, std::uint32_t hold_ticks) : receiver_(settings_of(level, hold_ticks)) {}
   const char* receive(const py::bytes& packet) {
     const std::vector<std::byte> copy = copy_of(packet);
     const wire::Reception reception = with([&] { return receiver_.receive(copy).value_or_throw(); });
@@ -61,6 +61,7 @@ class Receiver {
       throw Error(ErrorCode::bad_input, "packet: of another level than the receiver's; load the sender's");
     return reception == wire::Reception::applied ? "applied"
            : reception == wire::Reception::old   ? "old"
+           : reception == wire::Reception::held  ? "held"
                                                  : "missed";
   }
   py::bytes request() {
@@ -83,8 +84,10 @@ class Receiver {
   }
 
  private:
-  static wire::ReceiverSettings settings_of(const Level* level) {
+  static wire::ReceiverSettings settings_of(const Level* level, std::uint32_t hold_ticks) {
+    if (hold_ticks > wire::kMaxHoldTicks) refuse("hold_ticks", "expected at most 64");
     wire::ReceiverSettings settings;
+    settings.hold_ticks = hold_ticks;
     if (level) settings.level_hash = level->voxels->level_hash();
     return settings;
   }
@@ -113,13 +116,15 @@ Raises ValueError for bytes that are no request, and before the first push.)");
   py::class_<Receiver>(
       module, "Receiver",
       "Turns packets, in any order and with gaps, into the sender's states, without a world.")
-      .def(py::init<const Level*>(), py::kw_only(), "level"_a = py::none(),
-           "level: the level that states must be of; None: any.")
+      .def(py::init<const Level*, std::uint32_t>(), py::kw_only(), "level"_a = py::none(), "hold_ticks"_a = 0,
+           R"(level: the level that states must be of; None: any.
+hold_ticks: by how many ticks packets may overtake others, 0 to 64; early ones are held until those before them
+    arrive.)")
       .def("receive", &Receiver::receive, "packet"_a,
            R"(Takes a packet of Sender.push or Sender.answer.
 
-Returns "applied", "old" (of an earlier tick; ignored) or "missed" (what it builds on is missing; send a
-request). Raises ValueError for damaged bytes, and for a whole state of another level than the receiver's;
+Returns "applied", "old" (of an earlier tick; ignored), "held" (early) or "missed" (what it builds on is missing;
+send a request). Raises ValueError for damaged bytes, and for a whole state of another level than the receiver's;
 the state stays as it was.)")
       .def("request", &Receiver::request, "What to send to the sender when states are missing, as bytes.")
       .def_property_readonly("behind", &Receiver::behind, "Whether a state is known to be missing.")

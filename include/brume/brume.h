@@ -689,9 +689,14 @@ typedef struct brume_receiver_params {
   uint64_t max_items;   ///< Elements of each list in a packet, [1, 2^20].
   /// The level that the sender's states must be of; it may be destroyed before the receiver. Null: any.
   const brume_level* level;
+  /// By how many ticks your transport lets packets overtake others, [0, 64]. Packets that come up to so many
+  /// ticks early are held, so many at most and max_bytes together at most, and used in the order of their
+  /// ticks as soon as the earlier ones arrive. The loss of a packet is noticed so many ticks later. 0: none
+  /// are held, for a transport that keeps the order. 2 suits most others at 64 ticks per second.
+  uint32_t hold_ticks;
 } brume_receiver_params;
 
-/// Returns the defaults: the largest limits, states of any level.
+/// Returns the defaults: the largest limits, states of any level, no packets held.
 static inline brume_receiver_params brume_receiver_defaults(void) {
   brume_receiver_params params = BRUME_ZERO;
   params.struct_size = sizeof(brume_receiver_params);
@@ -702,9 +707,10 @@ static inline brume_receiver_params brume_receiver_defaults(void) {
 }
 
 typedef enum brume_reception {
-  BRUME_RECEPTION_APPLIED = 0,  ///< The receiver now has the packet's state.
-  BRUME_RECEPTION_OLD = 1,      ///< Ignored: the receiver has this state or a later one.
-  BRUME_RECEPTION_MISSED = 2    ///< Ignored: the state on which the packet builds is missing. Send a request.
+  BRUME_RECEPTION_APPLIED = 0,  ///< The receiver now has the packet's state, or one of a packet held before.
+  BRUME_RECEPTION_OLD = 1,      ///< Ignored: the receiver has this state or a later one, or holds its packet.
+  BRUME_RECEPTION_MISSED = 2,   ///< The state on which the packet builds is missing. Send a request.
+  BRUME_RECEPTION_HELD = 3      ///< The packet is early, and used as soon as those before it have arrived.
 } brume_reception;
 
 /// Creates the receiving side, which requires no world. `params` may be null: the defaults.
@@ -712,11 +718,11 @@ BRUME_API brume_result brume_receiver_create(brume_context* context, const brume
                                              brume_receiver** receiver) BRUME_NOEXCEPT;
 /// Destroys a receiver; null is ignored. Its states live on.
 BRUME_API brume_result brume_receiver_destroy(brume_receiver* receiver) BRUME_NOEXCEPT;
-/// Processes a packet or an answer, in any order and with gaps, and writes the brume_reception; `reception`
-/// may be null. The packet need not be trusted. Errors: BRUME_ERROR_DATA when it is damaged or gives another
-/// state than the sender's; the receiver's state is then unchanged, and brume_receiver_behind writes 1.
-/// BRUME_ERROR_MISMATCH when the packet is a whole state of another level than the receiver's; the difference
-/// from such a state finds no state to build on.
+/// Processes a packet or an answer, in any order and with gaps, and held packets that build on it; writes the
+/// brume_reception of the given one; `reception` may be null. The packet need not be trusted. Errors:
+/// BRUME_ERROR_DATA when it is damaged or gives another state than the sender's; the receiver's state is then
+/// unchanged, and brume_receiver_behind writes 1. BRUME_ERROR_MISMATCH when the packet is a whole state of
+/// another level than the receiver's; the difference from such a state finds no state to build on.
 BRUME_API brume_result brume_receiver_receive(brume_receiver* receiver, const void* packet, size_t size,
                                               uint32_t* reception) BRUME_NOEXCEPT;
 /// Writes 1 when the receiver has detected that a state is missing, else 0. Send a request every few ticks

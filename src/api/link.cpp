@@ -15,6 +15,9 @@ inline constexpr std::array kEarlierSizes<brume_receiver_params>{
 
 namespace {
 
+static_assert(static_cast<int>(wire::Reception::missed) == BRUME_RECEPTION_MISSED &&
+              static_cast<int>(wire::Reception::held) == BRUME_RECEPTION_HELD);
+
 constexpr std::uint32_t kMaxHistory = 65536;
 /// Longer bytes are no request.
 constexpr std::size_t kMaxRequest = 16;
@@ -58,7 +61,9 @@ wire::ReceiverSettings settings_of(Call& call, const brume_receiver_params* give
   require(params.max_voxels >= 1 && params.max_voxels <= most.max_voxels,
           "`max_voxels` must be from 1 to 2^26");
   require(params.max_items >= 1 && params.max_items <= most.max_items, "`max_items` must be from 1 to 2^20");
+  require(params.hold_ticks <= wire::kMaxHoldTicks, "`hold_ticks` must be at most 64");
   wire::ReceiverSettings settings{{params.max_bytes, params.max_voxels, params.max_items}};
+  settings.hold_ticks = params.hold_ticks;
   if (params.level) settings.level_hash = call.handle(params.level).data->hash;
   return settings;
 }

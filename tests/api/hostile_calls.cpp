@@ -246,6 +246,7 @@ void Hostile::receiver_create() {
   if (chance(0.1)) params.max_voxels = number(1000);
   if (chance(0.1)) params.max_items = number(10);
   if (chance(0.5)) params.level = handle(levels_);
+  if (chance(0.5)) params.hold_ticks = number(66);
   auto out = output<brume_receiver*>();
   keep("brume_receiver_create", brume_receiver_create(handle(contexts_), spoiled(params), out.pointer()), out,
        receivers_, brume_receiver_destroy);

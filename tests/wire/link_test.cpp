@@ -65,10 +65,10 @@ struct Outcome {
 
 // A match over a network; the receiver joins at a tick. It must never hold a state that the sender did not.
 Outcome play(const voxel::BitGrid& level, const std::vector<sim::Event>& events, std::uint32_t ticks,
-             std::uint32_t joins, Network down, Network up) {
+             std::uint32_t joins, Network down, Network up, std::uint32_t hold_ticks = 0) {
   sim::World world = world_of(level, events);
   Sender sender;
-  Receiver receiver;
+  Receiver receiver(ReceiverSettings{.hold_ticks = hold_ticks});
   Outcome outcome;
   std::vector<std::uint64_t> hashes;
   const std::uint32_t calm = ticks + 100;  // no more losses from here on
@@ -127,6 +127,19 @@ TEST(Link, ReorderingDuplicationAndDamageEndBitEqual) {
     const voxel::BitGrid level = yard({40, 16, 40});
     play(level, busy_match(level, seed, 300, 400), 300, 20, Network(seed, 0.2, 0.2, 9),
          Network(seed + 100, 0.2, 0.2, 9));
+  }
+}
+
+// The same, where early packets are held.
+TEST(Link, HoldingEarlyPacketsEndsBitEqual) {
+  std::mt19937 random(8);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const voxel::BitGrid level = yard({40, 16, 40});
+    const double loss = 0.1 * static_cast<double>(seed % 3), damage = seed % 2 == 0 ? 0 : 0.1;
+    const auto delay = static_cast<std::uint32_t>(random() % 10);
+    play(level, busy_match(level, seed, 200, 300), 200, seed % 4 == 0 ? 20 : 0,
+         Network(seed, loss, damage, delay), Network(seed + 100, loss, damage, 9),
+         static_cast<std::uint32_t>(random() % 12));
   }
 }
 
