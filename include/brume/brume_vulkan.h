@@ -48,12 +48,12 @@
 //             the recording state, outside vkCmdBeginRendering, only record. Submit the commands to one
 //             queue, in the order of their frames. If you do not submit the commands of a frame, submit no
 //             later frame either.
-// Frames      You number your frames, with rising numbers, and report the last frame of which the device has
-//             completed all commands. Any number of frames may be in flight. The library destroys resources
-//             of a frame after that frame has completed.
+// Frames      You number your frames, with numbers that never fall, and report the last frame of which the
+//             device has completed all commands. Any number of frames may be in flight. The library destroys
+//             resources of a frame after that frame has completed.
 // Failures    After an error of brume_renderer_record nothing was added to the command buffer. Unless
-//             arguments were wrong, the frame's number is used up and the images of the last frame are gone;
-//             the next frame uploads everything again.
+//             arguments were wrong, the images of the last frame are gone, and the next one uploads
+//             everything again.
 // Positions   Coordinates are within +-16384 m.
 // Images      Your images are in the layout that the struct names, before and after the commands. Make your
 //             writes visible to the stage that the struct names, and let later accesses wait for this stage.
@@ -328,6 +328,8 @@ typedef struct brume_quality {
   uint64_t volume_upload_bytes;
 } brume_quality;
 
+/// The largest number of views of a renderer.
+#define BRUME_MAX_VIEWS 4
 /// The largest number of lights in brume_frame_params::shadow_lights.
 #define BRUME_MAX_SHADOW_LIGHTS 4
 
@@ -339,8 +341,8 @@ typedef struct brume_frame_params {
   // Set these each frame.
 
   VkCommandBuffer commands;  ///< Your command buffer, in the recording state, outside vkCmdBeginRendering.
-  /// The number of this frame. It must exceed every frame number recorded earlier on this device, by any
-  /// renderer. Numbers start at 1.
+  /// The number of this frame, from 1 on. It never falls on a device. All views of a frame, and all renderers
+  /// that draw it, may have the same number.
   uint64_t frame_number;
   /// The last frame of which the device has completed all commands; 0: none yet. It never falls, and is below
   /// frame_number.
@@ -354,7 +356,7 @@ typedef struct brume_frame_params {
 
   // Optional: brume_frame_defaults() sets these.
 
-  /// 1: this frame follows the last recorded one, so that smoke may be accumulated
+  /// 1: this frame follows the last recorded one of its view, so that smoke may be accumulated
   /// (brume_renderer_params::temporal). 0: accumulation starts over, after a camera cut for example.
   uint32_t continues_previous;
   brume_smoke_look look;  ///< The look of smoke.
@@ -389,6 +391,10 @@ typedef struct brume_frame_params {
   /// The picture's sides, in the place of camera.vertical_fov and square pixels: an eye of a headset, a tile, a
   /// portal. All 0: the view axis is in the middle.
   brume_frustum frustum;
+  /// Which of the renderer's views this is, [0, BRUME_MAX_VIEWS): an eye of a headset, a part of a split
+  /// screen. Record each view of a frame by a call of its own. Views share all light and differ in what
+  /// accumulates over frames.
+  uint32_t view;
 } brume_frame_params;
 
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of
@@ -432,8 +438,8 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 /// Writes the image of smoke, volumes and tanks of the last recorded frame, for your own compositing: half
 /// floats with premultiplied radiance, before any exposure, and transmittance in alpha, in
 /// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, with
-/// the frame in its top left corner, and can be sampled. All frames of a view use one image: compute shaders
-/// of the next frame must wait for your reads. It is another image after brume_renderer_resize, and when
+/// the frame in its top left corner, and can be sampled. Frames, also of other views, share one image:
+/// compute shaders of the next frame must wait for your reads. It is another image after brume_renderer_resize, and when
 /// frames begin or cease to have tanks. Either pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that failed.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;

@@ -197,7 +197,7 @@ bool Context::is_in_dropped_range(RecordingId recording) const {
 }
 
 void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
-  BRUME_ASSERT(!owns_device() && frame > frame_ && completed < frame && completed >= completed_,
+  BRUME_ASSERT(!owns_device() && frame >= frame_ && completed < frame && completed >= completed_,
                std::to_string(frame) + ", " + std::to_string(completed));
   const std::scoped_lock lock(retired_mutex_);
   if (is_deferred_)

@@ -35,6 +35,7 @@ constexpr std::uint32_t kMostPixels = 16384;
 constexpr std::uint32_t kReservedBricks = 512;
 
 static_assert(BRUME_MAX_SHADOW_LIGHTS == shared::kMaxSurfaceShadows);
+static_assert(BRUME_MAX_VIEWS == planning::kMaxViews);
 
 glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height) {
   require(width >= 1 && width <= kMostPixels && height >= 1 && height <= kMostPixels,
@@ -67,7 +68,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
 
 void check_frame(const brume_renderer& renderer, const brume_field* field, const brume_frame_params& params) {
   require(params.commands != VK_NULL_HANDLE, "`commands` is null");
-  if (params.frame_number <= renderer.device->frame)
+  if (params.frame_number < std::max<std::uint64_t>(renderer.device->frame, 1))
     fail(BRUME_ERROR_ORDER, "`frame_number` is " + std::to_string(params.frame_number) +
                                 ", the last one was " + std::to_string(renderer.device->frame));
   require(params.completed_frame < params.frame_number, "`completed_frame` must be below `frame_number`");
@@ -103,7 +104,8 @@ void reserve(brume_renderer& renderer, const brume_frame_params& params) {
     renderer.renderer.emplace(renderer.device->context, renderer.recording, renderer.scene, renderer.options);
   renderer.has_other_lights = false;
   renderer.renderer->reserve_over(
-      {.decals = params.decal_count > 0,
+      {.view = params.view,
+       .decals = params.decal_count > 0,
        .shadows = params.shadow_light_count > 0,
        .tanks = params.tank_count > 0,
        .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});

@@ -152,7 +152,7 @@ void Renderer::reserve(const FramePlan& plan) {
   smoke_.reserve(plan);
   volumes_.reserve(plan);
   march_.reserve(plan);
-  if (!plan.decals.empty()) decals_.reserve(targets_.size_px);
+  if (!plan.decals.empty()) decals_.reserve(plan.input.view.number, targets_.size_px);
   if (!plan.decals.empty() && host_) host_->reserve_normals(targets_);
   if (!picture_) return;
   particles_.reserve(plan);
@@ -161,7 +161,7 @@ void Renderer::reserve(const FramePlan& plan) {
 
 void Renderer::reserve_over(const HostNeeds& needs) {
   if (needs.decals) {
-    decals_.reserve(targets_.size_px);
+    decals_.reserve(needs.view, targets_.size_px);
     host_->reserve_normals(targets_);
   }
   if (needs.shadows) host_->reserve_shadows(targets_.size_px);
@@ -328,7 +328,7 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
   // A debug view takes the place of the picture.
   const planning::DebugView view = plan.input.debug.view;
   if (view != planning::DebugView::none) {
-    decals_.forget(recorder);
+    decals_.forget(recorder, plan.input.view.number);
     return scope(recorder, "debug_view", [&] {
       if (view == planning::DebugView::overdraw) particles_.record_overdraw(recorder, plan, in, slices_);
       picture_->record_debug_view(recorder, plan, in);

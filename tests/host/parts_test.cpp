@@ -67,6 +67,16 @@ class PartsTest : public YardTest {
   }
   /// Draws a part of the picture.
   void draw_part(const brume_rectangle& part, const brume_frustum& frustum, std::uint32_t jitter = 1) {
+    draw_parts({{renderer_, 0, part, frustum}}, jitter);
+  }
+  struct Part {
+    brume_renderer* by;
+    std::uint32_t view;
+    brume_rectangle part;
+    brume_frustum frustum;
+  };
+  /// Draws a frame of several parts.
+  void draw_parts(const std::vector<Part>& parts, std::uint32_t jitter) {
     host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
       brume_frame_params params = brume_frame_defaults();
       params.commands = commands;
@@ -82,9 +92,12 @@ class PartsTest : public YardTest {
       params.seconds = 160 / 64.0;
       params.jitter_index = jitter;
       params.continues_previous = 1;
-      params.part = part;
-      params.frustum = frustum;
-      ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+      for (const Part& part : parts) {
+        params.part = part.part;
+        params.frustum = part.frustum;
+        params.view = part.view;
+        ASSERT_OK(brume_renderer_record(part.by, field_, &params));
+      }
     });
   }
   /// What was drawn; empties the picture.
@@ -156,6 +169,7 @@ TEST_F(PartsTest, RefusesPartsAndFrustaThatAreNone) {
     refused("part", [](auto& p) { p.part = {0, 0, kWhole.x + 1, 1}; });
     refused("part", [](auto& p) { p.part = {0, 0, 5, 0}; });
     refused("part", [](auto& p) { p.part = {0, 20000, 5, 5}; });
+    refused("view", [](auto& p) { p.view = BRUME_MAX_VIEWS; });
     refused("frustum.left", [](auto& p) { p.frustum = {1, -1, -1, 1}; });
     refused("frustum.left", [](auto& p) { p.frustum = {NAN, 1, -1, 1}; });
     refused("frustum.down", [](auto& p) { p.frustum = {-1, 1, 2, 2}; });
@@ -204,6 +218,40 @@ TEST_F(DynamicPartsTest, ThirteenSizesInThirteenFrames) {
   draw_part({0, 0, 100, 90}, kWide, 20);
   EXPECT_EQ(starts, picture());
   EXPECT_NE(starts, goes_on);
+}
+
+// Two views of one renderer, in one frame, are those of two renderers, and take the memory of what
+// accumulates.
+TEST_F(DynamicPartsTest, TwoEyesOfOneRendererAreThoseOfTwo) {
+  upload_depth(0);
+  begin_picture();
+  const brume_frustum left{-1.1f, 0.8f, -0.7f, 0.8f}, right{-0.8f, 1.1f, -0.7f, 0.8f};
+  const Part one[] = {{renderer_, 0, {0, 0, 64, 64}, left}, {renderer_, 3, {64, 0, 64, 64}, right}};
+  draw_parts({one[0]}, 1);
+  const std::uint64_t of_one = device_bytes();
+  draw_parts({one[0], one[1]}, 1);
+  // Twice a smoke of half floats, and a distance and a number of frames.
+  EXPECT_LE(device_bytes(), of_one * 115 / 100 + std::uint64_t{2} * 16 * kWhole.x * kWhole.y);
+
+  brume_renderer* eyes[] = {renderer_, nullptr};
+  ASSERT_OK(brume_renderer_resize(renderer_, kWhole.x, kWhole.y));
+  ASSERT_OK(create_renderer(1));
+  std::swap(renderer_, eyes[1]);
+  brume_renderer* third = nullptr;
+  ASSERT_OK(create_renderer(1));
+  third = renderer_;
+  renderer_ = eyes[0];
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    begin_picture();
+    draw_parts({one[0], one[1], {eyes[1], 0, {0, 64, 64, 64}, left}, {third, 0, {64, 64, 64, 64}, right}}, i);
+  }
+  const Pixels drawn = picture();
+  Pixels below(drawn.size());
+  std::copy(drawn.begin() + 64 * 128, drawn.end(), below.begin());
+  EXPECT_LE(apart(drawn, below, {0, 0, 128, 64}), 1 / 255.0);
+  EXPECT_GT(apart(drawn, picture(), {0, 0, 128, 64}), 0.02) << "smoke is in view";
+  EXPECT_OK(brume_renderer_destroy(eyes[1]));
+  EXPECT_OK(brume_renderer_destroy(third));
 }
 
 }  // namespace

@@ -13,12 +13,12 @@ void SlicesPart::prepare(const FrameInput& input) {
 }
 
 void DecalsPart::resize() {
-  pass_.reset();
+  for (auto& pass : passes_) pass.reset();
   shown_.change(context_).occlusion = nullptr;
 }
 
-void DecalsPart::reserve(glm::uvec2 size_px) {
-  if (!pass_) pass_.emplace(context_, size_px);
+void DecalsPart::reserve(std::uint32_t view, glm::uvec2 size_px) {
+  if (!passes_[view]) passes_[view].emplace(context_, size_px);
 }
 
 void DecalsPart::upload(gpu::Recorder& recorder, const FramePlan& plan, const SlicesPart& slices) {
@@ -29,21 +29,22 @@ void DecalsPart::upload(gpu::Recorder& recorder, const FramePlan& plan, const Sl
     decals.push_back(placed.decal);
     decals.back().occlusion = slices.textures()[placed.volume];
   }
-  pass_->upload(recorder, decals);
+  passes_[plan.input.view.number]->upload(recorder, decals);
 }
 
 void DecalsPart::begin(gpu::Recorder& recorder, const FramePlan& plan) {
   recorder.change(shown_) = {!plan.input.decals.empty(), nullptr};
-  if (plan.decals.empty()) forget(recorder);
+  if (plan.decals.empty()) forget(recorder, plan.input.view.number);
 }
 
 void DecalsPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                         const SlicesPart& slices, bool smooths) {
-  if (plan.decals.empty()) pass_->upload(recorder, {});
-  pass_->record(recorder, in.frame, plan.camera, plan.size_px, in.targets.gbuffer, in.blue_noise,
-                slices.image(), plan.input.view.continues && smooths);
-  recorder.change(shown_) = {true, &pass_->occlusion()};
-  if (plan.decals.empty()) forget(recorder);
+  passes::DecalPass& pass = *passes_[plan.input.view.number];
+  if (plan.decals.empty()) pass.upload(recorder, {});
+  pass.record(recorder, in.frame, plan.camera, plan.size_px, in.targets.gbuffer, in.blue_noise,
+              slices.image(), plan.input.view.continues && smooths);
+  recorder.change(shown_) = {true, &pass.occlusion()};
+  if (plan.decals.empty()) forget(recorder, plan.input.view.number);
 }
 
 }  // namespace brume::render

@@ -1,6 +1,7 @@
 // The volumes that a frame samples without a march, and what they show: decals on its surfaces.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "passes/decals.hpp"
@@ -38,14 +39,14 @@ class DecalsPart {
 
   /// Frames of another size. When the device is done with what was recorded before.
   void resize();
-  /// Throws resource_limit.
-  void reserve(glm::uvec2 size_px);
+  /// Makes room for the frames of a view, outside of a recording. Throws resource_limit.
+  void reserve(std::uint32_t view, glm::uvec2 size_px);
   void upload(gpu::Recorder& recorder, const FramePlan& plan, const SlicesPart& slices);
   /// The commands of a frame begin: without `record` it shows no decals.
   void begin(gpu::Recorder& recorder, const FramePlan& plan);
-  /// The next frame does not continue a film.
-  void forget(gpu::Recorder& recorder) {
-    if (pass_) pass_->invalidate_past(recorder);
+  /// The next frame of the view does not continue a film.
+  void forget(gpu::Recorder& recorder, std::uint32_t view) {
+    if (passes_[view]) passes_[view]->invalidate_past(recorder);
   }
   /// What the frame's decals take from its surfaces; `smooths`: the mean over the frames of a film. Where
   /// none is in view, an image of 0.
@@ -63,7 +64,8 @@ class DecalsPart {
     const gpu::Image* occlusion = nullptr;
   };
   gpu::Context& context_;
-  std::optional<passes::DecalPass> pass_;  ///< From the first frame with decals on.
+  /// Of each view, from its first frame with decals on.
+  std::array<std::optional<passes::DecalPass>, planning::kMaxViews> passes_;
   gpu::Recorded<Shown> shown_;
 };
 

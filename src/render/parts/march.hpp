@@ -1,6 +1,7 @@
 // The rays of a frame through its media: marched, resolved to pixels, smoothed over frames.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "passes/accumulate.hpp"
@@ -32,10 +33,10 @@ class MarchPart {
 
   /// Premultiplied radiance and transmittance of each pixel.
   const gpu::Image& result(const Targets& targets) const {
-    return accumulate_pass_ ? accumulate_pass_->gathered() : targets.media;
+    return is_accumulated() ? films_[shown_film_.get(context_)]->gathered() : targets.media;
   }
   std::uint32_t march_scale() const { return march_scale_; }
-  bool is_accumulated() const { return accumulate_pass_.has_value(); }
+  bool is_accumulated() const { return options_.temporal; }
   /// Tiles of noise, from the first frame with smoke on.
   const gpu::Image& noise() const { return noise_; }
   const gpu::Image& detail() const { return detail_; }
@@ -50,6 +51,7 @@ class MarchPart {
     const passes::MarchPass& pass;
     const gpu::Buffer& counters;
   };
+  void reserve_film(std::uint32_t view);
   March march_of(const FrameResources& in) const;
   void prepare();
   void make_noise();
@@ -69,7 +71,9 @@ class MarchPart {
   passes::MarchPass march_pass_;
   std::optional<passes::MarchPass> counting_march_;        ///< For the view of steps.
   std::optional<passes::ResolvePass> resolve_pass_;        ///< Where there are tiles_, or may be.
-  std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where media are accumulated over frames.
+  /// Where media are accumulated over frames: of each view, from its first frame on.
+  std::array<std::optional<passes::AccumulatePass>, planning::kMaxViews> films_;
+  gpu::Recorded<std::uint32_t> shown_film_;  ///< The view of the last frame.
 };
 
 }  // namespace brume::render
