@@ -14,6 +14,7 @@
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
 #include "tests/api/run_shell.hpp"
+#include "voxel/level_hash.hpp"
 #include "voxel/voxelize.hpp"
 #include "wire/sender.hpp"
 
@@ -108,7 +109,7 @@ std::string line_of(const Level& level, const sim::World& world, std::size_t pac
 
 std::string play_match(std::uint32_t seconds) {
   const Level level;
-  sim::World world(level.grid);
+  sim::World world(level.grid, {.level_hash = voxel::level_hash(level.grid, level.planes)});
   wire::Sender sender;
   const std::uint32_t rate = world.settings().ticks_per_second;
   std::string lines = "tick  smokes  holes  sniper  depth  pairs  packet  state\n";

@@ -1,4 +1,6 @@
 // Pipelines belong to the device: what one renderer has compiled, no other compiles again.
+#include <brume/brume_vulkan.hpp>
+
 #include <atomic>
 #include <set>
 #include <thread>
@@ -131,9 +133,15 @@ TEST_F(PipelinesTest, AllUseTheCacheOfTheHost) {
   destroy_cache(device, cache_, nullptr);
 }
 
-// With holes, accumulation, indirect light, shadows on surfaces, and at every march scale.
+// With holes, accumulation, indirect light, decals and shadows on surfaces, and at every march scale.
 TEST_F(PipelinesTest, ACompiledDeviceLeavesNoneToFrames) {
   make_yard();
+  const float occluded = 1;
+  brume_decal_params decal_params = brume_decal_defaults();
+  decal_params.up = &occluded;
+  for (std::uint32_t& along : decal_params.size) along = 1;
+  const api::Decal decal(context_, decal_params);
+  const brume_shown_decal shown = decal.shown();
   ASSERT_OK(brume_device_compile(device_, VK_FORMAT_UNDEFINED));
   const int compiled = Compiled::count;
   EXPECT_GT(compiled, 10);
@@ -149,6 +157,8 @@ TEST_F(PipelinesTest, ACompiledDeviceLeavesNoneToFrames) {
           params.quality.skip_fine_shadows = skip_fine_shadows;
           params.detail_reduction = detail_reduction;
           params.bounces = 1;
+          params.decals = &shown;
+          params.decal_count = 1;
           params.shadow_light_count = 1;
           ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
         });
