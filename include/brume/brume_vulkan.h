@@ -438,9 +438,10 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 /// Writes the image of smoke, volumes and tanks of the last recorded frame, for your own compositing: half
 /// floats with premultiplied radiance, before any exposure, and transmittance in alpha, in
 /// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, with
-/// the frame in its top left corner, and can be sampled. Frames, also of other views, share one image:
-/// compute shaders of the next frame must wait for your reads. It is another image after brume_renderer_resize, and when
-/// frames begin or cease to have tanks. Either pointer may be null. Errors: BRUME_ERROR_ORDER before the first frame and after a frame that failed.
+/// the frame in its top left corner, and can be sampled. Frames, also of other views, may share one image:
+/// compute shaders of the next frame must wait for your reads. It is another image after
+/// brume_renderer_resize, and when frames begin or cease to have tanks. Either pointer may be null. Errors:
+/// BRUME_ERROR_ORDER before the first frame and after a frame that failed.
 BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                             VkImageView* view) BRUME_NOEXCEPT;
 

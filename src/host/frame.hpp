@@ -20,6 +20,9 @@ inline constexpr std::array kEarlierSizes<brume_device_params>{
 template <>
 inline constexpr std::array kEarlierSizes<brume_renderer_params>{
     std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};
+template <>
+inline constexpr std::array kEarlierSizes<brume_frame_params>{
+    std::uint32_t{offsetof(brume_frame_params, part)}};
 
 }  // namespace brume::api
 

@@ -1,4 +1,8 @@
 // Parts of a host's pictures: eyes of a headset, tiles, split screens, frames of changing size.
+#include <numbers>
+
+#include "core/file.hpp"
+#include "tests/host/engine_axes.h"
 #include "tests/host/hosted_pair.hpp"
 #include "tests/host/yard.hpp"
 
@@ -69,6 +73,12 @@ class PartsTest : public YardTest {
   void draw_part(const brume_rectangle& part, const brume_frustum& frustum, std::uint32_t jitter = 1) {
     draw_parts({{renderer_, 0, part, frustum}}, jitter);
   }
+  brume_camera camera_ = [] {
+    brume_camera camera = brume_frame_defaults().camera;
+    camera.position = {1.5f, 1.6f, 3};
+    camera.forward = {1, -0.1f, 0.1f};
+    return camera;
+  }();
   struct Part {
     brume_renderer* by;
     std::uint32_t view;
@@ -82,8 +92,7 @@ class PartsTest : public YardTest {
       params.commands = commands;
       params.frame_number = number;
       params.completed_frame = completed;
-      params.camera.position = {1.5f, 1.6f, 3};
-      params.camera.forward = {1, -0.1f, 0.1f};
+      params.camera = camera_;
       params.depth.view = depth_.view();
       params.depth.layout = depth_.last_use.get(gpu_).layout;
       params.depth.reversed = 1;
@@ -139,6 +148,36 @@ TEST_F(PartsTest, FourTilesAreTheWholePicture) {
     for (const glm::dvec4& pixel : expected) most = std::max(most, pixel.r);
     EXPECT_GT(most, 0.02) << "smoke is in view";
   }
+}
+
+// The camera of PartsTest as engines have it, by their own formulas for yaw and pitch.
+TEST_F(PartsTest, CamerasOfEnginesAreThatOfBrume) {
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/docs/guides/views.md"),
+                    code = *read_text_file(BRUME_SOURCE_DIR "/tests/host/engine_axes.h");
+  EXPECT_NE(page.find(code.substr(code.find("// Unreal"))), page.npos) << "the page has this code";
+  const Pixels expected = whole();
+  const double yaw = 95.7105931 * std::numbers::pi / 180, pitch = 5.6825 * std::numbers::pi / 180;
+  const double cos_yaw = std::cos(yaw), sin_yaw = std::sin(yaw), cos_pitch = std::cos(pitch),
+               sin_pitch = std::sin(pitch);
+  const auto expect_same = [&](const char* engine, brume_point position, brume_point forward,
+                               brume_point up) {
+    camera_.position = position;
+    camera_.forward = forward;
+    camera_.up = up;
+    EXPECT_LE(apart(expected, whole(), {0, 0, kWhole.x, kWhole.y}), 1 / 255.0) << engine;
+  };
+  // FRotator(-pitch, yaw, 0): the x and z axes of its matrix.
+  expect_same("Unreal", from_unreal(-300, 150, 160),
+              from_unreal(cos_pitch * cos_yaw, cos_pitch * sin_yaw, -sin_pitch),
+              from_unreal(sin_pitch * cos_yaw, sin_pitch * sin_yaw, cos_pitch));
+  // Quaternion.Euler(pitch, yaw, 0): its forward and up.
+  expect_same("Unity", from_unity(1.5, 1.6, -3),
+              from_unity(cos_pitch * sin_yaw, -sin_pitch, cos_pitch * cos_yaw),
+              from_unity(sin_pitch * sin_yaw, cos_pitch, sin_pitch * cos_yaw));
+  // Vector3(-pitch, -yaw, 0) as rotation: minus the z axis of its basis, and the y axis.
+  expect_same("Godot", from_godot(1.5, 1.6, 3),
+              from_godot(cos_pitch * sin_yaw, -sin_pitch, -cos_pitch * cos_yaw),
+              from_godot(sin_pitch * sin_yaw, cos_pitch, -sin_pitch * cos_yaw));
 }
 
 // Beside the part nothing changes.

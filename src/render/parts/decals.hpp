@@ -64,7 +64,7 @@ class DecalsPart {
     const gpu::Image* occlusion = nullptr;
   };
   gpu::Context& context_;
-  /// Of each view, from its first frame with decals on.
+  /// The pass of each view, from its first frame with decals on.
   std::array<std::optional<passes::DecalPass>, planning::kMaxViews> passes_;
   gpu::Recorded<Shown> shown_;
 };
