@@ -2,8 +2,10 @@
 // contains everything that the smoke requires; this file draws a few boxes, and would work without it.
 //
 //   brume_host_example [-o FRAME.ppm] [--frames N] [--size WxH] [--in-flight N] [--no-smoke]
+//                      [--players N] [--least-scale S]
 //
-// Draws N frames without a window and writes the last one.
+// Draws N frames without a window and writes the last one. Up to four players share the screen, side by side.
+// With a least scale below 1 every frame is drawn in another resolution, and stretched to the screen.
 #include <brume/brume_vulkan.h>
 #include <vulkan/vulkan.h>
 #include <brume/brume.hpp>
@@ -25,7 +27,8 @@ namespace {
 
 struct Options {
   std::string out = "frame.ppm";
-  std::uint32_t frames = 240, width = 640, height = 360, in_flight = 2;
+  std::uint32_t frames = 240, width = 640, height = 360, in_flight = 2, players = 1;
+  double least_scale = 1;
   bool smoke = true;
 };
 
@@ -56,6 +59,9 @@ class Host {
                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     depth_ = make_image(VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT,
                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    shown_ = make_image(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT,
+                        VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                            VK_IMAGE_USAGE_SAMPLED_BIT);  // to be viewed
     make_readback();
     for (Frame& frame : frames_) make_frame(frame);
   }
@@ -80,10 +86,12 @@ class Host {
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
     check(vkBeginCommandBuffer(frame.commands, &begin), "vkBeginCommandBuffer");
     const double seconds = static_cast<double>(number - 1) / 60;
-    draw_boxes(frame.commands, camera_at(seconds));
+    const std::vector<View> views = views_at(number, seconds);
+    draw_boxes(frame.commands, views);
     // The boxes' depth is to be read, and smoke drawn over the boxes.
     const auto completed = number > frames_.size() ? number - frames_.size() : 0;
-    if (smoke) smoke->record(frame.commands, number, completed, seconds, depth_.view, picture_.view);
+    if (smoke) smoke->record(frame.commands, number, completed, seconds, depth_.view, picture_.view, views);
+    show(frame.commands, views);
     copy_picture(frame.commands);
     check(vkEndCommandBuffer(frame.commands), "vkEndCommandBuffer");
     VkSubmitInfo submit{};
@@ -124,7 +132,9 @@ class Host {
   void transition(VkCommandBuffer commands, const Image& image, VkImageLayout from, VkImageLayout to,
                   VkPipelineStageFlags2 from_stages, VkAccessFlags2 from_access,
                   VkPipelineStageFlags2 to_stages, VkAccessFlags2 to_access) const;
-  void draw_boxes(VkCommandBuffer commands, const Camera& camera) const;
+  std::vector<View> views_at(std::uint64_t frame, double seconds) const;
+  void draw_boxes(VkCommandBuffer commands, const std::vector<View>& views) const;
+  void show(VkCommandBuffer commands, const std::vector<View>& views) const;
   void copy_picture(VkCommandBuffer commands) const;
 
   Options options_;
@@ -135,7 +145,7 @@ class Host {
   std::uint32_t family_ = 0;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
-  Image picture_, depth_;
+  Image picture_, depth_, shown_;
   VkBuffer readback_ = VK_NULL_HANDLE;
   const std::uint16_t* texels_ = nullptr;
   std::vector<Frame> frames_;
@@ -210,14 +220,14 @@ void Host::make_pipeline() {
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
   assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  const VkViewport viewport{0, 0, static_cast<float>(options_.width), static_cast<float>(options_.height),
-                            0, 1};
-  const VkRect2D scissor{{0, 0}, {options_.width, options_.height}};
   VkPipelineViewportStateCreateInfo view{};
   view.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
   view.viewportCount = view.scissorCount = 1;
-  view.pViewports = &viewport;
-  view.pScissors = &scissor;
+  constexpr VkDynamicState kOfViews[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{};
+  dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+  dynamic.dynamicStateCount = 2;
+  dynamic.pDynamicStates = kOfViews;
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
   raster.lineWidth = 1;
@@ -248,6 +258,7 @@ void Host::make_pipeline() {
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &view;
+  info.pDynamicState = &dynamic;
   info.pRasterizationState = &raster;
   info.pMultisampleState = &samples;
   info.pDepthStencilState = &depth;
@@ -351,10 +362,47 @@ constexpr VkAccessFlags2 kColourAccess =
 constexpr VkAccessFlags2 kDepthAccess =
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
 
-void Host::draw_boxes(VkCommandBuffer commands, const Camera& camera) const {
-  // The frame before has copied its picture, and its smoke has read its depth.
+/// The players' views side by side, each in the resolution of the frame.
+std::vector<View> Host::views_at(std::uint64_t frame, double seconds) const {
+  const double scale = options_.least_scale +
+                       (1 - options_.least_scale) * std::abs(std::cos(0.37 * static_cast<double>(frame)));
+  const auto scaled = [&](std::uint32_t px) {
+    return std::max(static_cast<std::uint32_t>(scale * px + 0.5), 1u);
+  };
+  const std::uint32_t across = options_.width / options_.players;
+  std::vector<View> views;
+  for (std::uint32_t i = 0; i < options_.players; ++i)
+    views.push_back({camera_at(seconds, i), i * across, 0, scaled(across), scaled(options_.height)});
+  return views;
+}
+
+/// Stretches the views to the screen.
+void Host::show(VkCommandBuffer commands, const std::vector<View>& views) const {
+  transition(commands, picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kColour, kColourAccess, VK_PIPELINE_STAGE_2_BLIT_BIT,
+             VK_ACCESS_2_TRANSFER_READ_BIT);
+  // The frame before has copied what it showed.
+  transition(commands, shown_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+             VK_PIPELINE_STAGE_2_COPY_BIT, 0, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  const std::uint32_t across = options_.width / options_.players;
+  for (const View& view : views) {
+    const auto corner = [](std::uint32_t x, std::uint32_t y, std::int32_t z) {
+      return VkOffset3D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), z};
+    };
+    VkImageBlit blit{};
+    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.srcOffsets[0] = blit.dstOffsets[0] = corner(view.x, view.y, 0);
+    blit.srcOffsets[1] = corner(view.x + view.width, view.y + view.height, 1);
+    blit.dstOffsets[1] = corner(view.x + across, options_.height, 1);
+    vkCmdBlitImage(commands, picture_.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, shown_.handle,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
+  }
+}
+
+void Host::draw_boxes(VkCommandBuffer commands, const std::vector<View>& views) const {
+  // The frame before has shown its picture, and its smoke has read its depth.
   transition(commands, picture_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-             VK_PIPELINE_STAGE_2_COPY_BIT, 0, kColour, kColourAccess);
+             VK_PIPELINE_STAGE_2_BLIT_BIT, 0, kColour, kColourAccess);
   transition(commands, depth_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
              VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0, kDepthTests, kDepthAccess);
   VkRenderingAttachmentInfo colour{};
@@ -377,11 +425,18 @@ void Host::draw_boxes(VkCommandBuffer commands, const Camera& camera) const {
   rendering.pDepthAttachment = &depth;
   vkCmdBeginRendering(commands, &rendering);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
-  const float aspect = static_cast<float>(options_.width) / static_cast<float>(options_.height);
-  for (const Box& box : kLevel) {
-    const Push push{matrix_of(camera, aspect), box};
-    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-    vkCmdDraw(commands, 36, 1, 0, 0);
+  for (const View& view : views) {
+    const float width = static_cast<float>(view.width), height = static_cast<float>(view.height);
+    const VkViewport viewport{static_cast<float>(view.x), static_cast<float>(view.y), width, height, 0, 1};
+    const VkRect2D scissor{{static_cast<std::int32_t>(view.x), static_cast<std::int32_t>(view.y)},
+                           {view.width, view.height}};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+    for (const Box& box : kLevel) {
+      const Push push{matrix_of(view.camera, width / height), box};
+      vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+      vkCmdDraw(commands, 36, 1, 0, 0);
+    }
   }
   vkCmdEndRendering(commands);
   transition(commands, depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
@@ -392,8 +447,8 @@ void Host::draw_boxes(VkCommandBuffer commands, const Camera& camera) const {
 }
 
 void Host::copy_picture(VkCommandBuffer commands) const {
-  transition(commands, picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kColour, kColourAccess, VK_PIPELINE_STAGE_2_COPY_BIT,
+  transition(commands, shown_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+             VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
              VK_ACCESS_2_TRANSFER_READ_BIT);
   // All frames are copied to one place.
   const VkMemoryBarrier2 copies{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,
@@ -407,7 +462,7 @@ void Host::copy_picture(VkCommandBuffer commands) const {
   VkBufferImageCopy region{};
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {options_.width, options_.height, 1};
-  vkCmdCopyImageToBuffer(commands, picture_.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_, 1,
+  vkCmdCopyImageToBuffer(commands, shown_.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_, 1,
                          &region);
 }
 
@@ -447,11 +502,19 @@ Options read_options(int count, char** arguments) {
       options.frames = static_cast<std::uint32_t>(std::atoi(value));
     else if (name == "--in-flight")
       options.in_flight = static_cast<std::uint32_t>(std::atoi(value));
+    else if (name == "--players")
+      options.players = static_cast<std::uint32_t>(std::atoi(value));
+    else if (name == "--least-scale")
+      options.least_scale = std::atof(value);
     else if (name != "--size" || std::sscanf(value, "%ux%u", &options.width, &options.height) != 2)
       throw std::runtime_error(
-          "usage: brume_host_example [-o FRAME.ppm] [--frames N] [--size WxH] [--in-flight N] [--no-smoke]");
+          "usage: brume_host_example [-o FRAME.ppm] [--frames N] [--size WxH] [--in-flight N] [--no-smoke] "
+          "[--players N] [--least-scale S]");
     ++i;
   }
+  if (options.players < 1 || options.players > BRUME_MAX_VIEWS || options.width < options.players ||
+      !(options.least_scale > 0 && options.least_scale <= 1))
+    throw std::runtime_error("--players must be 1 to 4, and --least-scale above 0 and at most 1");
   if (options.frames < 1 || options.in_flight < 1 || options.in_flight > 8 || options.width < 1 ||
       options.height < 1)
     throw std::runtime_error("--frames, --size and --in-flight must be at least 1, --in-flight at most 8");

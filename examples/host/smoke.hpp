@@ -43,11 +43,18 @@ constexpr float kNear = 0.1f, kFieldOfView = 1.0f;
 struct Camera {
   Vec3 position, forward, up;
 };
-inline Camera camera_at(double seconds) {
-  const auto around = static_cast<float>(0.6 + 0.12 * seconds);
+/// Where a player is at a time.
+inline Camera camera_at(double seconds, std::uint32_t player = 0) {
+  const auto around = static_cast<float>(0.6 + 2.2 * player + 0.12 * seconds);
   const Vec3 position{9 * std::sin(around), 2.2f, 9 * std::cos(around)};
   return {position, unit(minus({0, 1.2f, 0}, position)), {0, 1, 0}};
 }
+
+/// What one player sees: in a part of the picture.
+struct View {
+  Camera camera;
+  std::uint32_t x, y, width, height;  // [px]
+};
 
 /// The smoke: everything that a host adds to its renderer.
 struct Smoke {
@@ -96,6 +103,7 @@ struct Smoke {
     brume_renderer_params params = brume_renderer_defaults();
     params.width = width;
     params.height = height;
+    params.temporal = 1;
     params.lights = &light;
     params.light_count = 1;
     params.points = points.data();
@@ -106,17 +114,15 @@ struct Smoke {
   }
 
   void record(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed, double seconds,
-              VkImageView depth, VkImageView picture) {
+              VkImageView depth, VkImageView picture, const std::vector<View>& views) {
     world.advance_to(static_cast<std::uint32_t>(seconds * 64));
     field.update(world.state());
-    const Camera camera = camera_at(seconds);
     brume_frame_params params = brume_frame_defaults();
     params.commands = commands;
     params.frame_number = frame;
     params.completed_frame = completed;
     params.jitter_index = static_cast<std::uint32_t>(frame);
-    params.camera.position = {camera.position.x, camera.position.y, camera.position.z};
-    params.camera.forward = {camera.forward.x, camera.forward.y, camera.forward.z};
+    params.continues_previous = 1;
     params.camera.vertical_fov = kFieldOfView;
     params.depth = {depth, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kNear, INFINITY, 1};
     params.picture = {picture, VK_FORMAT_R16G16B16A16_SFLOAT, 1.0f};
@@ -125,7 +131,15 @@ struct Smoke {
     params.ambient[2] = 0.09f;
     params.look.erosion = 0.7f;
     params.seconds = seconds;
-    renderer.record(&field, params);
+    // The first view updates light and lists; the others share them.
+    for (const View& view : views) {
+      const Camera& camera = view.camera;
+      params.view = static_cast<std::uint32_t>(&view - views.data());
+      params.part = {view.x, view.y, view.width, view.height};
+      params.camera.position = {camera.position.x, camera.position.y, camera.position.z};
+      params.camera.forward = {camera.forward.x, camera.forward.y, camera.forward.z};
+      renderer.record(&field, params);
+    }
   }
 
   std::vector<brume_point> points;

@@ -103,13 +103,17 @@ TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
   const std::string one = picture(BRUME_HOST_EXAMPLE, "one", "--frames 28 --in-flight 1");
   EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "three", "--frames 28 --in-flight 3"), one);
   EXPECT_NE(picture(BRUME_HOST_EXAMPLE, "none", "--frames 28 --no-smoke"), one);
+  const std::string split = picture(BRUME_HOST_EXAMPLE, "split", "--frames 28 --players 3 --least-scale 0.5");
+  EXPECT_EQ(picture(BRUME_HOST_EXAMPLE, "split1", "--frames 28 --players 3 --least-scale 0.5 --in-flight 1"),
+            split);
 }
 
 // Its own barriers and those of the library fit together. What is valid with three frames in flight is so
 // with one, which waits more often.
 TEST_F(HostExample, IsValid) {
   const ShellRun run =
-      run_shell(std::string(kValidation) + "'" BRUME_HOST_EXAMPLE "' --frames 26 --size 32x18 -o '" +
+      run_shell(std::string(kValidation) +
+                "'" BRUME_HOST_EXAMPLE "' --frames 26 --size 32x18 --players 2 --least-scale 0.4 -o '" +
                 (folder_.path() / "valid.ppm").string() + "' --in-flight 3 2>&1");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.output, "");
