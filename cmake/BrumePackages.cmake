@@ -111,6 +111,7 @@ string(REGEX REPLACE ".* - " "" date "${date}")
 execute_process(COMMAND date --utc --rfc-email --date=${date} OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE
                 COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+file(READ ${PROJECT_SOURCE_DIR}/NOTICES.txt notices)
 file(READ ${PROJECT_SOURCE_DIR}/data/palettes/LICENSES.txt licences)
 # The text of the Apache license comes last; Debian has it.
 string(FIND "${licences}" "\nApache License\n" at)
@@ -123,6 +124,8 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/package/copyright @ONLY CONTENT
 =====
 
 @licence@
+
+@notices@
 
 @licences@
 The text of the Apache License 2.0 is in /usr/share/common-licenses/Apache-2.0.
