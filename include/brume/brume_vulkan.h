@@ -144,6 +144,10 @@ BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT
 /// Writes the bytes of device memory that the device's renderers use at present. Resources that only frames
 /// in flight still use, and the CPU memory of uploads, are not included.
 BRUME_API brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT;
+/// Writes the bytes that are allocated at present, by vkAllocateMemory or your function: blocks of 16 MiB and
+/// larger ones, with memory for uploads and memory to spare.
+BRUME_API brume_result brume_device_allocated_memory(const brume_device* device,
+                                                     uint64_t* bytes) BRUME_NOEXCEPT;
 /// Limits the device memory of all renderers of the device to `bytes` from the next frame on; resources that
 /// only frames in flight still use are not included. UINT64_MAX, the initial limit: all memory of the device.
 /// Images of the frame's size, and for each renderer a reserve of 512 bricks of smoke with their light, are

@@ -77,6 +77,11 @@ class Device : public detail::Handle<brume_device, brume_device_destroy> {
     return detail::value_of<std::uint64_t>(
         [&](std::uint64_t* out) { return brume_device_memory(get(), out); });
   }
+  /// brume_device_allocated_memory.
+  std::uint64_t allocated_memory() const {
+    return detail::value_of<std::uint64_t>(
+        [&](std::uint64_t* out) { return brume_device_allocated_memory(get(), out); });
+  }
   /// brume_device_compile.
   void compile(VkFormat picture_format) { check(brume_device_compile(get(), picture_format)); }
   /// brume_device_set_memory_limit.

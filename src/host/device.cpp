@@ -109,6 +109,13 @@ brume_result brume_device_memory(const brume_device* device, uint64_t* bytes) BR
   });
 }
 
+brume_result brume_device_allocated_memory(const brume_device* device, uint64_t* bytes) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_device& held = call.handle(device);
+    required(bytes, "bytes") = held.data->context.memory().allocated_bytes();
+  });
+}
+
 brume_result brume_device_set_memory_limit(brume_device* device, uint64_t bytes) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) { call.handle(device).data->context.memory().set_limit(bytes); });
 }

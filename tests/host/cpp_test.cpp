@@ -22,6 +22,7 @@ TEST(CppInterface, IsTheCInterface) {
   EXPECT_TRUE(renderer.timings().empty());
   EXPECT_THROW(renderer.record(nullptr, brume_frame_defaults()), api::Error);
   EXPECT_EQ(device.memory(), 0u);
+  EXPECT_EQ(device.allocated_memory(), 0u);
 
   // What changes.
   renderer.resize(16, 9);

@@ -107,6 +107,7 @@ void HostileFrames::device() {
   const VkFormat format = chance(0.1) ? VK_FORMAT_UNDEFINED : VK_FORMAT_R32_UINT;
   checked("brume_device_compile", brume_device_compile(handle(devices_), format), true);
   read<std::uint64_t>("brume_device_memory", devices_, brume_device_memory);
+  read<std::uint64_t>("brume_device_allocated_memory", devices_, brume_device_allocated_memory);
   const std::uint64_t limit = chance(0.5) ? UINT64_MAX : static_cast<std::uint64_t>(below(100)) << 20;
   checked("brume_device_set_memory_limit", brume_device_set_memory_limit(handle(devices_), limit), true);
   // The first one stays: the renderers' frames are of it.

@@ -59,6 +59,21 @@ TEST(VulkanHeader, TheExamplesCompileAsCAndCpp) {
                 "' '" + (folder.path() / "example.c").string() + "'");
 }
 
+TEST(VulkanHeader, TheChainOfFeaturesOfThePageCompiles) {
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/docs/reference/c-api.md");
+  const std::size_t call = page.find("check(brume_vulkan_merge_features("),
+                    from = page.rfind("```c\n", call) + 5;
+  ASSERT_NE(call, page.npos);
+  const cli::WorkFolder folder;
+  folder.write("chain.c",
+               "#include <brume/brume_vulkan.h>\nvoid check(brume_result result);\n"
+               "void chain(void);\nVkDeviceCreateInfo device_info;\nbrume_device_params host;\n"
+               "void chain(void) {\n" +
+                   page.substr(from, page.find("```", from) - from) + "}\n");
+  expect_runs("cc -std=c11 -Wall -Wextra -Wpedantic -Wshadow -Werror -fsyntax-only -I'" + kInclude + "' '" +
+              (folder.path() / "chain.c").string() + "'");
+}
+
 TEST(VulkanLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {
   std::set<std::string> declared, exported;
   for (const char* header : {"/brume/brume.h", "/brume/brume_assets.h", "/brume/brume_vulkan.h"}) {

@@ -115,6 +115,19 @@ TEST_F(SoakTest, MemoryComesBackWhenSmokeIsOutOfViewForLong) {
   EXPECT_LT(later, before + 4'000'000);
 }
 
+TEST_F(SoakTest, AllocatedMemoryIsWhatTheHostGave) {
+  make_small({64, 16, 64}, 0.25f);
+  for (const std::uint32_t tick : {80u, 160u}) {
+    smoke(tick - 79, {5, 0.6f, 5}, 20 * tick, 1000);
+    advance(tick);
+    draw({1, 3, 1}, {1, -0.1f, 1}, tick / 64.0);
+    std::uint64_t allocated = 0;
+    EXPECT_OK(brume_device_allocated_memory(device_, &allocated));
+    EXPECT_EQ(allocated, memory_.bytes);
+    EXPECT_GT(allocated, device_bytes());
+  }
+}
+
 TEST_F(SoakTest, TellsThatMemoryIsShort) {
   make_small({160, 40, 160}, 0.125f);
   std::uint32_t level = 7, is_smoke_missing = 7;
