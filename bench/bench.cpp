@@ -75,7 +75,7 @@ Measurement summarize(const std::string& name, const std::string& unit, const st
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const auto& of_processor :
-       {cpu_cases, edit_cases, live_cases, volume_cases, sight_cases, sim_cases, wire_cases})
+       {cpu_cases, edit_cases, live_cases, volume_cases, sight_cases, sim_cases, server_cases, wire_cases})
     for (Case& one : of_processor()) cases.push_back(std::move(one));
   for (const auto& of_device :
        {gpu_cases, cloud_cases, particle_cases, decal_cases, tank_cases, scaling_cases})

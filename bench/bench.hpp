@@ -87,6 +87,7 @@ std::vector<Case> edit_cases();
 std::vector<Case> live_cases();
 std::vector<Case> sight_cases();
 std::vector<Case> sim_cases();
+std::vector<Case> server_cases();
 std::vector<Case> wire_cases();
 std::vector<Case> gpu_cases();
 std::vector<Case> cloud_cases();

@@ -150,7 +150,12 @@ Result<void> World::check(std::span<const Event> events, std::uint32_t first, co
 /// Replaces the log after its first `retained` events by `events`, all at or after tick `first`, and replays.
 void World::replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events) {
   const std::uint32_t present = state_.tick;
-  std::erase_if(checkpoints_, [&](const State& state) { return state.tick >= first; });
+  // Clouds of the ticks to replay are kept meanwhile, so that they need not be made again.
+  std::vector<State> abandoned;
+  if (first <= present) abandoned.push_back(state_);
+  const auto kept = std::ranges::lower_bound(checkpoints_, first, {}, &State::tick);
+  std::move(kept, checkpoints_.end(), std::back_inserter(abandoned));
+  checkpoints_.erase(kept, checkpoints_.end());
   if (first <= present) go_back_before(first);
   const auto by_tick = [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); };
   const auto middle = static_cast<std::ptrdiff_t>(retained);
@@ -237,6 +242,7 @@ Result<void> World::restore(const State& state) {
   // The state takes the place of all history before it.
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
+  made_.clear();
   previous_.reset();
   level_.replace(state.edits);
   state_ = first_ = state;
@@ -259,6 +265,7 @@ void World::forget_before(std::uint32_t tick) {
   if (after == checkpoints_.begin()) return;
   first_ = *std::prev(after);
   checkpoints_.erase(checkpoints_.begin(), after);
+  made_.forget_until(first_.tick);
   if (previous_ && previous_->tick < first_.tick) previous_.reset();
 
   // Its state includes the events up to its tick.
@@ -287,17 +294,43 @@ void World::detonate() {
     due.push_back(flight);
     return true;
   });
+  std::vector<CloudRecipe> recipes(due.size());
   std::vector<std::shared_ptr<const Cloud>> clouds(due.size());
   parallel_for(due.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // The landing voxel may have become solid since the throw.
       const glm::ivec3 source = nearest_free_voxel(grid(), due[i].landing).value_or(due[i].landing);
-      clouds[i] =
-          std::make_shared<const Cloud>(grid(), CloudOrigin{source, due[i].smoke, due[i].detonation_tick});
+      recipes[i] = {{source, due[i].smoke, due[i].detonation_tick}, nullptr, state_.tick, state_.edits};
+      clouds[i] = made_.find(recipes[i]);
+      if (!clouds[i]) clouds[i] = std::make_shared<const Cloud>(grid(), recipes[i].origin);
     }
   });
-  for (std::size_t i = 0; i < due.size(); ++i)
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    made_.add(recipes[i], clouds[i]);
     if (!clouds[i]->voxels().empty()) insert_by_id(state_.clouds, LiveCloud{due[i].id, clouds[i]});
+  }
+}
+
+/// Lets the clouds flow that an edit of the level touches.
+void World::flow(std::uint32_t tick, const EditBlocks& of_smoke) {
+  std::vector<std::shared_ptr<const Cloud>> flowed(state_.clouds.size());
+  const auto recipe_of = [&](std::size_t i) {
+    const std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;
+    return CloudRecipe{cloud->origin(), cloud, tick, state_.edits};
+  };
+  parallel_for(state_.clouds.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;
+      if (!cloud->touched_by(of_smoke)) continue;
+      flowed[i] = made_.find(recipe_of(i));
+      if (!flowed[i]) flowed[i] = std::make_shared<const Cloud>(cloud->flowed(grid(), tick));
+    }
+  });
+  for (std::size_t i = 0; i < flowed.size(); ++i) {
+    if (!flowed[i]) continue;
+    made_.add(recipe_of(i), flowed[i]);
+    state_.clouds[i].cloud = std::move(flowed[i]);
+  }
 }
 
 /// Depth of a shot's hole, 1/1024 m: up to where the shot leaves the last smoke, but no farther than halfway
@@ -371,13 +404,7 @@ void World::apply(const LevelEdit& event) {
   of_smoke = effective_edits(grid(), of_smoke);
   level_.add(changes);
   state_.edits = level_.edits();
-  parallel_for(state_.clouds.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;
-      if (cloud->touched_by(of_smoke))
-        cloud = std::make_shared<const Cloud>(cloud->flowed(grid(), event.tick));
-    }
-  });
+  flow(event.tick, of_smoke);
 }
 
 void World::play_tick(std::uint32_t tick) {

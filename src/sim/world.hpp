@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "sim/edited_level.hpp"
 #include "sim/events.hpp"
+#include "sim/made_clouds.hpp"
 #include "sim/state.hpp"
 #include "voxel/solids.hpp"
 
@@ -100,6 +101,7 @@ class World {
   template <typename Kind>
   void apply(const Kind& event);
   void detonate();
+  void flow(std::uint32_t tick, const EditBlocks& of_smoke);
   std::uint64_t hole_distance(const Shot& shot) const;
 
   EditedLevel level_;  // with the edits of state_
@@ -111,6 +113,7 @@ class World {
   std::uint32_t earliest_tick_ = 0;    // first_.tick or a later one
   std::uint32_t first_open_tick_ = 0;  // no event before it is accepted
   std::vector<State> checkpoints_;     // sorted by tick, each including the events of its tick
+  MadeClouds made_;                    // after first_
   std::optional<State> previous_;      // before the last tick played: for events of the present
   std::uint32_t next_end_ = 0;         // next_end(state_)
   std::uint32_t changed_at_ = 0;       // since this tick only state_.tick has changed
