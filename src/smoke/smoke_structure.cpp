@@ -97,6 +97,14 @@ VoxelWindow make_window(const std::array<const BrickBits*, 27>& around) {
   return window;
 }
 
+BrickBits cells_at_solid(const VoxelWindow& solid) {
+  const auto with_solid = cells_with_any<1, 2>(solid);
+  BrickBits cells{};
+  for (std::size_t z = 0; z < 8; ++z)
+    for (std::size_t y = 0; y < 8; ++y) cells[z] |= std::uint64_t{with_solid[z][y]} << (8 * y);
+  return cells;
+}
+
 std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick) {
   std::array<const BrickBits*, 27> around{};
   const glm::ivec3 bricks = (grid.size() + 7) >> 3;
@@ -179,6 +187,7 @@ std::uint32_t CellBuilder::Work::mean(const CellSurroundings& cell, int corner, 
     ++mean.count;
   }
   out_->means.push_back(mean);
+  ++out_->means_of_row[mean.cell / 8u];
   return kMeanBit | static_cast<std::uint32_t>(out_->means.size());
 }
 
@@ -265,7 +274,9 @@ void CellBuilder::Work::add_set(const CellSurroundings& cell, int like, std::uin
     source.corners[static_cast<std::size_t>(i)] = from;
     if (from != kMeanBit) all = from;
   }
-  if (all != kMeanBit) out_->sources.push_back(source);
+  if (all == kMeanBit) return;
+  out_->sources.push_back(source);
+  ++out_->sources_of_row[source.cell / 8u];
 }
 
 void CellBuilder::Work::add_cell(const CellSurroundings& cell) {

@@ -44,6 +44,9 @@ struct BrickCells {
   std::vector<std::uint32_t> mean_voxels;  ///< Voxels that the means take from, as at a corner,
   std::vector<std::uint8_t> mean_weights;  ///< and how much.
   std::vector<CornerSource> sources;
+  /// How many means and sources each row of eight cells has, by y + 8 z; both are in the order of their
+  /// cells.
+  std::array<std::uint16_t, 64> means_of_row{}, sources_of_row{};
   std::uint32_t set_count = 0;
 
   std::vector<std::uint8_t> mean_values{0};  ///< The value of means[i] at i + 1; 0 at 0: no smoke.
@@ -58,6 +61,9 @@ using VoxelWindow = std::array<std::array<std::uint16_t, 11>, 11>;
 VoxelWindow make_window(const std::array<const BrickBits*, 27>& around);
 /// The bits of the 27 bricks of a grid around one; null where there is none.
 std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick);
+
+/// The cells of a brick with a solid corner: no others are boundary cells.
+BrickBits cells_at_solid(const VoxelWindow& solid);
 
 /// A brick and its surroundings.
 struct BrickScene {

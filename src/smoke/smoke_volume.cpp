@@ -8,25 +8,14 @@ namespace {
 /// Numbers of voxels and means share 32 bits.
 constexpr std::uint32_t kMaxBricks = kMeanBit / kVoxelsPerBrick;
 
-volume::SparseVolumeInfo volume_info(const voxel::GridLayout& grid) {
-  return {grid.origin_world, grid.voxel_size, {volume::ChannelFormat{sizeof(Texel)}}, kMaxBricks};
+bool intersect(const BrickBits& a, const BrickBits& b) {
+  std::uint64_t any = 0;
+  for (std::size_t z = 0; z < 8; ++z) any |= a[z] & b[z];
+  return any != 0;
 }
 
-/// Along each axis, bricks in which the cells around these voxels lie, cells voxel - 2 to voxel + 1.
-struct Reach {
-  glm::ivec3 low{0}, high{0};
-};
-Reach cells_reach(const BrickBits& voxels) {
-  std::uint64_t flat = 0;
-  for (const std::uint64_t word : voxels) flat |= word;
-  Reach reach;
-  reach.low.x = (flat & 0x0303030303030303u) != 0 ? -1 : 0;
-  reach.high.x = (flat & 0x8080808080808080u) != 0 ? 1 : 0;
-  reach.low.y = (flat & 0xffff) != 0 ? -1 : 0;
-  reach.high.y = flat >> 56 != 0 ? 1 : 0;
-  reach.low.z = (voxels[0] | voxels[1]) != 0 ? -1 : 0;
-  reach.high.z = voxels[7] != 0 ? 1 : 0;
-  return reach;
+volume::SparseVolumeInfo volume_info(const voxel::GridLayout& grid) {
+  return {grid.origin_world, grid.voxel_size, {volume::ChannelFormat{sizeof(Texel)}}, kMaxBricks};
 }
 
 }  // namespace
@@ -238,7 +227,7 @@ void SmokeVolume::update_structure() {
   if (structure_changed_) update_bounds();
 }
 
-/// Which voxels have smoke at some tick; cells that see one more or less are stale.
+/// Which voxels have smoke at some tick; boundary cells that see one more or less are stale.
 void SmokeVolume::update_mask(std::uint32_t slot) {
   Brick& brick = bricks_[slot];
   const BrickBits smoke = voxels_of(brick.clouds);
@@ -249,12 +238,11 @@ void SmokeVolume::update_mask(std::uint32_t slot) {
 
   const glm::ivec3 at = brick_of(slot);
   pockets_.changed(at, changed, stale_bricks_);
-  const Reach reach = cells_reach(changed);
-  for (int z = reach.low.z; z <= reach.high.z; ++z)
-    for (int y = reach.low.y; y <= reach.high.y; ++y)
-      for (int x = reach.low.x; x <= reach.high.x; ++x)
-        if (const std::uint32_t other = slot_at(at + glm::ivec3(x, y, z)); other != kNoSlot)
-          mark(other, &Brick::cells_stale);
+  const volume::NeighbourSlots slots = volume_.slots_around(at);
+  const std::array<BrickBits, 27> cells = cells_that_take(changed);
+  for (std::size_t i = 0; i < 27; ++i)
+    if (slots[i] != kNoSlot && intersect(cells[i], bricks_[slots[i]].cells_at_solid))
+      mark(slots[i], &Brick::cells_stale);
 }
 
 void SmokeVolume::build_cells(std::uint32_t slot) {
@@ -265,7 +253,10 @@ void SmokeVolume::build_cells(std::uint32_t slot) {
   for (std::size_t i = 0; i < 27; ++i)
     if (scene.slots[i] != kNoSlot) smoke[i] = &bricks_[scene.slots[i]].smoke;
   scene.smoke = make_window(smoke);
-  if (bricks_[slot].walls_stale) densities_.set_solid(slot, scene.solid);
+  if (bricks_[slot].walls_stale) {
+    densities_.set_solid(slot, scene.solid);
+    bricks_[slot].cells_at_solid = cells_at_solid(scene.solid);
+  }
 
   const auto has_smoke = [this](glm::ivec3 v) {
     const std::uint32_t other = slot_at(v >> 3);

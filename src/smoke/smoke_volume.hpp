@@ -79,6 +79,7 @@ class SmokeVolume final : public SmokeBricks {
     std::vector<CloudPart> clouds;
     std::vector<SinkPart> sinks;  // by id
     BrickBits smoke{};            // voxels that a cloud has at some tick
+    BrickBits cells_at_solid{};   // known once its cells are built
     bool touched = false;
     bool masks_stale = false, walls_stale = false, cells_stale = false, densities_stale = false;
   };

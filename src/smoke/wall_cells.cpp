@@ -23,25 +23,6 @@ std::array<std::uint64_t, 3> spread_y(std::uint64_t v) {
   return {first << 56 | first << 48 | second << 48, v | v << 8 | v >> 8 | v >> 16, v >> 56};
 }
 
-/// The cells that take from any of these voxels, voxel - 2 to voxel + 1 per axis, in each of the 27 bricks
-/// around.
-std::array<BrickBits, 27> cells_around(const BrickBits& voxels) {
-  std::array<BrickBits, 27> cells{};
-  for (int z = 0; z < 8; ++z) {
-    const std::uint64_t layer = voxels[static_cast<std::size_t>(z)];
-    if (layer == 0) continue;
-    const auto by_x = spread_x(layer);
-    for (std::size_t x = 0; x < 3; ++x) {
-      const auto by_y = spread_y(by_x[x]);
-      for (std::size_t y = 0; y < 3; ++y)
-        for (int to = z - 2; to <= z + 1; ++to)
-          cells[x + 3 * y + 9 * static_cast<std::size_t>((to >> 3) + 1)][static_cast<std::size_t>(to & 7)] |=
-              by_y[y];
-    }
-  }
-  return cells;
-}
-
 void sort_and_merge(std::vector<volume::IndexRange>& ranges) {
   std::sort(ranges.begin(), ranges.end(),
             [](const volume::IndexRange& a, const volume::IndexRange& b) { return a.first < b.first; });
@@ -57,6 +38,24 @@ void sort_and_merge(std::vector<volume::IndexRange>& ranges) {
 }
 
 }  // namespace
+
+/// Voxel - 2 to voxel + 1 per axis.
+std::array<BrickBits, 27> cells_that_take(const BrickBits& voxels) {
+  std::array<BrickBits, 27> cells{};
+  for (int z = 0; z < 8; ++z) {
+    const std::uint64_t layer = voxels[static_cast<std::size_t>(z)];
+    if (layer == 0) continue;
+    const auto by_x = spread_x(layer);
+    for (std::size_t x = 0; x < 3; ++x) {
+      const auto by_y = spread_y(by_x[x]);
+      for (std::size_t y = 0; y < 3; ++y)
+        for (int to = z - 2; to <= z + 1; ++to)
+          cells[x + 3 * y + 9 * static_cast<std::size_t>((to >> 3) + 1)][static_cast<std::size_t>(to & 7)] |=
+              by_y[y];
+    }
+  }
+  return cells;
+}
 
 WallCells::WallCells(const volume::SparseVolume& volume, PlaneSource planes)
     : volume_(volume), planes_(std::move(planes)), builder_(planes_) {}
@@ -155,7 +154,7 @@ void WallCells::write_cells(glm::ivec3 brick, const BrickCells& home, bool clear
 
 void WallCells::densities_changed(glm::ivec3 brick, const BrickBits& voxels) {
   const volume::NeighbourSlots slots = volume_.slots_around(brick);
-  const std::array<BrickBits, 27> cells = cells_around(voxels);
+  const std::array<BrickBits, 27> cells = cells_that_take(voxels);
   for (std::size_t i = 0; i < 27; ++i) {
     if (slots[i] == kNoSlot || !bricks_[slots[i]].home || cells[i] == BrickBits{}) continue;
     for (std::size_t z = 0; z < 8; ++z) bricks_[slots[i]].stale[z] |= cells[i][z];
@@ -174,22 +173,30 @@ void WallCells::evaluate(std::span<const std::uint8_t> densities) {
   }
 }
 
-/// The numbers of the items whose cell is stale. Without a branch, which no processor could predict.
+/// The numbers of the items whose cell is stale. Without a branch for each, which no processor could predict.
 template <typename Item>
-std::span<const std::uint32_t> WallCells::stale_of(const std::vector<Item>& items, const BrickBits& stale) {
+std::span<const std::uint32_t> WallCells::stale_of(const std::vector<Item>& items,
+                                                   const std::array<std::uint16_t, 64>& items_of_row,
+                                                   const BrickBits& stale) {
   if (stale_numbers_.size() < items.size()) stale_numbers_.resize(items.size());
   std::size_t count = 0;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const unsigned cell = items[i].cell;
-    stale_numbers_[count] = static_cast<std::uint32_t>(i);
-    count += stale[cell >> 6] >> (cell & 63) & 1;
+  std::uint32_t end = 0;
+  for (std::size_t row = 0; row < 64; ++row) {
+    const std::uint32_t first = end;
+    end += items_of_row[row];
+    const auto cells = static_cast<unsigned>(stale[row / 8] >> (8 * (row % 8)) & 0xff);
+    if (cells == 0) continue;
+    for (std::uint32_t i = first; i < end; ++i) {
+      stale_numbers_[count] = i;
+      count += cells >> (items[i].cell & 7) & 1;
+    }
   }
   return std::span(stale_numbers_).first(count);
 }
 
 void WallCells::evaluate_means(BrickCells& home, const BrickBits& stale,
                                std::span<const std::uint8_t> densities) {
-  for (const std::uint32_t i : stale_of(home.means, stale)) {
+  for (const std::uint32_t i : stale_of(home.means, home.means_of_row, stale)) {
     const SmokeMean& mean = home.means[i];
     const std::uint32_t* voxels = home.mean_voxels.data() + mean.first;
     const std::uint8_t* weights = home.mean_weights.data() + mean.first;
@@ -204,7 +211,7 @@ volume::IndexRange WallCells::evaluate_sets(BrickCells& home, const BrickBits& s
                                             std::span<const std::uint8_t> densities) {
   const std::array<const std::uint8_t*, 2> values{densities.data(), home.mean_values.data()};
   std::uint32_t low = home.set_range.count, high = 0;
-  for (const std::uint32_t i : stale_of(home.sources, stale)) {
+  for (const std::uint32_t i : stale_of(home.sources, home.sources_of_row, stale)) {
     // Its eight densities, from voxels or from means.
     const CornerSource& source = home.sources[i];
     const auto value = [&](std::size_t corner) -> std::uint32_t {

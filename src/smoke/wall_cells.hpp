@@ -17,6 +17,10 @@
 
 namespace brume::smoke {
 
+/// The cells that take from any of these voxels of a brick, in each of the 27 bricks around it, x + 3 y + 9
+/// z.
+std::array<BrickBits, 27> cells_that_take(const BrickBits& voxels);
+
 /// Boundary cells are built brick by brick; their corner sets follow the densities. Slots are a volume's. All
 /// changes happen between begin_update and end_update, and readers see them from end_update on.
 class WallCells {
@@ -77,7 +81,9 @@ class WallCells {
   volume::IndexRange evaluate_sets(BrickCells& home, const BrickBits& stale,
                                    std::span<const std::uint8_t> densities);
   template <typename Item>
-  std::span<const std::uint32_t> stale_of(const std::vector<Item>& items, const BrickBits& stale);
+  std::span<const std::uint32_t> stale_of(const std::vector<Item>& items,
+                                          const std::array<std::uint16_t, 64>& items_of_row,
+                                          const BrickBits& stale);
 
   const volume::SparseVolume& volume_;
   PlaneSource planes_;
