@@ -395,8 +395,11 @@ typedef enum brume_hole_shape {
 /// that lies: let it start at least a voxel in front of the wall that a grenade rests at.
 /// Times are in ticks, because smoke spreads from tick to tick.
 typedef struct brume_smoke_event {
-  brume_position from, at;  ///< Start of the flight, and a point on its path.
-  uint32_t voxels;          ///< Amount of smoke, [1, BRUME_MAX_SMOKE_VOXELS]: brume_smoke_voxels().
+  /// Start of the flight, and a point on its path. Where both are equal, it detonates there.
+  brume_position from, at;
+  /// Amount of smoke, [1, BRUME_MAX_SMOKE_VOXELS]: brume_smoke_voxels(). It reaches as many voxels, and thins
+  /// out towards its rim: about three quarters of them show, and their densities add up to about half.
+  uint32_t voxels;
   uint32_t bloom_ticks;     ///< Time from the detonation to the full amount, [1, BRUME_MAX_TICK].
   uint32_t hold_ticks;      ///< Time from the full amount to the start of the dissolve, [0, BRUME_MAX_TICK].
   uint32_t dissolve_ticks;  ///< Time from the start of the dissolve to its end, [1, BRUME_MAX_TICK].

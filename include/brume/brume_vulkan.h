@@ -237,7 +237,7 @@ BRUME_API brume_result brume_renderer_set_lights(brume_renderer* renderer, const
 typedef struct brume_camera {
   brume_point position;  ///< Position [m].
   brume_point forward;   ///< Direction of view, any length but 0.
-  brume_point up;        ///< Direction that is up in the image, any length but 0.
+  brume_point up;        ///< What is up in the image: any length but 0, 0.001 rad or more off `forward`.
   float vertical_fov;    ///< Vertical field of view [rad], (0, pi). Pixels are square.
   float jitter_x;        ///< Your jitter: from a pixel's centre to its sample, to the right [px], [-1, 1].
   float jitter_y;        ///< The same, downwards [px], [-1, 1].

@@ -35,8 +35,12 @@ std::optional<scene::Frustum> to_frustum(const brume_frustum& given) {
 scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum) {
   scene::Camera made;
   made.position_world = position(camera.position, "camera.position");
-  made.target_world = made.position_world + unit(camera.forward, "camera.forward");
+  // Far away, for the direction's precision far from the origin.
+  const glm::vec3 forward = unit(camera.forward, "camera.forward");
+  made.target_world = made.position_world + 4096.0f * forward;
   made.up_world = unit(camera.up, "camera.up");
+  require(glm::length(glm::cross(forward, made.up_world)) > 1e-3f,
+          "`camera.up` must not be along `camera.forward`");
   made.frustum = to_frustum(frustum);
   // A wider range than in timelines: the host draws with this angle in any case.
   require(made.frustum || (camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f),

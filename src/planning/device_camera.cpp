@@ -10,6 +10,9 @@ struct HalfPicture {
   glm::vec2 tangents, middle;
 };
 
+/// Nearer to the direction up than this a view has no horizon in floats [rad].
+constexpr float kLeastTilt = 1e-3f;
+
 HalfPicture half_picture(const scene::Camera& camera, glm::uvec2 size_px) {
   if (!camera.frustum) {
     const float tan_y = std::tan(0.5f * camera.vertical_fov);
@@ -26,7 +29,7 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   // Axes of the view: forward, right, up.
   const glm::vec3 apart = camera.target_world - camera.position_world;
   const glm::vec3 forward = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
-  const bool is_along_up = std::abs(glm::dot(forward, camera.up_world)) > 0.999f;
+  const bool is_along_up = glm::length(glm::cross(forward, camera.up_world)) < kLeastTilt;
   const glm::vec3 other = std::abs(forward.z) > 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
   const glm::vec3 helper = is_along_up ? other : camera.up_world;
   const glm::vec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);

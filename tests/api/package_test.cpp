@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -146,6 +147,17 @@ class Package : public testing::Test {
   fs::path prefix_ = folder_.path() / "installed";
   fs::path example_ = folder_.path() / "example";
 };
+
+TEST_F(Package, SaysWhichComponentIsMissing) {
+  fs::create_directories(example_);
+  std::ofstream(example_ / "CMakeLists.txt") << "cmake_minimum_required(VERSION 3.25)\nproject(a LANGUAGES C)\n"
+                                                "find_package(brume CONFIG REQUIRED COMPONENTS render)\n";
+  const ShellRun run = run_shell("cmake -S '" + example_.string() + "' -B '" +
+                                 (folder_.path() / "missing").string() + "' -D CMAKE_PREFIX_PATH='" +
+                                 prefix_.string() + "' 2>&1");
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.output.find("component 'render'"), run.output.npos) << run.output;
+}
 
 TEST_F(Package, BuildsTheExampleAlsoAfterItWasMoved) {
   fs::copy(BRUME_SOURCE_DIR "/examples/server", example_);

@@ -208,6 +208,7 @@ TEST_F(PartsTest, RefusesPartsAndFrustaThatAreNone) {
     refused("part", [](auto& p) { p.part = {0, 0, kWhole.x + 1, 1}; });
     refused("part", [](auto& p) { p.part = {0, 0, 5, 0}; });
     refused("part", [](auto& p) { p.part = {0, 20000, 5, 5}; });
+    refused("camera.up", [](auto& p) { p.camera.up = {0, 0, 2}; });
     refused("view", [](auto& p) { p.view = BRUME_MAX_VIEWS; });
     refused("frustum.left", [](auto& p) { p.frustum = {1, -1, -1, 1}; });
     refused("frustum.left", [](auto& p) { p.frustum = {NAN, 1, -1, 1}; });

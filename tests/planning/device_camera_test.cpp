@@ -66,6 +66,17 @@ TEST(DeviceCamera, ASymmetricFrustumIsThatFieldOfView) {
   EXPECT_LT(glm::length(made.shift), 1e-6f);
 }
 
+// Also nearly straight down, where a player's pitch ends.
+TEST(DeviceCamera, HasNoRoll) {
+  for (const double pitch : {0.0, 45.0, 80.0, 88.0, 89.0, 89.9, -89.9}) {
+    const double angle = glm::radians(pitch);
+    const glm::vec3 forward(0, -std::sin(angle), -std::cos(angle));
+    const shared::Camera c = device_camera({glm::vec3(0), forward, 1}, {16, 9});
+    EXPECT_GT(glm::normalize(c.right).x, 0.9999f) << pitch;
+    EXPECT_GE(c.up.y, 0) << pitch;
+  }
+}
+
 TEST(DeviceCamera, LooksStraightDownAndAtItself) {
   for (const glm::vec3 target : {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 0)}) {
     const shared::Camera c = device_camera({glm::vec3(0), target, 1}, {16, 9});

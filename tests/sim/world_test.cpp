@@ -50,6 +50,9 @@ TEST(Landing, IsTheTargetIfThePathIsFree) {
   EXPECT_EQ(landing_voxel(grid, glm::vec3(8, 1.2f, 4.2f), glm::vec3(90, 1.2f, 4.2f)), glm::ivec3(39, 2, 4));
   // A ray that misses the grid.
   EXPECT_EQ(landing_voxel(grid, glm::vec3(-9, 1, 4), glm::vec3(-9, 1, 8)), std::nullopt);
+  // Without a flight it is that place.
+  EXPECT_EQ(landing_voxel(grid, glm::vec3(8.1f, 1.2f, 4.2f), glm::vec3(8.1f, 1.2f, 4.2f)),
+            glm::ivec3(22, 2, 4));
 }
 
 TEST(Landing, FromASolidVoxelFindsTheNextFreeOne) {
