@@ -170,7 +170,8 @@ bool ShaderReload::update(gpu::Context& context) {
     });
     changed_.pop_front();
   }
-  // Pipelines first made after the change, by a debug view or on a new device, still have the built-in shader.
+  // Pipelines first made after the change, by a debug view or on a new device, still have the built-in
+  // shader.
   for (gpu::Pipeline* pipeline : context.pipelines().all()) {
     for (const auto& [name, words] : in_use_) {
       if (!words) continue;

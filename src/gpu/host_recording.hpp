@@ -21,8 +21,8 @@ class HostRecording : public CommandStream {
 
   /// Begins to collect a frame for `commands`, which are in the recording state. The device has completed the
   /// commands of all frames up to `completed`; those after it may be in flight, as many as there are. Frames
-  /// never fall, and their commands are submitted in that order to one queue, or not at all together with all that
-  /// follow.
+  /// never fall, and their commands are submitted in that order to one queue, or not at all together with all
+  /// that follow.
   void begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed);
   /// Ends the frame: records its commands, which belong to the host again.
   void end();
