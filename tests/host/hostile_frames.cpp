@@ -386,6 +386,10 @@ void HostileFrames::spoil(brume_frame_params& params) {
                        &params.quality.light_update_fraction,
                        &params.quality.bounce_update_fraction})
     spoil(*value, kRarely);
+  for (float* side : {&params.frustum.left, &params.frustum.right, &params.frustum.down, &params.frustum.up})
+    spoil(*side, kRarely);
+  for (std::uint32_t* length : {&params.part.width, &params.part.height, &params.view})
+    spoil(*length, kRarely);
   spoil(params.seconds, kRarely);
   if (chance(kRarely)) params.camera.forward = {0, 0, 0};
   if (chance(kRarely)) params.camera.up = params.camera.forward;
@@ -437,6 +441,9 @@ void HostileFrames::record() {
   params.tank_count = shown_tanks_.size();
   params.shadow_light_count = lights_.empty() ? 0 : below(3);
   params.continues_previous = below(2);
+  params.view = below(BRUME_MAX_VIEWS);
+  if (chance(0.3)) params.part = {below(8), below(4), 1 + below(8), 1 + below(5)};
+  if (chance(0.3)) params.frustum = {-within(0, 2), within(0.01, 3), -within(0, 2), within(0.01, 3)};
   params.seconds = within(0, 9);
   spoil(params);
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);
