@@ -198,6 +198,7 @@ typedef struct brume_renderer_params {
   /// 1: brume_renderer_timings has the GPU times of passes. Some drivers, such as Mesa's lavapipe, then wait
   /// for the device in brume_renderer_record. 0: no timestamps are written.
   uint32_t timings;
+  uint32_t motion;  ///< 1: each frame has brume_renderer_motion.
 } brume_renderer_params;
 
 /// Returns the defaults: 1280 x 720, a ray per pixel, no accumulation, no lights, no triangles, no timings.
@@ -464,6 +465,17 @@ BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer,
 /// Either pointer may be null. Errors: BRUME_ERROR_ORDER unless the last frame had shadow_lights.
 BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                               VkImageView* view) BRUME_NOEXCEPT;
+
+/// Writes the image of the motion of the last frame's smoke and volumes, for upscalers and temporal
+/// anti-aliasing: half floats. R and G lead from where the smoke of a pixel is to where it was in the view's
+/// previous frame [px], to the right and down, without jitter; 0 where the frame does not continue. B is the
+/// distance along the view axis at which the transmittance falls to 0.99 [m], A the mean distance of the
+/// smoke's light [m], which R and G follow; both are infinite where there is no smoke. In
+/// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders; frames, also of other views, share one image, which
+/// is another one after brume_renderer_resize. Either pointer may be null. Errors: BRUME_ERROR_ORDER before
+/// the first frame, after a frame that failed, and unless brume_renderer_params::motion was 1.
+BRUME_API brume_result brume_renderer_motion(const brume_renderer* renderer, VkImage* image,
+                                             VkImageView* view) BRUME_NOEXCEPT;
 
 /// Writes the image of the occlusion by the last frame's decals: half floats, where R is the fraction of its
 /// reflected light that the surface of the pixel loses, 0 without a surface; other channels are internal. In

@@ -128,6 +128,8 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   Image smoke() const { return image(brume_renderer_smoke); }
   /// brume_renderer_shadows.
   Image shadows() const { return image(brume_renderer_shadows); }
+  /// brume_renderer_motion.
+  Image motion() const { return image(brume_renderer_motion); }
   /// brume_renderer_occlusion: another image after each frame.
   Image occlusion() const { return image(brume_renderer_occlusion); }
   /// brume_renderer_coarseness.

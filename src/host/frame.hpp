@@ -19,7 +19,8 @@ inline constexpr std::array kEarlierSizes<brume_device_params>{
     std::uint32_t{offsetof(brume_device_params, enabled_features)}};
 template <>
 inline constexpr std::array kEarlierSizes<brume_renderer_params>{
-    std::uint32_t{offsetof(brume_renderer_params, prepare_all)}};
+    std::uint32_t{offsetof(brume_renderer_params, prepare_all)},
+    std::uint32_t{offsetof(brume_renderer_params, motion)}};
 template <>
 inline constexpr std::array kEarlierSizes<brume_frame_params>{
     std::uint32_t{offsetof(brume_frame_params, part)}};

@@ -61,6 +61,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
   options.smoke.reserved_bricks = kReservedBricks;
   options.smoke.memory_follows_view = true;
   options.media_alone = true;
+  options.motion = options.smoke.record_entries = params.motion != 0;
   const std::scoped_lock lock(owner.data->mutex);
   create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options,
          params.timings != 0);
@@ -291,6 +292,20 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
       if (!shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
       if (image) *image = shadows->handle();
       if (view) *view = shadows->view();
+    });
+  });
+}
+
+brume_result brume_renderer_motion(const brume_renderer* renderer, VkImage* image,
+                                   VkImageView* view) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
+      if (!object.options.motion) fail(BRUME_ERROR_ORDER, "the renderer was created without `motion`");
+      if (!object.renderer || !object.renderer->has_frame())
+        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
+      if (image) *image = object.renderer->motion()->handle();
+      if (view) *view = object.renderer->motion()->view();
     });
   });
 }

@@ -42,6 +42,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandStream& stream, const scen
   else
     picture_.emplace(context, options.size_px,
                      PicturePart::Options{options.antialias, options.smoke.prepare_all, level_.has_panes()});
+  if (options.motion) motion_.emplace(context, options.size_px);
   stream.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
 }
 
@@ -56,6 +57,7 @@ void Renderer::resize(glm::uvec2 size_px) {
   decals_.resize();
   if (picture_) picture_->resize(size_px);
   if (host_) host_->resize();
+  if (motion_) motion_->resize(size_px);
   if (tanks_) tanks_->resize(size_px);
   recorded_.change(context_).has_shadows = false;
   history_.smoke_shadows.invalidate();
@@ -234,6 +236,7 @@ void Renderer::record_over(gpu::Recorder& recorder, const FramePlan& plan, const
   const FrameResources in = resources(plan);
   record_light(recorder, plan, in, &host.surfaces);
   record_march(recorder, plan, in);
+  if (motion_) motion_->record(recorder, plan, in, march_.counters());
   march_.record_accumulate(recorder, plan, in);
   if (tanks_) tanks_->record_layers(recorder, media());
   recorder.change(recorded_).has_shadows = !host.shadow_lights.empty();

@@ -11,6 +11,7 @@
 #include "render/parts/host_surfaces.hpp"
 #include "render/parts/level.hpp"
 #include "render/parts/march.hpp"
+#include "render/parts/motion.hpp"
 #include "render/parts/picture.hpp"
 #include "render/parts/smoke.hpp"
 #include "render/parts/tanks.hpp"
@@ -27,6 +28,7 @@ struct RendererOptions {
   bool antialias = false;
   /// The surfaces are a host's. Frames are recorded by record_over alone, without particles or debug views.
   bool media_alone = false;
+  bool motion = false;  ///< Where media_alone: motion() of each frame. Needs MediaOptions::record_entries.
 };
 
 /// A frame over the surfaces of a host.
@@ -117,6 +119,8 @@ class Renderer {
   const gpu::Image& surfaces() const;
   /// The last frame's shadows, half floats: see SurfaceShadowPass. Null: it had no shadow_lights.
   const gpu::Image* shadows() const;
+  /// The motion of the last frame's media (SmokeMotionPass). Null: RendererOptions::motion is not set.
+  const gpu::Image* motion() const { return motion_ ? &motion_->motion() : nullptr; }
   /// Half floats: radiance of the picture before exposure and tone curve.
   const gpu::Image& radiance() const { return picture_->radiance(targets_); }
   bool is_antialiased() const { return picture_ && picture_->is_antialiased(); }
@@ -173,6 +177,7 @@ class Renderer {
   DecalsPart decals_;
   ParticlesPart particles_;
   std::optional<PicturePart> picture_;    ///< Without RendererOptions::media_alone: shows our own surfaces.
+  std::optional<MotionPart> motion_;      ///< Where RendererOptions::motion.
   std::optional<HostSurfacesPart> host_;  ///< With it: takes a host's surfaces.
   std::optional<TanksPart> tanks_;        ///< Empty until the first frame with tanks.
 

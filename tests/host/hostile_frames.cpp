@@ -139,6 +139,7 @@ void HostileFrames::renderer_create() {
   spoil(params.march_scale, 0.1);
   if (scales_ == Scales::full && params.march_scale != 1) params.march_scale = 3;
   params.temporal = below(2);
+  params.motion = below(2);
   lights_.assign(below(3), light());
   params.lights = chance(0.05) ? nullptr : lights_.data();
   params.light_count = chance(0.1) ? 1025 + number(9) : lights_.size();
@@ -187,6 +188,7 @@ void HostileFrames::renderer_read() {
   read_image("brume_renderer_smoke", brume_renderer_smoke);
   read_image("brume_renderer_shadows", brume_renderer_shadows);
   read_image("brume_renderer_occlusion", brume_renderer_occlusion);
+  read_image("brume_renderer_motion", brume_renderer_motion);
   auto level = output<std::uint32_t>(), is_smoke_missing = output<std::uint32_t>();
   const brume_result result =
       brume_renderer_coarseness(handle(renderers_), level.pointer(), is_smoke_missing.pointer());

@@ -124,6 +124,7 @@ class YardTest : public testing::Test {
     params.timings = is_timed_ ? 1 : 0;
     params.prepare_all = prepares_all_ ? 1 : 0;
     params.march_scale = march_scale;
+    params.motion = has_motion_ ? 1 : 0;
     return brume_renderer_create(device_, &params, &renderer_);
   }
   void resize(glm::uvec2 size) {
@@ -185,7 +186,7 @@ class YardTest : public testing::Test {
   }
 
   glm::uvec2 first_;
-  bool is_temporal_ = true, is_timed_ = false, prepares_all_ = false;
+  bool is_temporal_ = true, is_timed_ = false, prepares_all_ = false, has_motion_ = false;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;

@@ -30,6 +30,7 @@
 #include "shared/sky_light.h"
 #include "shared/slice_texture.h"
 #include "shared/smoke_light.h"
+#include "shared/smoke_motion.h"
 #include "shared/smoke_shadow.h"
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"

@@ -1,0 +1,31 @@
+#include "passes/smoke_motion.hpp"
+
+#include "brume_shaders.hpp"
+#include "shared/frame.h"
+#include "shared/gbuffer.h"
+#include "shared/resolve.h"
+
+namespace brume::passes {
+
+SmokeMotionPass::SmokeMotionPass(gpu::Context& context, glm::uvec2 size_px)
+    : pipeline_(context, shaders::smoke_motion_comp),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      motion_(context, gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
+
+void SmokeMotionPass::record(gpu::Recorder& recorder, const Inputs& in,
+                             const std::optional<glm::mat4>& past_clip_from_world,
+                             glm::vec2 jitter_px) const {
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
+                    {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},
+                    {shared::kBindRayEntries, gpu::read(in.entries)},
+                    {shared::kBindSmokeMotion, gpu::stored(motion_)},
+                },
+                shared::SmokeMotionParams{past_clip_from_world.value_or(glm::mat4(0)), jitter_px,
+                                          past_clip_from_world ? 1u : 0u});
+  recorder.dispatch_threads(pipeline_, in.size_px.x, in.size_px.y);
+}
+
+}  // namespace brume::passes
