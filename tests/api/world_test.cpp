@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <optional>
 
@@ -278,6 +279,34 @@ TEST_F(WorldTest, ReceiversHaveTheSendersStates) {
   EXPECT_EQ(result_of([&] { State(context_, damaged); }), BRUME_ERROR_DATA);
   EXPECT_EQ(result_of([&] { sender.answer(damaged); }), BRUME_ERROR_DATA);
   EXPECT_TRUE(late.behind());
+}
+
+TEST_F(WorldTest, ReceiversHoldEarlyPackets) {
+  World world = played();
+  Sender sender(context_);
+  std::vector<Bytes> packets;
+  for (std::uint32_t tick = 0; tick < 4; ++tick) {
+    world.advance_to(tick);
+    packets.push_back(sender.push(world.state()));
+  }
+  brume_receiver_params params = brume_receiver_defaults();
+  params.hold_ticks = 2;
+  Receiver receiver(context_, params);
+  EXPECT_EQ(receiver.receive(packets[0]), BRUME_RECEPTION_APPLIED);
+  EXPECT_EQ(receiver.receive(packets[2]), BRUME_RECEPTION_HELD);
+  EXPECT_EQ(receiver.receive(packets[3]), BRUME_RECEPTION_HELD);
+  EXPECT_FALSE(receiver.behind());
+  EXPECT_EQ(receiver.state().describe().tick, 0u);
+  EXPECT_EQ(receiver.receive(packets[1]), BRUME_RECEPTION_APPLIED);
+  EXPECT_EQ(receiver.state().hash(), world.hash());
+
+  params.hold_ticks = 65;
+  EXPECT_EQ(result_of([&] { Receiver(context_, params); }), BRUME_ERROR_ARGUMENT);
+  // The struct of 0.2, which ends before `level`: none are held.
+  params.struct_size = offsetof(brume_receiver_params, level);
+  Receiver earlier(context_, params);
+  EXPECT_EQ(earlier.receive(packets[0]), BRUME_RECEPTION_APPLIED);
+  EXPECT_EQ(earlier.receive(packets[2]), BRUME_RECEPTION_MISSED);
 }
 
 }  // namespace

@@ -218,6 +218,17 @@ class StateTest(unittest.TestCase):
         receiver.restore(other)
         self.assertEqual(other.state_hash, world.state_hash)
 
+    def test_receiver_holds_early_packets(self):
+        world, sender, receiver = smoky_world(0.5), brume.Sender(), brume.Receiver(hold_ticks=1)
+        packets = []
+        for _ in range(3):
+            world.step()
+            packets.append(sender.push(world))
+        self.assertEqual([receiver.receive(packets[i]) for i in (0, 2, 2, 1)], ["applied", "held", "old", "applied"])
+        self.assertEqual((receiver.state_hash, receiver.behind), (world.state_hash, False))
+        with self.assertRaises(ValueError):
+            brume.Receiver(hold_ticks=65)
+
     def test_another_level_is_refused(self):
         level, world = two_rooms(), smoky_world(0.5)
         self.assertEqual(level.hash, two_rooms().hash)
