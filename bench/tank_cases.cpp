@@ -171,7 +171,7 @@ Result<std::vector<Measurement>> frame_case(Bench& bench, const Picture& picture
     recorder.clear(media, {});
   });
   render::TanksPart tanks(bench.context(), runner, size, render::TanksPart::Over::host);
-  tanks.prepare(frame);
+  tanks.prepare(frame, size);
   Measurement m =
       time_pass(bench, runner, picture.name, {"tank", "tank_layers"}, [&](gpu::Recorder& recorder) {
         recorder.clear(depth, {});
