@@ -68,6 +68,8 @@ typedef struct brume_volume_params {
   /// Device memory for the bricks of a frame [bytes]. A larger frame is shown at half its resolution, or a
   /// quarter, and so on, with a warning in the log. 0: as much as a device can address.
   uint64_t max_bytes;
+  /// 1: the library starts no process: .brv files alone. Errors: BRUME_ERROR_ARGUMENT for others.
+  uint32_t no_processes;
 } brume_volume_params;
 
 /// Returns the defaults: 24 frames per second, no repetition. Set `file`.

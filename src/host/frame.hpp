@@ -22,6 +22,9 @@ inline constexpr std::array kEarlierSizes<brume_renderer_params>{
     std::uint32_t{offsetof(brume_renderer_params, prepare_all)},
     std::uint32_t{offsetof(brume_renderer_params, motion)}};
 template <>
+inline constexpr std::array kEarlierSizes<brume_volume_params>{
+    std::uint32_t{offsetof(brume_volume_params, no_processes)}};
+template <>
 inline constexpr std::array kEarlierSizes<brume_frame_params>{
     std::uint32_t{offsetof(brume_frame_params, part)}};
 

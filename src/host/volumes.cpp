@@ -23,6 +23,8 @@ scene::VolumeOptions to_options(const brume_volume_params& params) {
   scene::VolumeOptions options;
   options.file = text_or_empty(&required(params.file, "file"));
   require(!options.file.empty(), "`file` is empty");
+  require(params.no_processes == 0 || options.file.extension() == ".brv",
+          "`file` must be a .brv file where `no_processes` is 1; brume convert makes one");
   options.density = text_or_empty(params.density);
   options.heat = text_or_empty(params.heat);
   options.color = text_or_empty(params.color);

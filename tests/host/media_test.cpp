@@ -213,6 +213,10 @@ TEST_F(MediaTest, VolumesAreDescribedAndRefused) {
   refused(BRUME_ERROR_ARGUMENT, "file");
   params.file = "/nowhere/cloud.brv";
   refused(BRUME_ERROR_DATA, "/nowhere/cloud.brv");
+  params.no_processes = 1;
+  refused(BRUME_ERROR_DATA, "/nowhere/cloud.brv");
+  params.file = "/nowhere/cloud.vdb";
+  refused(BRUME_ERROR_ARGUMENT, "no_processes");
 }
 
 TEST_F(MediaTest, LooksAreRefusedBeyondTheRangesOfTimelines) {
