@@ -12,7 +12,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kBindDepth) uniform sampler2D depth;
 layout(binding = kBindSmoke) uniform sampler2D smoke;
-layout(scalar, binding = kBindRayEntries) readonly buffer Entries {
+layout(scalar, binding = kBindMotionEntries) readonly buffer Entries {
   uint samples;
   float entries[];  // along the unit ray [m]
 };

@@ -5,7 +5,7 @@
 SHARED_BEGIN
 
 SHARED_BINDING(kBindSmokeMotion, 120u);
-SHARED_BINDING(kBindRayEntries, 121u);
+SHARED_BINDING(kBindMotionEntries, 121u);
 
 struct SmokeMotionParams {
   mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame, without jitter
