@@ -88,7 +88,7 @@ void Renderer::invalidate_level() {
 /// The size of a frame.
 glm::uvec2 Renderer::size_of(const FrameInput& input) const {
   const glm::uvec2 size_px = input.view.size_px;
-  if (size_px == glm::uvec2(0)) return targets_.size_px;
+  if (size_px == glm::uvec2(0) || size_px == targets_.size_px) return targets_.size_px;
   const bool fits = host_ && glm::all(glm::greaterThan(size_px, glm::uvec2(0))) &&
                     glm::all(glm::lessThanEqual(size_px, targets_.size_px));
   if (!fits) throw Error(ErrorCode::bad_input, "a picture must be from 1 x 1 pixels to the renderer's size");

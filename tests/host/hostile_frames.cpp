@@ -445,7 +445,7 @@ void HostileFrames::record() {
   params.continues_previous = below(2);
   params.view = below(BRUME_MAX_VIEWS);
   if (chance(0.3)) params.part = {below(8), below(4), 1 + below(8), 1 + below(5)};
-  if (chance(0.3)) params.frustum = {-within(0, 2), within(0.01, 3), -within(0, 2), within(0.01, 3)};
+  if (chance(0.3)) params.frustum = {-within(0, 2), within(0.01f, 3), -within(0, 2), within(0.01f, 3)};
   params.seconds = within(0, 9);
   spoil(params);
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);

@@ -190,8 +190,9 @@ class FrameInputTest : public VolumeFixture {
 // The bindings below name every field of a struct: one that is added fails to compile here, and needs a row.
 
 TEST_F(FrameInputTest, TheView) {
-  [[maybe_unused]] const auto& [camera, sample, exposure, tone, frame_index, continues] = input_.view;
-  [[maybe_unused]] const auto& [position, target, fov, up, lens, shutter] = camera;
+  [[maybe_unused]] const auto& [camera, number, size, sample, exposure, tone, frame_index, continues] =
+      input_.view;
+  [[maybe_unused]] const auto& [position, target, fov, up, lens, shutter, frustum] = camera;
   [[maybe_unused]] const auto& [aperture, focus, blades, opening] = lens;
   [[maybe_unused]] const auto& [pixel, on_lens, index, count] = sample;
   const auto through_lens = [](FrameInput& input) {
@@ -215,6 +216,15 @@ TEST_F(FrameInputTest, TheView) {
        [](FrameInput& input) { input.view.camera.shutter = 0.5f; },
        {},
        "FrameSamples chooses times by it, of which a frame shows one"},
+      {"camera.frustum",
+       [](FrameInput& input) {
+         input.view.camera.frustum = {-0.5f, 0.7f, -0.4f, 0.4f};
+       }},
+      {"number", [](FrameInput& input) { input.view.number = 2; }, {}, "nothing is accumulated"},
+      {"size_px",
+       [](FrameInput& input) { input.view.size_px = kSize; },
+       {},
+       "only pictures of a host may be smaller"},
       {"sample.pixel",
        [](FrameInput& input) {
          input.view.sample.pixel = {0.4f, -0.3f};
