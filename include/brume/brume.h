@@ -395,8 +395,8 @@ typedef enum brume_hole_shape {
 /// that lies: let it start at least a voxel in front of the wall that a grenade rests at.
 /// Times are in ticks, because smoke spreads from tick to tick.
 typedef struct brume_smoke_event {
-  /// Start of the flight, and a point on its path. Where both are equal, it detonates there.
-  brume_position from, at;
+  brume_position from;  ///< The start of the flight.
+  brume_position at;    ///< A point on its path; equal to `from`, it detonates there.
   /// Amount of smoke, [1, BRUME_MAX_SMOKE_VOXELS]: brume_smoke_voxels(). It reaches as many voxels, and thins
   /// out towards its rim: about three quarters of them show, and their densities add up to about half.
   uint32_t voxels;

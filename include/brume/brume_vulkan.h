@@ -177,8 +177,8 @@ typedef struct brume_light {
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
-  /// Size of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
-  uint32_t width, height;
+  uint32_t width;   ///< Width of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
+  uint32_t height;  ///< Their height, likewise.
   /// Pixels per ray of the march along each axis: 1, 2 or 4. 2 and 4 are faster, and show nothing that 1
   /// hides.
   uint32_t march_scale;
@@ -249,13 +249,18 @@ typedef struct brume_camera {
 /// on. From a projection matrix P in the column convention, which maps the view's x, y and -1 to clip space:
 /// left = (P[2][0] - 1) / P[0][0], right = (P[2][0] + 1) / P[0][0], and likewise with y for the other two.
 typedef struct brume_frustum {
-  float left, right, down, up;
+  float left;   ///< Tangent towards the left side.
+  float right;  ///< The same towards the right side.
+  float down;   ///< The same towards the lower side.
+  float up;     ///< The same towards the upper side.
 } brume_frustum;
 
 /// A part of your images [px].
 typedef struct brume_rectangle {
-  uint32_t x, y;           ///< Its top left corner.
-  uint32_t width, height;  ///< Its size.
+  uint32_t x;       ///< The left column.
+  uint32_t y;       ///< The top row.
+  uint32_t width;   ///< The number of columns.
+  uint32_t height;  ///< The number of rows.
 } brume_rectangle;
 
 /// The depth of the surfaces that you drew with the same camera.

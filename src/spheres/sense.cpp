@@ -42,7 +42,8 @@ std::vector<Sensed> sense(const TankView& view, const Eye& eye) {
   // Axes as planning::device_camera has them.
   const glm::vec3 apart = eye.target_world - eye.position_world;
   const glm::vec3 forward = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
-  const glm::vec3 helper = glm::length(glm::vec2(forward.x, forward.z)) < 1e-3f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+  const bool is_along_up = glm::length(glm::vec2(forward.x, forward.z)) < 1e-3f;
+  const glm::vec3 helper = is_along_up ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);
   const glm::vec2 size(eye.size);
   const float tan_y = std::tan(0.5f * eye.vertical_fov), tan_x = tan_y * size.x / size.y;

@@ -139,7 +139,7 @@ void HostileFrames::renderer_create() {
   spoil(params.march_scale, 0.1);
   if (scales_ == Scales::full && params.march_scale != 1) params.march_scale = 3;
   params.temporal = below(2);
-  params.motion = below(2);
+  params.motion = chance(0.7);
   lights_.assign(below(3), light());
   params.lights = chance(0.05) ? nullptr : lights_.data();
   params.light_count = chance(0.1) ? 1025 + number(9) : lights_.size();

@@ -103,7 +103,7 @@ TEST_F(MotionTest, IsNoneWhereNothingMovesOrContinues) {
       EXPECT_LT(glm::length(glm::dvec2(pixel)), 1e-3);
 }
 
-TEST_F(MotionTest, IsThereOnlyWhereItWasAskedFor) {
+TEST_F(MotionTest, NeedsItsParameter) {
   make({20, 8, 14}, 0.5f);
   draw({1.5f, 1.6f, 3}, {1, 0, 0}, 0);
   VkImage image = VK_NULL_HANDLE;

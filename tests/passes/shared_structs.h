@@ -141,7 +141,8 @@
   X(93, GlowFieldParams) \
   X(94, GlowCell) \
   X(95, EmitterSample) \
-  X(96, EmitterRay)
+  X(96, EmitterRay) \
+  X(97, SmokeMotionParams)
 // clang-format on
 
 #endif
