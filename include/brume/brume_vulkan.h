@@ -177,7 +177,8 @@ typedef struct brume_light {
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
-  uint32_t width;   ///< Width of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
+  uint32_t
+      width;  ///< Width of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
   uint32_t height;  ///< Their height, likewise.
   /// Pixels per ray of the march along each axis: 1, 2 or 4. 2 and 4 are faster, and show nothing that 1
   /// hides.
@@ -265,8 +266,8 @@ typedef struct brume_rectangle {
 
 /// The depth of the surfaces that you drew with the same camera.
 typedef struct brume_depth {
-  /// The depth aspect alone of a 2D image with one sample per pixel and VK_IMAGE_USAGE_SAMPLED_BIT: of a layer
-  /// of an array, a view of that layer; of a multisampled image, what you have resolved.
+  /// The depth aspect alone of a 2D image with one sample per pixel and VK_IMAGE_USAGE_SAMPLED_BIT: of a
+  /// layer of an array, a view of that layer; of a multisampled image, what you have resolved.
   VkImageView view;
   VkImageLayout layout;  ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
   float near_plane;      ///< Near plane [m], (0, 16384). The depth is a perspective projection onto [0, 1].
@@ -286,8 +287,8 @@ typedef enum brume_normal_encoding {
 /// The normals of the surfaces that you drew, for decals.
 typedef struct brume_normals {
   /// An image as large as the depth's, in a format that shaders read as floats. Null: the normals follow from
-  /// planes through the depths of neighbouring pixels, and face the camera. Such a normal also replaces one in
-  /// the image that is 0 or not finite.
+  /// planes through the depths of neighbouring pixels, and face the camera. Such a normal also replaces one
+  /// in the image that is 0 or not finite.
   VkImageView view;
   VkImageLayout layout;    ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
   uint32_t encoding;       ///< A brume_normal_encoding.
@@ -299,9 +300,9 @@ typedef struct brume_normals {
 
 /// Your colour target, over which smoke is blended.
 typedef struct brume_picture {
-  /// A 2D image, or a layer of an array, with one sample per pixel and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, in
-  /// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. Stage: colour attachment output, reads and writes. Null: smoke
-  /// is not blended; read brume_renderer_smoke.
+  /// A 2D image, or a layer of an array, with one sample per pixel and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+  /// in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL. Stage: colour attachment output, reads and writes. Null:
+  /// smoke is not blended; read brume_renderer_smoke.
   VkImageView view;
   VkFormat format;  ///< A format that can be blended, with linear radiance: for example half floats.
   float exposure;   ///< Factor of the smoke's radiance, (0, 10^9).
@@ -398,8 +399,8 @@ typedef struct brume_frame_params {
   /// dynamic resolution. Its size may change in each frame; accumulation goes on. Width and height 0: the
   /// renderer's size, from the top left corner on.
   brume_rectangle part;
-  /// The picture's sides, in the place of camera.vertical_fov and square pixels: an eye of a headset, a tile, a
-  /// portal. All 0: the view axis is in the middle.
+  /// The picture's sides, in the place of camera.vertical_fov and square pixels: an eye of a headset, a tile,
+  /// a portal. All 0: the view axis is in the middle.
   brume_frustum frustum;
   /// Which of the renderer's views this is, [0, BRUME_MAX_VIEWS): an eye of a headset, a part of a split
   /// screen. Record each view of a frame by a call of its own. Views share all light and differ in what
