@@ -177,8 +177,7 @@ typedef struct brume_light {
 typedef struct brume_renderer_params {
   uint32_t struct_size;
   const void* next;
-  uint32_t
-      width;  ///< Width of your pictures [px], [1, 16384]; frames may be smaller (brume_frame_params::part).
+  uint32_t width;   ///< Width of your pictures [px], [1, 16384]; frames may be smaller: see `part`.
   uint32_t height;  ///< Their height, likewise.
   /// Pixels per ray of the march along each axis: 1, 2 or 4. 2 and 4 are faster, and show nothing that 1
   /// hides.
