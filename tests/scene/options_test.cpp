@@ -13,6 +13,7 @@
 #include "scene/event_fields.hpp"
 #include "scene/tank_options.hpp"
 #include "scene/tank_scene.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::scene {
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/event_fields.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::scene {
 

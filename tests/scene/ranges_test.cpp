@@ -12,6 +12,8 @@
 #include "core/file.hpp"
 #include "scene/event_fields.hpp"
 #include "scene/tank_options.hpp"
+#include "scene/tank_scene.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::scene {
 namespace {

@@ -9,6 +9,8 @@
 #include "scenario/walker.hpp"
 #include "scene/event_fields.hpp"
 #include "scene/tank_options.hpp"
+#include "scene/tank_scene.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::viewer {
 namespace {
