@@ -26,7 +26,6 @@ SurfaceImport::SurfaceImport(gpu::Context& context)
 
 void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostPart& part,
                            const HostDepthRange& range, float near_z, const GBuffer& target) const {
-  recorder.clear(target.emission, {});
   record(recorder, host_depth, params_of(range, near_z, part), target.depth);
 }
 

@@ -18,7 +18,10 @@ void HostSurfacesPart::reserve_shadows(glm::uvec2 size_px) {
 }
 
 void HostSurfacesPart::record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                                    const HostSurfaces& surfaces) const {
+                                    const HostSurfaces& surfaces) {
+  bool& has_no_emission = recorder.change(has_no_emission_);
+  if (!has_no_emission) recorder.clear(in.targets.gbuffer.emission, {});
+  has_no_emission = true;
   import_pass_.record(recorder, surfaces.depth, {surfaces.origin_px, plan.size_px}, surfaces.range,
                       plan.camera.near_z, in.targets.gbuffer);
 }

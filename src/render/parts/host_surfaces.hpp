@@ -23,7 +23,10 @@ class HostSurfacesPart {
       : context_(context), import_pass_(context), layer_pass_(context) {}
 
   /// Frames of another size. When the device is done with what was recorded before.
-  void resize() { shadows_ = {}; }
+  void resize() {
+    shadows_ = {};
+    has_no_emission_.change(context_) = false;
+  }
   // Make room, outside of a recording; throw resource_limit.
   void reserve_normals(Targets& targets);
   void reserve_shadows(glm::uvec2 size_px);
@@ -32,7 +35,7 @@ class HostSurfacesPart {
 
   /// The depth of the surfaces, in the place of a G-buffer.
   void record_depth(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-                    const HostSurfaces& surfaces) const;
+                    const HostSurfaces& surfaces);
   void record_normals(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                       const HostSurfaces& surfaces) const;
   /// The media's shadows on the surfaces, of up to four `lights`: the scene's by their place in it, then
@@ -53,6 +56,7 @@ class HostSurfacesPart {
   std::optional<passes::SurfaceShadowPass> shadow_pass_;  ///< From the first frame that asks for shadows on.
   passes::MediaLayerPass layer_pass_;
   gpu::Image shadows_;
+  gpu::Recorded<bool> has_no_emission_;  ///< The G-buffer's emission is 0: frames of a host never change it.
 };
 
 }  // namespace brume::render
