@@ -395,8 +395,8 @@ typedef struct brume_frame_params {
   size_t tank_count;                  ///< Number of `tanks`.
   brume_quality quality;              ///< Savings of this frame.
   /// The part of depth, normals and picture that this frame covers, up to the renderer's size: split screens,
-  /// dynamic resolution. Its size may change in each frame; accumulation goes on. Width and height 0: the
-  /// renderer's size, from the top left corner on.
+  /// dynamic resolution. Its size may change in each frame; accumulation goes on. All 0: the renderer's
+  /// size, from the top left corner on.
   brume_rectangle part;
   /// The picture's sides, in the place of camera.vertical_fov and square pixels: an eye of a headset, a tile,
   /// a portal. All 0: the view axis is in the middle.

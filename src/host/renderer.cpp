@@ -84,7 +84,8 @@ void check_frame(const brume_renderer& renderer, const brume_field* field, const
   require((part.width == 0 && part.height == 0) ||
               (part.width >= 1 && part.width <= most.x && part.height >= 1 && part.height <= most.y),
           "`part` must be at least 1 pixel wide and high, and at most as large as the renderer");
-  require(part.x <= kMostPixels && part.y <= kMostPixels, "`part` must begin within 16384 pixels");
+  require(part.x <= kMostPixels && part.y <= kMostPixels && (part.width > 0 || (part.x == 0 && part.y == 0)),
+          "`part` must begin within 16384 pixels, and at 0, 0 without a size");
   if (params.picture.view == VK_NULL_HANDLE) return;
   require(can_blend(renderer.device->context, params.picture.format),
           "`picture.format` must be one that the device can blend");

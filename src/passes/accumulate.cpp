@@ -11,7 +11,8 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
       pipeline_(context, shaders::accumulate_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}) {
-  const gpu::ImageInfo info = gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
+  const gpu::ImageInfo info =
+      gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   const VkDeviceSize bytes = VkDeviceSize{sizeof(shared::AccumulatedPixel)} * size_px.x * size_px.y;
   for (std::size_t i = 0; i < 2; ++i) {
     smoke_[i] = gpu::Image(context, info);
@@ -23,6 +24,9 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                             glm::uvec2 size_px, const gpu::Image& depth, const gpu::Image& smoke,
                             bool continues) {
   Past& past = recorder.change(past_);
+  // Filters read beside a frame, with weights of 0.
+  if (!past.is_clear)
+    for (const gpu::Image& image : smoke_) recorder.clear(image, {});
   const std::size_t before = past.current, now = 1 - before;
   const shared::AccumulateParams params{past.clip_from_world, past.size_px,
                                         continues && past.is_valid ? 1u : 0u};
@@ -38,7 +42,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                 },
                 params);
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
-  past = {now, true, camera.clip_from_world, size_px};
+  past = {now, true, camera.clip_from_world, size_px, true};
 }
 
 }  // namespace brume::passes

@@ -32,6 +32,7 @@ class AccumulatePass {
     bool is_valid = false;
     glm::mat4 clip_from_world{1};
     glm::uvec2 size_px{1};
+    bool is_clear = false;  ///< The images hold numbers, also beside frames that are smaller.
   };
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;

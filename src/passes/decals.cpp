@@ -12,7 +12,8 @@ DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
       linear_(context, {}),
       decals_(context, shared::kMaxDecals * sizeof(shared::Decal),
               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
-  const gpu::ImageInfo info = gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
+  const gpu::ImageInfo info =
+      gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   for (gpu::Image& image : occlusion_) image = gpu::Image(context, info);
 }
 
@@ -26,6 +27,9 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                        glm::uvec2 size_px, const GBuffer& gbuffer, const gpu::Image& blue_noise,
                        const gpu::Image& slices, bool continues) {
   Past& past = recorder.change(past_);
+  // Filters read beside a frame, with weights of 0.
+  if (!past.is_clear)
+    for (const gpu::Image& image : occlusion_) recorder.clear(image, {});
   const std::size_t before = past.current, now = 1 - before;
   const shared::DecalParams params{past.clip_from_world, past.size_px, continues ? past.frames : 0,
                                    decal_count_};
@@ -42,7 +46,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                 },
                 params);
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
-  past = {now, params.past_frames + 1, camera.clip_from_world, size_px};
+  past = {now, params.past_frames + 1, camera.clip_from_world, size_px, true};
 }
 
 }  // namespace brume::passes

@@ -35,6 +35,7 @@ class DecalPass {
     std::uint32_t frames = 0;  ///< In a row, up to the last record.
     glm::mat4 clip_from_world{1};
     glm::uvec2 size_px{1};
+    bool is_clear = false;  ///< The images hold numbers, also beside frames that are smaller.
   };
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;

@@ -100,7 +100,7 @@ class PartsTest : public YardTest {
       params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
       params.seconds = 160 / 64.0;
       params.jitter_index = jitter;
-      params.continues_previous = 1;
+      params.continues_previous = continues_ ? 1 : 0;
       for (const Part& part : parts) {
         params.part = part.part;
         params.frustum = part.frustum;
@@ -132,6 +132,7 @@ class PartsTest : public YardTest {
   }
 
   gpu::Image picture_;
+  bool continues_ = true;
 };
 
 // Tiles are as large as that of the blue noise, so that their rays are the same.
@@ -208,6 +209,7 @@ TEST_F(PartsTest, RefusesPartsAndFrustaThatAreNone) {
     refused("part", [](auto& p) { p.part = {0, 0, kWhole.x + 1, 1}; });
     refused("part", [](auto& p) { p.part = {0, 0, 5, 0}; });
     refused("part", [](auto& p) { p.part = {0, 20000, 5, 5}; });
+    refused("part", [](auto& p) { p.part = {10, 10, 0, 0}; });
     refused("camera.up", [](auto& p) { p.camera.up = {0, 0, 2}; });
     refused("view", [](auto& p) { p.view = BRUME_MAX_VIEWS; });
     refused("frustum.left", [](auto& p) { p.frustum = {1, -1, -1, 1}; });
@@ -232,6 +234,8 @@ class DynamicPartsTest : public PartsTest {
  protected:
   DynamicPartsTest() : PartsTest(true) {
     replacements_.push_back(BRUME_INTERPOSED(CountPipelines, CreateComputePipelines));
+    memory_.unmap_to_fill = reinterpret_cast<PFN_vkUnmapMemory>(
+        host_.device().get_instance_proc_addr(host_.device().instance, "vkUnmapMemory"));
   }
 };
 
@@ -258,6 +262,24 @@ TEST_F(DynamicPartsTest, ThirteenSizesInThirteenFrames) {
   draw_part({0, 0, 100, 90}, kWide, 20);
   EXPECT_EQ(starts, picture());
   EXPECT_NE(starts, goes_on);
+}
+
+// Whatever the memory held in which the images are: no filter reads beside a part what was never written.
+TEST_F(DynamicPartsTest, WhatLiesBesideAPartDoesNotMatter) {
+  const brume_frustum in_smoke{-0.3f, 0.3f, -0.3f, 0.3f};
+  const auto last_of = [&] {
+    for (const std::uint32_t size : {90u, 90u, 77u, 100u, 100u}) {
+      draw_part({0, 0, size, size - 9}, in_smoke, size);
+      continues_ = true;
+    }
+    return picture();
+  };
+  const Pixels first = last_of();
+  continues_ = false;
+  for (std::uint32_t i = 0; i < 2; ++i) draw_part({}, in_smoke, i);
+  (void)picture();
+  continues_ = false;
+  EXPECT_LE(apart(first, last_of(), {0, 0, kWhole.x, kWhole.y}), 1 / 255.0);
 }
 
 // Two views of one renderer, in one frame, are those of two renderers, and take the memory of what

@@ -2,6 +2,7 @@
 // device's memory comes from the host.
 #pragma once
 
+#include <cstring>
 #include <map>
 #include <mutex>
 
@@ -36,6 +37,8 @@ struct HostMemory {
   std::map<VkDeviceMemory, VkDeviceSize> blocks;
   VkDeviceSize bytes = 0;
   int allocations = 0;
+  /// Fills new memory with bytes that are no numbers as half floats.
+  PFN_vkUnmapMemory unmap_to_fill = nullptr;
 
   static VkResult allocate(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) {
     auto& own = *static_cast<HostMemory*>(user);
@@ -45,6 +48,12 @@ struct HostMemory {
     own.blocks[*memory] = info->allocationSize;
     own.bytes += info->allocationSize;
     ++own.allocations;
+    void* bytes = nullptr;
+    if (own.unmap_to_fill &&
+        own.vk.MapMemory(own.device, *memory, 0, VK_WHOLE_SIZE, 0, &bytes) == VK_SUCCESS) {
+      std::memset(bytes, 0xff, info->allocationSize);
+      own.unmap_to_fill(own.device, *memory);
+    }
     return result;
   }
   static void free(void* user, VkDeviceMemory memory, VkDeviceSize size) {
