@@ -283,9 +283,9 @@ BRUME_API brume_result brume_level_destroy(brume_level* level) BRUME_NOEXCEPT;
 BRUME_API brume_result brume_level_layout(const brume_level* level, brume_layout* layout) BRUME_NOEXCEPT;
 /// Writes the hash of the level as loaded, without the edits of any world: its layout, what each voxel stops,
 /// and the surfaces at which smoke ends. Levels of one hash give the same smoke and the same lines of sight
-/// on every machine. States and packets carry the hash, and calls that would combine two levels fail with
-/// BRUME_ERROR_MISMATCH. It is computed once, when a level is created: some 60 ns for
-/// each brick of 8^3 voxels with a wall.
+/// on every machine. Give all machines the same triangles in the same order and winding. States and packets
+/// carry the hash, and calls that would combine two levels fail with BRUME_ERROR_MISMATCH. It is computed
+/// once, when a level is created: some 60 ns for each brick of 8^3 voxels with a wall.
 BRUME_API brume_result brume_level_hash(const brume_level* level, uint64_t* hash) BRUME_NOEXCEPT;
 /// Writes 1 for each voxel of the box [low, high) that is a wall or glass in the level as loaded, without the
 /// edits of any world, else 0; x fastest, then y, then z. The box must lie in the level and contain a voxel;
@@ -539,8 +539,9 @@ BRUME_API brume_result brume_world_earliest_tick(const brume_world* world, uint3
 /// Drops the history before `tick`, and refuses late input exactly from there on: an event before `tick` is
 /// BRUME_ERROR_HISTORY, one of `tick` or later is accepted, also in a match in which nothing has happened.
 /// `tick` becomes the earliest tick; if it is after the present one, events before it are refused as well,
-/// and the present tick becomes the earliest. A lower tick than before changes nothing. Call it every tick:
-/// without it, memory grows with the length of the match. The call is cheap.
+/// and the present tick becomes the earliest. A lower tick than before changes nothing;
+/// brume_world_restore begins a new history without a limit. Call it every tick: without it, memory grows
+/// with the length of the match. The call is cheap.
 BRUME_API brume_result brume_world_forget_before(brume_world* world, uint32_t tick) BRUME_NOEXCEPT;
 /// Writes the hash of the present state, its level included. Equal states have equal hashes on every machine;
 /// at tick 0, equal hashes show that worlds have the same level, tick rate and masks.

@@ -495,8 +495,9 @@ typedef struct brume_timing {
   double milliseconds;  ///< Its time on the device [ms].
 } brume_timing;
 
-/// Writes the times of the newest frame that the device had completed when the last frame was recorded. No
-/// times before that, without brume_renderer_params::timings, and where the queue family has no timestamps
+/// Writes the times of the newest frame that the device had completed when the last frame was recorded; where
+/// that had several views, the times of one of them. No times before that, without
+/// brume_renderer_params::timings, and where the queue family has no timestamps
 /// (VkQueueFamilyProperties::timestampValidBits is 0).
 BRUME_API brume_result brume_renderer_timings(const brume_renderer* renderer, brume_timing* timings,
                                               size_t capacity, size_t* count) BRUME_NOEXCEPT;
