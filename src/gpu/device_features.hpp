@@ -59,9 +59,9 @@ struct FeatureStructs {
   std::array<Single, 8> singles;
 };
 
-/// Sets the required features in a chain. Structs that it lacks are appended, in `structs`: those of single
-/// features, which fit the struct of any other feature, but not the one of their own version of Vulkan. Fails
-/// as first_missing; the chain is then unchanged.
+/// Sets the required features in a chain. For each feature that no struct of the chain has, appends the
+/// struct of that feature alone, which lies in `structs`: Vulkan allows it beside all structs but the one of
+/// its version, which would have the feature. Fails as first_missing; the chain is then unchanged.
 Result<void> merge_features(void* chain, FeatureStructs& structs);
 
 }  // namespace brume::gpu

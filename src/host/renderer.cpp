@@ -182,6 +182,26 @@ brume_timing timing_of(const gpu::Timings::Scope& scope) {
   return timing;
 }
 
+/// Where a host wants to have an image of a renderer; null: not.
+struct ImageOut {
+  VkImage* image;
+  VkImageView* view;
+};
+/// Writes the image that `find` finds in a renderer after its first frame began; where it is null, fails.
+template <typename Find>
+brume_result write_image(const char* function, const brume_renderer* renderer, const ImageOut& out,
+                         const char* missing, Find find) {
+  return Call(function).run([&](Call& call) {
+    const brume_renderer& object = call.handle(renderer);
+    call.read(object, [&] {
+      const gpu::Image* const found = object.renderer ? find(*object.renderer) : nullptr;
+      if (!found) fail(BRUME_ERROR_ORDER, missing);
+      if (out.image) *out.image = found->handle();
+      if (out.view) *out.view = found->view();
+    });
+  });
+}
+
 }  // namespace
 }  // namespace brume::host
 
@@ -259,15 +279,9 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
 
 brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                   VkImageView* view) BRUME_NOEXCEPT {
-  return Call(__func__).run([&](Call& call) {
-    const brume_renderer& object = call.handle(renderer);
-    call.read(object, [&] {
-      if (!object.renderer || !object.renderer->has_frame())
-        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      if (image) *image = object.renderer->layers().handle();
-      if (view) *view = object.renderer->layers().view();
-    });
-  });
+  return brume::host::write_image(
+      __func__, renderer, {image, view}, "a frame must be recorded first",
+      [](const auto& from) { return from.has_frame() ? &from.layers() : nullptr; });
 }
 
 brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
@@ -286,42 +300,23 @@ brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t*
 
 brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* image,
                                     VkImageView* view) BRUME_NOEXCEPT {
-  return Call(__func__).run([&](Call& call) {
-    const brume_renderer& object = call.handle(renderer);
-    call.read(object, [&] {
-      const brume::gpu::Image* shadows = object.renderer ? object.renderer->shadows() : nullptr;
-      if (!shadows) fail(BRUME_ERROR_ORDER, "a frame with `shadow_lights` must be recorded first");
-      if (image) *image = shadows->handle();
-      if (view) *view = shadows->view();
-    });
-  });
+  return brume::host::write_image(__func__, renderer, {image, view},
+                                  "a frame with `shadow_lights` must be recorded first",
+                                  [](const auto& from) { return from.shadows(); });
 }
 
 brume_result brume_renderer_motion(const brume_renderer* renderer, VkImage* image,
                                    VkImageView* view) BRUME_NOEXCEPT {
-  return Call(__func__).run([&](Call& call) {
-    const brume_renderer& object = call.handle(renderer);
-    call.read(object, [&] {
-      if (!object.options.motion) fail(BRUME_ERROR_ORDER, "the renderer was created without `motion`");
-      if (!object.renderer || !object.renderer->has_frame())
-        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
-      if (image) *image = object.renderer->motion()->handle();
-      if (view) *view = object.renderer->motion()->view();
-    });
-  });
+  return brume::host::write_image(
+      __func__, renderer, {image, view}, "a renderer with `motion` must record a frame first",
+      [](const auto& from) { return from.has_frame() ? from.motion() : nullptr; });
 }
 
 brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,
                                       VkImageView* view) BRUME_NOEXCEPT {
-  return Call(__func__).run([&](Call& call) {
-    const brume_renderer& object = call.handle(renderer);
-    call.read(object, [&] {
-      const brume::gpu::Image* occlusion = object.renderer ? object.renderer->occlusion() : nullptr;
-      if (!occlusion) fail(BRUME_ERROR_ORDER, "a frame with `decals` must be recorded first");
-      if (image) *image = occlusion->handle();
-      if (view) *view = occlusion->view();
-    });
-  });
+  return brume::host::write_image(__func__, renderer, {image, view},
+                                  "a frame with `decals` must be recorded first",
+                                  [](const auto& from) { return from.occlusion(); });
 }
 
 brume_result brume_renderer_timings(const brume_renderer* renderer, brume_timing* timings, size_t capacity,

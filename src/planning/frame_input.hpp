@@ -52,14 +52,15 @@ struct View {
   scene::Camera camera;
   /// Which of the renderer's views this is, below kMaxViews: each continues its own film.
   std::uint32_t number = 0;
-  /// Size of the picture [px], up to that of the renderer's images, which have it in their top left corner;
-  /// 0: as large as they are. Only for pictures of a host.
+  /// Size of the picture [px], at most the renderer's size; the renderer's images hold it in their top left
+  /// corner. 0: the renderer's size. Only pictures of a host may be smaller.
   glm::uvec2 size_px{0};
   ViewSample sample = {};
   float exposure = 1;  ///< Multiplies radiance before the tone curve; > 0.
   scene::ToneCurve tone = scene::ToneCurve::neutral;
   std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal images.
-  /// The next frame of the view's film: a renderer that accumulates smoke over frames goes on from the frames before.
+  /// The next frame of the view's film: a renderer that accumulates smoke over frames goes on from the frames
+  /// before.
   bool continues = false;
 };
 

@@ -19,7 +19,7 @@ struct CloudRecipe {
   /// The cloud that flows at `tick`; null: a new one detonates then.
   std::shared_ptr<const Cloud> before;
   std::uint32_t tick = 0;
-  std::shared_ptr<const EditBlocks> edits;  ///< Edits of the level, those of `tick` included; null: none.
+  std::shared_ptr<const EditBlocks> edits;  ///< Edits of the level up to and with `tick`; null: none.
 };
 
 class MadeClouds {

@@ -1,4 +1,4 @@
-// The code of docs/guides/views.md: positions and directions of engines as those of Brume.
+// The code of docs/guides/views.md, which converts positions and directions of engines.
 #pragma once
 
 #include <brume/brume.h>

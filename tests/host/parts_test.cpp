@@ -135,7 +135,7 @@ class PartsTest : public YardTest {
   bool continues_ = true;
 };
 
-// Tiles are as large as that of the blue noise, so that their rays are the same.
+// Tiles are as large as the tile of blue noise, so that rays have the same jitter as in the whole picture.
 TEST_F(PartsTest, FourTilesAreTheWholePicture) {
   for (const std::uint32_t scale : {1u, 2u}) {
     ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));

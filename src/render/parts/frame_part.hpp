@@ -1,8 +1,8 @@
 // What the parts of a frame share.
 //
 // A part is one thing that a frame shows: the level, the smoke, the volumes, the rays through all media,
-// slices of volumes, decals, particles, tanks, the surfaces of a host, the picture. It has those of these
-// functions that it needs; they are called in this order:
+// slices of volumes, decals, particles, tanks, the surfaces of a host, motion, the picture. It has what
+// it needs of these functions, which are called in this order:
 //
 // - prepare(input) uploads what the plan depends on.
 // - reserve(plan) makes room. Nothing is recorded yet; both may throw resource_limit.

@@ -12,13 +12,13 @@ namespace brume::render {
 
 class LevelPart {
  public:
-  /// Whose surfaces a frame shows: the scene's, or those of a host, for which record_gbuffer is not called.
+  /// Whose surfaces a frame shows: the scene's or a host's. With a host's, record_gbuffer is not called.
   enum class Surfaces { of_scene, of_host };
   /// Uploads the scene and draws its shadows. All three must outlive the part. Throws resource_limit.
   LevelPart(gpu::Context& context, gpu::CommandStream& stream, const scene::Scene& scene, Surfaces surfaces);
 
-  /// Other lights in the place of the scene's; the next `reserve` draws their shadows. Outside of a recording,
-  /// when the device is done with the frame before. Throws resource_limit.
+  /// Other lights in the place of the scene's; the next `reserve` draws their shadows. Outside of a
+  /// recording, when the device is done with the frame before. Throws resource_limit.
   void set_lights(const std::vector<scene::Light>& lights);
   /// Compiles what frames of indirect light in smoke need.
   void prepare();
