@@ -175,6 +175,7 @@ void ResidentSmoke::restart(const smoke::SmokeVolume& source, int level, glm::iv
   const shared::VolumeLayout& layout = source.layout();
   held_ = empty_volume(layout.origin_world, layout.voxel_size * static_cast<float>(1 << level), atlas);
   level_ = level;
+  updating_ = false;
   last_frame_.clear();
   source_id_ = source.volume().id();
   source_revision_ = source.revision();
@@ -296,7 +297,6 @@ void ResidentSmoke::end() {
   source_revision_ = source_->revision();
   source_generation_ = source_->structure_generation();
   if (!updating_) return;
-  updating_ = false;
   const float scale = 1.0f / static_cast<float>(1 << level_);
   held_.set_bounds(scale * source_->layout().bounds_min, scale * source_->layout().bounds_max);
   const std::uint64_t structure = held_.structure_generation();
@@ -306,6 +306,7 @@ void ResidentSmoke::end() {
   std::sort(dirty_cell_slots_.begin(), dirty_cell_slots_.end());
   dirty_cell_slots_.erase(std::unique(dirty_cell_slots_.begin(), dirty_cell_slots_.end()),
                           dirty_cell_slots_.end());
+  updating_ = false;
 }
 
 SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibility& visible,
@@ -319,7 +320,8 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
   is_missing_ = wanted.is_limited;
   wanted_count_ = static_cast<std::uint32_t>(wanted.bricks.size());
   const std::uint64_t generation = generation_;
-  if (source_->volume().id() != source_id_ || level != level_ ||
+  const bool was_interrupted = updating_;  // Memory ran out halfway through an update.
+  if (was_interrupted || source_->volume().id() != source_id_ || level != level_ ||
       room_of(held_.layout().bricks.atlas_bricks) > request.most_bricks)
     restart(*source_, level,
             room_of(request.atlas_bricks) > request.most_bricks ? volume::grown_atlas({}, request.most_bricks)

@@ -39,8 +39,9 @@ std::span<const VolumeTables> VolumeTableCache::update(std::span<const VolumeInp
     if (transfer.empty()) {
       tables.transfer = nullptr;
     } else if (!tables.transfer || source.albedo != albedo || source.transfer != transfer) {
+      TransferInput own = transfer;
       tables.transfer = std::make_shared<TransferTable>(transfer_table(transfer, albedo));
-      source.transfer = transfer;
+      source.transfer = std::move(own);
       source.albedo = albedo;
     }
   }

@@ -104,16 +104,16 @@ void SparseVolume::release(std::uint32_t slot) {
 }
 
 void SparseVolume::resize(std::size_t slot_count) {
-  slots_.resize(slot_count);
-  dirty_bricks_.resize(slot_count);
+  // Slots come last: where memory runs out, none lacks its texels.
   for (Channel& channel : channels_) {
-    const std::size_t had = channel.texels.size();
+    while (channel.texels.size() < slot_count)
+      channel.texels.push_back(std::make_unique<std::byte[]>(std::size_t{channel.format.bytes_per_texel} *
+                                                             shared::kTexelsPerBrick));
     channel.texels.resize(slot_count);
-    for (std::size_t slot = had; slot < slot_count; ++slot)
-      channel.texels[slot] = std::make_unique<std::byte[]>(std::size_t{channel.format.bytes_per_texel} *
-                                                           shared::kTexelsPerBrick);
     channel.dirty.resize(slot_count);
   }
+  dirty_bricks_.resize(slot_count);
+  slots_.resize(slot_count);
 }
 
 /// Marks that the slot changed hands.

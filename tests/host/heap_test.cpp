@@ -5,7 +5,7 @@
 #include <ctime>
 #include <vector>
 
-#include "tests/host/heap.hpp"
+#include "tests/heap.hpp"
 #include "tests/host/yard.hpp"
 #include "tests/thorough.hpp"
 

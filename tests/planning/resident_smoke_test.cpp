@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "tests/heap.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/worlds.hpp"
 
@@ -111,6 +112,31 @@ TEST_F(ResidentSmokeTest, HoldsWhatIsRequiredAsItIs) {
     EXPECT_FALSE(held_.is_limited());
     EXPECT_EQ(held_.level(), 0);
   }
+}
+
+TEST_F(ResidentSmokeTest, AnyAllocationOfAnUpdateMayFail) {
+  int failures = 0;
+  for (std::uint32_t tick = 60; tick < (kSanitized ? 100u : 160u); ++tick) {
+    world_.advance_to(tick);
+    const SmokeVisibility own = visible();
+    SmokeVisibility seen;
+    for (int fails_at = 1 + static_cast<int>(random_() % 40);; fails_at = 0) {
+      Heap::allocations = 0;
+      Heap::fails_at = fails_at;
+      Heap::counts = true;
+      try {
+        seen = held_.update({.volume = volume_, .eye_world = eye_}, own);
+        Heap::counts = false;
+        break;
+      } catch (const std::bad_alloc&) {
+        Heap::counts = false;
+        ++failures;
+      }
+    }
+    expect_same(own, seen);
+    ASSERT_FALSE(HasFailure()) << tick;
+  }
+  EXPECT_GT(failures, 10);
 }
 
 TEST_F(ResidentSmokeTest, HoldsNothingOfWhatIsOutOfView) {
