@@ -74,9 +74,11 @@ typedef struct brume_renderer brume_renderer;
 
 // ---- Device ----
 
-/// Returns a constant chain for VkDeviceCreateInfo::pNext, which begins with a VkPhysicalDeviceFeatures2: the
-/// features that your device must enable. The device must also support Vulkan 1.3, and subgroup vote,
-/// arithmetic and ballot in compute shaders. It needs no extension. Never fails.
+/// Returns a constant chain for VkDeviceCreateInfo::pNext, which begins with a VkPhysicalDeviceFeatures2: all
+/// features that Brume uses of a device of Vulkan 1.3. A device of Vulkan 1.2 with scalarBlockLayout and
+/// shaderStorageImageExtendedFormats is enough, if you give brume_device_params::enabled_features: render
+/// passes and barriers of Vulkan 1.0 then draw the same pictures. Each device must support subgroup vote,
+/// arithmetic and ballot in compute shaders. None needs an extension. Never fails.
 BRUME_API const void* brume_vulkan_features(void) BRUME_NOEXCEPT;
 
 /// Memory of the structs that brume_vulkan_merge_features appends.
@@ -99,7 +101,7 @@ typedef struct brume_device_params {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr;  ///< The function that returns all others.
   VkInstance instance;                               ///< Your instance.
   VkPhysicalDevice physical_device;                  ///< The physical device of `device`.
-  VkDevice device;                                   ///< Your device, with brume_vulkan_features().
+  VkDevice device;                                   ///< Your device.
   uint32_t queue_family;  ///< The family of your command buffers, with graphics and compute.
   /// Passed to the two functions below, with which you allocate the device's memory yourself. Set both or
   /// neither; null: vkAllocateMemory and vkFreeMemory. They are called within functions of the device and its
@@ -110,8 +112,9 @@ typedef struct brume_device_params {
   /// Frees memory that `allocate_memory` returned.
   void (*free_memory)(void* memory_user, VkDeviceMemory memory, VkDeviceSize size);
   /// The chain of VkDeviceCreateInfo::pNext with which you created `device`, with a
-  /// VkPhysicalDeviceFeatures2: brume_device_create then checks that it enables all features. Null: what you
-  /// enabled is not checked.
+  /// VkPhysicalDeviceFeatures2: brume_device_create then checks that it enables what Brume needs, and does
+  /// without what else it lacks. Null: nothing is checked, and you enabled all of brume_vulkan_features that
+  /// the physical device supports.
   const void* enabled_features;
   /// Your cache for pipelines, which must outlive the brume_device; null: none. It is used while calls
   /// compile, also in their threads, so create it without

@@ -35,14 +35,21 @@ class CommandList {
     (last_ ? last_->next : first_) = node;
     last_ = node;
   }
+  /// Zeros, to be set, for commands that point to them.
+  template <typename T>
+  std::span<T> room(std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (count == 0) return {};
+    auto* const own = static_cast<T*>(memory_.allocate(count * sizeof(T), alignof(T)));
+    std::uninitialized_value_construct_n(own, count);
+    return {own, count};
+  }
   /// A copy of values, for commands that point to them.
   template <typename T>
   std::span<const T> kept(std::span<const T> values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (values.empty()) return {};
-    auto* const own = static_cast<T*>(memory_.allocate(values.size_bytes(), alignof(T)));
-    std::uninitialized_copy(values.begin(), values.end(), own);
-    return {own, values.size()};
+    const std::span<T> own = room<T>(values.size());
+    std::ranges::copy(values, own.begin());
+    return own;
   }
   /// Where the list ends at present.
   class End;

@@ -47,13 +47,19 @@ void check_queue_family(const Functions& vk, const HostDevice& host) {
   throw Error(ErrorCode::usage, family + " lacks " + lacks + "; choose one with graphics and compute");
 }
 
-/// Throws when the host created its device without a feature.
-void check_enabled_features(const void* chain) {
-  const auto missing = first_missing(chain);
+/// Throws when the host created its device without a feature that it needs.
+OptionalFeatures enabled_features(const Functions& vk, const HostDevice& host) {
+  if (!host.enabled_features) {
+    DeviceFeatures supported(VK_FALSE);
+    vk.GetPhysicalDeviceFeatures2(host.physical_device, &supported.features);
+    return *optional_features_of(supported.chain());
+  }
+  const auto missing = first_missing(host.enabled_features, required_features());
   if (!missing) throw Error(ErrorCode::usage, "`enabled_features`: " + missing.failure().message);
   if (*missing)
     throw Error(ErrorCode::no_device,
                 std::string("the device was created without ") + (*missing)->name + "; enable it");
+  return *optional_features_of(host.enabled_features);
 }
 
 }  // namespace
@@ -72,7 +78,7 @@ Context::Context(const ContextOptions& options)
 Context::Context(const HostDevice& host, Context* pipelines_of)
     : device_(host.device), queue_family_(host.queue_family) {
   vk_.load_instance(host.get_instance_proc_addr, host.instance);
-  for (const DeviceInfo& device : list_devices(vk_, host.instance)) {
+  for (const DeviceInfo& device : list_devices(vk_, host.instance, host_needs())) {
     if (device.handle == host.physical_device) info_ = device;
   }
   if (!info_.handle)
@@ -80,9 +86,10 @@ Context::Context(const HostDevice& host, Context* pipelines_of)
   if (!info_.unsupported.empty())
     throw Error(ErrorCode::no_device, "the device " + info_.name + " cannot be used: " + info_.unsupported);
   check_queue_family(vk_, host);
-  if (host.enabled_features) check_enabled_features(host.enabled_features);
-  vk_.load_device(device_);
+  const OptionalFeatures optional = enabled_features(vk_, host);
+  vk_.load_device(device_, optional);
   read_properties();
+  if (!optional.sampler_anisotropy) tuning_.surface_anisotropy = 1;
   // What a host is short of comes and goes in smaller blocks.
   memory_ = std::make_unique<Memory>(
       vk_, info_.handle, device_,
@@ -152,6 +159,7 @@ Context::~Context() {
 }
 
 void Context::destroy(const Retired& handles) noexcept {
+  vk_.DestroyFramebuffer(device_, handles.framebuffer, nullptr);
   vk_.DestroyDescriptorPool(device_, handles.descriptors, nullptr);
   vk_.DestroyQueryPool(device_, handles.queries, nullptr);
   vk_.DestroySampler(device_, handles.sampler, nullptr);
@@ -215,23 +223,24 @@ void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
 
 void Context::submit(VkCommandBuffer commands, const WindowSemaphores& window) {
   BRUME_ASSERT(owns_device(), "a host submits its own command buffers");
-  const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
-  const auto semaphore = [](VkSemaphore handle, std::uint64_t value, VkPipelineStageFlags2 stages) {
-    return VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle, value, stages, 0};
-  };
-  const VkSemaphoreSubmitInfo wait = semaphore(window.wait, 0, VK_PIPELINE_STAGE_2_BLIT_BIT);
-  const VkSemaphoreSubmitInfo signals[] = {
-      semaphore(done_, ++submitted_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT),
-      semaphore(window.signal, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT)};
-  VkSubmitInfo2 submit{};
-  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-  submit.waitSemaphoreInfoCount = window.wait ? 1 : 0;
-  submit.pWaitSemaphoreInfos = &wait;
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &buffer;
-  submit.signalSemaphoreInfoCount = window.signal ? 2 : 1;
-  submit.pSignalSemaphoreInfos = signals;
-  check(vk_.QueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+  // The values of the timeline; binary semaphores have none.
+  const std::uint64_t values[] = {++submitted_, 0};
+  const VkSemaphore signals[] = {done_, window.signal};
+  const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+  VkTimelineSemaphoreSubmitInfo timeline{};
+  timeline.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+  VkSubmitInfo submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  submit.pNext = &timeline;
+  submit.waitSemaphoreCount = window.wait ? 1 : 0;
+  submit.pWaitSemaphores = &window.wait;
+  submit.pWaitDstStageMask = &wait_stage;
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands;
+  submit.signalSemaphoreCount = timeline.signalSemaphoreValueCount = window.signal ? 2 : 1;
+  submit.pSignalSemaphores = signals;
+  timeline.pSignalSemaphoreValues = values;
+  check(vk_.QueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
 }
 
 void Context::wait() {

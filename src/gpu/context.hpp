@@ -31,7 +31,7 @@ struct ContextOptions {
   Presentation presentation{};  ///< Without extensions: no windows.
 };
 
-/// Handles lent by a host, which must outlive the Context. The device must support Vulkan 1.3 and have the
+/// Handles lent by a host, which must outlive the Context. The device must support Vulkan 1.2 and have the
 /// required_features() enabled.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -40,7 +40,8 @@ struct HostDevice {
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;  ///< With graphics and compute. The queue itself remains the host's.
   MemoryCallbacks memory{};
-  /// The chain with which the device was created, read by the constructor; null: not checked.
+  /// The chain with which the device was created, read by the constructor; null: of all features() that the
+  /// physical device supports, not checked.
   const void* enabled_features = nullptr;
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< For the driver's compilations; null: none.
 };
@@ -60,6 +61,7 @@ struct Retired {
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
   VkSampler sampler = VK_NULL_HANDLE;
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
   VkDescriptorPool descriptors = VK_NULL_HANDLE;
   VkQueryPool queries = VK_NULL_HANDLE;
   Memory::Range range = {};

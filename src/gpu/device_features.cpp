@@ -17,20 +17,21 @@ static_assert(sizeof(FeatureStructs::Single) == sizeof(VkPhysicalDeviceScalarBlo
               kOfSingle == offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2));
 
 // docs/reference/c-api.md, "Vulkan device features", says what each is for.
-constexpr Feature kRequired[] = {
-    {"samplerAnisotropy", {kFeatures2, offsetof(VkPhysicalDeviceFeatures2, features.samplerAnisotropy)}},
+constexpr Feature kFeatures[] = {
     {"shaderStorageImageExtendedFormats",
      {kFeatures2, offsetof(VkPhysicalDeviceFeatures2, features.shaderStorageImageExtendedFormats)}},
     {"scalarBlockLayout",
      {kVulkan12, offsetof(VkPhysicalDeviceVulkan12Features, scalarBlockLayout)},
      {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, kOfSingle}},
+    {"samplerAnisotropy", {kFeatures2, offsetof(VkPhysicalDeviceFeatures2, features.samplerAnisotropy)}},
     {"dynamicRendering",
      {kVulkan13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering)},
      {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, kOfSingle}},
     {"synchronization2",
      {kVulkan13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2)},
      {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, kOfSingle}}};
-static_assert(std::size(kRequired) <= std::tuple_size_v<decltype(FeatureStructs::singles)>);
+constexpr std::size_t kRequiredCount = 2;
+static_assert(std::size(kFeatures) <= std::tuple_size_v<decltype(FeatureStructs::singles)>);
 
 /// The structs of a chain, in order.
 Result<std::vector<VkBaseOutStructure*>> structs_of(void* chain) {
@@ -54,10 +55,25 @@ VkBool32* find(const Feature& feature, VkBaseOutStructure* holder) {
   return nullptr;
 }
 
+bool is_set(const Feature& feature, std::span<VkBaseOutStructure* const> structs) {
+  return std::ranges::any_of(structs, [&](VkBaseOutStructure* each) {
+    const VkBool32* const member = find(feature, each);
+    return member && *member;
+  });
+}
+
 }  // namespace
 
 std::span<const Feature> required_features() {
-  return kRequired;
+  return features().first(kRequiredCount);
+}
+
+std::span<const Feature> optional_features() {
+  return features().subspan(kRequiredCount);
+}
+
+std::span<const Feature> features() {
+  return kFeatures;
 }
 
 DeviceFeatures::DeviceFeatures(VkBool32 enabled) {
@@ -66,22 +82,24 @@ DeviceFeatures::DeviceFeatures(VkBool32 enabled) {
   vulkan12.pNext = &vulkan13;
   features.sType = kFeatures2;
   features.pNext = &vulkan12;
-  for (const Feature& feature : kRequired)
+  for (const Feature& feature : kFeatures)
     for (auto* each = reinterpret_cast<VkBaseOutStructure*>(&features); each; each = each->pNext)
       if (VkBool32* const member = find(feature, each)) *member = enabled;
 }
 
-Result<const Feature*> first_missing(const void* chain) {
+Result<const Feature*> first_missing(const void* chain, std::span<const Feature> wanted) {
   const auto structs = structs_of(const_cast<void*>(chain));
   if (!structs) return structs.failure();
-  for (const Feature& feature : kRequired) {
-    const bool is_set = std::ranges::any_of(*structs, [&](VkBaseOutStructure* each) {
-      const VkBool32* const member = find(feature, each);
-      return member && *member;
-    });
-    if (!is_set) return &feature;
-  }
-  return static_cast<const Feature*>(nullptr);
+  const auto missing = std::ranges::find_if(wanted, [&](const Feature& f) { return !is_set(f, *structs); });
+  return missing == wanted.end() ? nullptr : &*missing;
+}
+
+Result<OptionalFeatures> optional_features_of(const void* chain) {
+  const auto structs = structs_of(const_cast<void*>(chain));
+  if (!structs) return structs.failure();
+  const auto optional = optional_features();
+  return OptionalFeatures{is_set(optional[0], *structs), is_set(optional[1], *structs),
+                          is_set(optional[2], *structs)};
 }
 
 Result<void> merge_features(void* chain, FeatureStructs& structs) {
@@ -90,7 +108,7 @@ Result<void> merge_features(void* chain, FeatureStructs& structs) {
   structs = {};
   auto free = structs.singles.begin();
   VkBaseOutStructure* last = given->back();
-  for (const Feature& feature : kRequired) {
+  for (const Feature& feature : kFeatures) {
     bool is_set = false;
     for (VkBaseOutStructure* const each : *given) {
       VkBool32* const member = find(feature, each);

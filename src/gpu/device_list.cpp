@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "core/error.hpp"
-#include "gpu/device_features.hpp"
 #include "gpu/instance.hpp"
 
 namespace brume::gpu {
@@ -25,12 +24,15 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
   }
 }
 
-std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version) {
-  if (api_version < VK_API_VERSION_1_3) return "supports only Vulkan versions before 1.3";
+std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version,
+                            const DeviceNeeds& needs) {
+  if (api_version < needs.api_version)
+    return "supports only Vulkan versions before 1." +
+           std::to_string(VK_API_VERSION_MINOR(needs.api_version));
 
   DeviceFeatures supported(VK_FALSE);
   vk.GetPhysicalDeviceFeatures2(device, &supported.features);
-  if (const Feature* const missing = *first_missing(supported.chain()))
+  if (const Feature* const missing = *first_missing(supported.chain(), needs.features))
     return std::string("lacks ") + missing->name;
 
   // Operations of subgroups.
@@ -75,7 +77,7 @@ const char* name_of(DeviceKind kind) {
   return "other";
 }
 
-std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
+std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance, const DeviceNeeds& needs) {
   std::uint32_t count = 0;
   check(vk.EnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> handles(count);
@@ -96,7 +98,7 @@ std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     info.kind = kind_of(properties.properties.deviceType);
     info.api_version = properties.properties.apiVersion;
-    info.unsupported = missing_feature(vk, handle, info.api_version);
+    info.unsupported = missing_feature(vk, handle, info.api_version, needs);
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
       if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
         info.memory_bytes = std::max(info.memory_bytes, memory.memoryHeaps[i].size);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/device_features.hpp"
 #include "gpu/functions.hpp"
 
 namespace brume::gpu {
@@ -23,8 +24,18 @@ struct DeviceInfo {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
 };
 
+/// What a device must support.
+struct DeviceNeeds {
+  std::uint32_t api_version = VK_API_VERSION_1_3;
+  std::span<const Feature> features = gpu::features();
+};
+/// What a host's device must support.
+inline DeviceNeeds host_needs() {
+  return {VK_API_VERSION_1_2, required_features()};
+}
+
 /// The devices of an instance, in the driver's order.
-std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance);
+std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance, const DeviceNeeds& needs = {});
 
 /// The devices of the system. Throws no_device when there is no loader or no driver.
 std::vector<DeviceInfo> list_system_devices();

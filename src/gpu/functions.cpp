@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void missing(const char* name) {
   throw Error(ErrorCode::no_device,
-              std::string("vk") + name + " is missing: driver and instance must be of Vulkan 1.3");
+              std::string("vk") + name + " is missing: driver and instance must be of Vulkan 1.2");
 }
 
 }  // namespace
@@ -27,12 +27,18 @@ void Functions::load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance
 #undef X
 }
 
-void Functions::load_device(VkDevice device) {
+void Functions::load_device(VkDevice device, const OptionalFeatures& optional) {
 #define X(name)                                                                 \
   name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
   if (!name) missing(#name);
   BRUME_VK_DEVICE_FUNCTIONS(X)
 #undef X
+#define X(name) name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name));
+  BRUME_VK_OPTIONAL_FUNCTIONS(X)
+#undef X
+  // A loader may have functions of a version that the device was not created for.
+  if (!optional.synchronization2) CmdPipelineBarrier2 = nullptr;
+  if (!optional.dynamic_rendering) CmdBeginRendering = nullptr, CmdEndRendering = nullptr;
 }
 
 void Functions::load_surface(PFN_vkGetInstanceProcAddr get, VkInstance instance) {

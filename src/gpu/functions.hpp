@@ -6,6 +6,7 @@
 #include <vulkan/vulkan.h>
 
 #include "core/error.hpp"
+#include "gpu/device_features.hpp"
 
 // clang-format off
 #define BRUME_VK_INSTANCE_FUNCTIONS(X) \
@@ -14,7 +15,7 @@
   X(GetPhysicalDeviceFormatProperties)
 
 #define BRUME_VK_DEVICE_FUNCTIONS(X) \
-  X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit2) X(DeviceWaitIdle) \
+  X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(DeviceWaitIdle) \
   X(AllocateMemory) X(FreeMemory) X(MapMemory) \
   X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(BindBufferMemory) \
   X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(BindImageMemory) \
@@ -27,10 +28,13 @@
   X(BeginCommandBuffer) X(EndCommandBuffer) X(CreateSemaphore) X(DestroySemaphore) X(WaitSemaphores) \
   X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) \
   X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) \
-  X(CmdPipelineBarrier2) \
+  X(CmdPipelineBarrier) X(CreateRenderPass) X(DestroyRenderPass) X(CreateFramebuffer) X(DestroyFramebuffer) \
   X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer) X(CmdUpdateBuffer) X(CmdFillBuffer) \
-  X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
-  X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+  X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRenderPass) X(CmdEndRenderPass) X(CmdSetViewport) X(CmdSetScissor) \
+  X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp)
+
+// Null unless the device has OptionalFeatures::synchronization2, or dynamic_rendering.
+#define BRUME_VK_OPTIONAL_FUNCTIONS(X) X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering)
 
 // Names for debuggers; null unless the instance has VK_EXT_debug_utils.
 #define BRUME_VK_DEBUG_FUNCTIONS(X) \
@@ -51,6 +55,7 @@ struct Functions {
 #define X(name) PFN_vk##name name = nullptr;
   BRUME_VK_INSTANCE_FUNCTIONS(X)
   BRUME_VK_DEVICE_FUNCTIONS(X)
+  BRUME_VK_OPTIONAL_FUNCTIONS(X)
   BRUME_VK_DEBUG_FUNCTIONS(X)
   BRUME_VK_SURFACE_FUNCTIONS(X)
   BRUME_VK_SWAPCHAIN_FUNCTIONS(X)
@@ -58,7 +63,7 @@ struct Functions {
 
   /// Throws no_device when a function is missing.
   void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
-  void load_device(VkDevice device);
+  void load_device(VkDevice device, const OptionalFeatures& optional = {});
   /// The same for the functions of presentation.
   void load_surface(PFN_vkGetInstanceProcAddr get, VkInstance instance);
   void load_swapchain(VkDevice device);

@@ -15,7 +15,7 @@ VkBool32 VKAPI_PTR Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
   return VK_FALSE;
 }
 
-Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
+Instance::Instance(bool validation, const std::vector<const char*>& wanted, std::uint32_t api_version) {
   const auto get = system_loader();
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
   if (!create)
@@ -23,7 +23,7 @@ Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
 
   // The validation layer and its messages.
   const VkApplicationInfo application{
-      VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "brume", 1, "brume", 1, VK_API_VERSION_1_3};
+      VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "brume", 1, "brume", 1, api_version};
   const VkValidationFeatureEnableEXT enabled[] = {
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkDebugUtilsMessengerCreateInfoEXT messenger{

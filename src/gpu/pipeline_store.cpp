@@ -54,6 +54,7 @@ VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) 
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
   raster.polygonMode = VK_POLYGON_MODE_FILL;
+  raster.cullMode = wanted.culls_back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
   raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   raster.lineWidth = 1;
   raster.depthBiasEnable =
@@ -102,6 +103,14 @@ VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
       break;
   }
   return colour;
+}
+
+/// One that is compatible to those that it draws in.
+RenderPassInfo render_pass_of(const GraphicsInfo& info) {
+  RenderPassInfo pass;
+  std::ranges::copy(info.colours, pass.colours.begin());
+  pass.depth = info.depth;
+  return pass;
 }
 
 std::vector<ShaderCode> stages_of(const GraphicsInfo& info) {
@@ -178,10 +187,9 @@ VkResult GraphicsMade::make(std::span<const ShaderCode> shaders, VkPipeline* mad
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
-  const VkDynamicState dynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                    VK_DYNAMIC_STATE_CULL_MODE};
+  const VkDynamicState dynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   const VkPipelineDynamicStateCreateInfo dynamics{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                  nullptr, 0, 3, dynamic};
+                                                  nullptr, 0, 2, dynamic};
   VkPipelineRenderingCreateInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
   rendering.colorAttachmentCount = static_cast<std::uint32_t>(info_.colours.size());
@@ -190,7 +198,10 @@ VkResult GraphicsMade::make(std::span<const ShaderCode> shaders, VkPipeline* mad
 
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  info.pNext = &rendering;
+  if (maker().render_passes)
+    info.renderPass = maker().render_passes->find_or_make(render_pass_of(info_));
+  else
+    info.pNext = &rendering;
   info.stageCount = static_cast<std::uint32_t>(stages.size());
   info.pStages = stages.data();
   info.pVertexInputState = &input;
@@ -289,6 +300,10 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
   return {};
 }
 
+PipelineStore::PipelineStore(const Functions& vk, VkDevice device, VkPipelineCache cache)
+    : render_passes_(vk.CmdBeginRendering ? nullptr : std::make_unique<RenderPasses>(vk, device)),
+      maker_{vk, device, cache, render_passes_.get()} {}
+
 template <typename Made, typename Info>
 Pipeline& PipelineStore::find_or_make(const Key& key, const Info& info) {
   const std::scoped_lock lock(mutex_);
@@ -310,7 +325,8 @@ Pipeline& PipelineStore::find_or_make(const GraphicsInfo& info) {
           std::bit_cast<std::uint32_t>(info.depth_bias_slope),
           std::bit_cast<std::uint32_t>(info.depth_bias_constant),
           static_cast<std::uint64_t>(info.blend),
-          info.writes_depth};
+          info.writes_depth,
+          info.culls_back_faces};
   append(key, info.vertex);
   append(key, info.fragment);
   append(key, info.colours);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu/functions.hpp"
+#include "gpu/render_passes.hpp"
 #include "gpu/shader_code.hpp"
 #include "gpu/shader_interface.hpp"
 
@@ -30,8 +31,7 @@ enum class Blend {
   add,     ///< Adds to its colour; the alpha stays.
 };
 
-/// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from
-/// buffers.
+/// Triangles with reverse depth (greater is nearer); shaders pull vertices from buffers.
 struct GraphicsInfo {
   const ShaderCode* vertex = nullptr;
   const ShaderCode* fragment = nullptr;  ///< Null: depth only.
@@ -40,7 +40,8 @@ struct GraphicsInfo {
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
   Blend blend = Blend::none;
-  bool writes_depth = true;                   ///< Where there is a depth.
+  bool writes_depth = true;  ///< Where there is a depth.
+  bool culls_back_faces = false;
   std::vector<std::uint32_t> constants = {};  ///< Specialization constants 0, 1... of fragments.
 };
 
@@ -73,6 +74,7 @@ class Pipeline {
     const Functions& vk;
     VkDevice device;
     VkPipelineCache cache;
+    RenderPasses* render_passes;  ///< Null where the device has dynamic rendering.
   };
   /// The shaders' interfaces must be supported and agree, see reflect.
   Pipeline(const Maker& maker, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
@@ -100,7 +102,7 @@ class Pipeline {
 class PipelineStore {
  public:
   /// `vk` and the handles must outlive the store. `cache`: of the driver's compilations; may be null.
-  PipelineStore(const Functions& vk, VkDevice device, VkPipelineCache cache) : maker_{vk, device, cache} {}
+  PipelineStore(const Functions& vk, VkDevice device, VkPipelineCache cache);
   /// The device has completed all that uses the pipelines.
   ~PipelineStore() = default;
   PipelineStore(const PipelineStore&) = delete;
@@ -110,6 +112,8 @@ class PipelineStore {
   Pipeline& find_or_make(const ComputeInfo& info);
   Pipeline& find_or_make(const GraphicsInfo& info);
   std::vector<Pipeline*> all() const;
+  /// The render passes of a device without dynamic rendering.
+  RenderPasses& render_passes() { return *render_passes_; }
 
  private:
   /// All that a pipeline is made of.
@@ -117,6 +121,7 @@ class PipelineStore {
   template <typename Made, typename Info>
   Pipeline& find_or_make(const Key& key, const Info& info);
 
+  const std::unique_ptr<RenderPasses> render_passes_;
   const Pipeline::Maker maker_;
   mutable std::mutex mutex_;
   std::map<Key, std::unique_ptr<Pipeline>> pipelines_;

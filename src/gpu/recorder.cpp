@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "gpu/barriers.hpp"
+#include "gpu/rendering.hpp"
 
 namespace brume::gpu {
 namespace {
@@ -148,15 +150,7 @@ void Recorder::use(const Binding& binding, VkPipelineStageFlags2 stages) {
 
 void Recorder::flush_barriers() {
   if (buffer_barriers_.empty() && image_barriers_.empty()) return;
-  const auto buffers = list_.kept(std::span<const VkBufferMemoryBarrier2>(buffer_barriers_));
-  const auto images = list_.kept(std::span<const VkImageMemoryBarrier2>(image_barriers_));
-  VkDependencyInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size());
-  info.pBufferMemoryBarriers = buffers.data();
-  info.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
-  info.pImageMemoryBarriers = images.data();
-  list_.add([=](const Functions& vk, VkCommandBuffer commands) { vk.CmdPipelineBarrier2(commands, &info); });
+  add_barriers(context_.vk(), list_, buffer_barriers_, image_barriers_);
   buffer_barriers_.clear();
   image_barriers_.clear();
 }
@@ -318,65 +312,48 @@ void Recorder::dispatch_indirect(const Buffer& groups) {
 }
 
 void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px, glm::uvec2 origin_px) {
-  const auto attachment = [](VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load) {
-    VkRenderingAttachmentInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    info.imageView = view;
-    info.imageLayout = layout;
-    info.loadOp = load;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info;
-  };
-
   // Attachments and their barriers.
-  std::array<VkRenderingAttachmentInfo, std::tuple_size_v<decltype(attachments.colours)>> colours;
-  std::uint32_t colour_count = 0;
+  RenderingInfo rendering;
   for (const Image* image : attachments.colours) {
     if (!image) break;
-    const std::uint32_t i = colour_count++;
+    const std::uint32_t i = rendering.colour_count++;
     const bool keep = (attachments.keep >> i & 1u) != 0;
     use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
         VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | (keep ? VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT : 0),
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    colours[i] = attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                            keep                    ? VK_ATTACHMENT_LOAD_OP_LOAD
-                            : attachments.overwrite ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
-                                                    : VK_ATTACHMENT_LOAD_OP_CLEAR);
+    rendering.views[i] = image->view();
+    rendering.pass.colours[i] = image->info().format;
+    rendering.pass.loads[i] = keep                    ? VK_ATTACHMENT_LOAD_OP_LOAD
+                              : attachments.overwrite ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
+                                                      : VK_ATTACHMENT_LOAD_OP_CLEAR;
   }
-  VkRenderingAttachmentInfo depth{};
   if (attachments.depth) {
     use(*attachments.depth,
         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-        VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    depth = attachment(attachments.depth_view ? attachments.depth_view : attachments.depth->view(),
-                       VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                       attachments.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR);
+        VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+    rendering.views[rendering.colour_count] =
+        attachments.depth_view ? attachments.depth_view : attachments.depth->view();
+    rendering.pass.depth = attachments.depth->info().format;
+    rendering.pass.depth_load =
+        attachments.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
   }
   flush_barriers();
 
   // Rendering, with the part as viewport and scissor.
-  const bool has_depth = attachments.depth != nullptr;
-  list_.add([=](const Functions& vk, VkCommandBuffer commands) {
-    VkRenderingInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    info.renderArea = {{static_cast<std::int32_t>(origin_px.x), static_cast<std::int32_t>(origin_px.y)},
-                       {size_px.x, size_px.y}};
-    info.layerCount = 1;
-    info.colorAttachmentCount = colour_count;
-    info.pColorAttachments = colours.data();
-    info.pDepthAttachment = has_depth ? &depth : nullptr;
-    vk.CmdBeginRendering(commands, &info);
-    const glm::vec2 low(origin_px), size(size_px);
+  rendering.area = {{static_cast<std::int32_t>(origin_px.x), static_cast<std::int32_t>(origin_px.y)},
+                    {size_px.x, size_px.y}};
+  add_begin_rendering(context_, list_, rendering);
+  list_.add([area = rendering.area](const Functions& vk, VkCommandBuffer commands) {
+    const glm::vec2 low(area.offset.x, area.offset.y), size(area.extent.width, area.extent.height);
     const VkViewport viewport{low.x, low.y, size.x, size.y, 0, 1};
     vk.CmdSetViewport(commands, 0, 1, &viewport);
-    vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
+    vk.CmdSetScissor(commands, 0, 1, &area);
   });
-  set_culling(false);
 }
 
 void Recorder::end_rendering() {
-  list_.add([](const Functions& vk, VkCommandBuffer commands) { vk.CmdEndRendering(commands); });
+  add_end_rendering(list_);
 }
 
 void Recorder::begin_scope(const char* name) {
@@ -415,11 +392,6 @@ void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uin
 void Recorder::draw(std::uint32_t vertex_count) {
   list_.add(
       [=](const Functions& vk, VkCommandBuffer commands) { vk.CmdDraw(commands, vertex_count, 1, 0, 0); });
-}
-
-void Recorder::set_culling(bool back_faces) {
-  const VkCullModeFlags mode = back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
-  list_.add([=](const Functions& vk, VkCommandBuffer commands) { vk.CmdSetCullMode(commands, mode); });
 }
 
 void Recorder::set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px) {

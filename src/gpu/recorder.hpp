@@ -16,6 +16,7 @@
 #include "gpu/command_list.hpp"
 #include "gpu/frame_slot.hpp"
 #include "gpu/pipeline.hpp"
+#include "gpu/render_passes.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
 
@@ -85,7 +86,7 @@ class Recorder {
   void make_mip_levels(const Image& image);
 
   struct Attachments {
-    std::array<const Image*, 4> colours{};  ///< Null after the last one.
+    std::array<const Image*, kMostColours> colours{};  ///< Null after the last one.
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< A view of one layer; null: the image's own.
     std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
@@ -100,7 +101,6 @@ class Recorder {
                     std::int32_t first_vertex);
   /// Draws without indices.
   void draw(std::uint32_t vertex_count);
-  void set_culling(bool back_faces);
   void set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px);
   /// Barriers for resources that draws read; before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);

@@ -32,7 +32,7 @@ void Timings::write(CommandList& list, std::size_t query) const {
   if (names_.size() > kMaxScopes) return;
   list.add([pool = pool_, query = static_cast<std::uint32_t>(query)](const Functions& vk,
                                                                      VkCommandBuffer commands) {
-    vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    vk.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, pool, query);
   });
 }
 

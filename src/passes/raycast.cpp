@@ -37,6 +37,7 @@ RaycastPass::RaycastPass(gpu::Context& context, RaycastForm form, glm::uvec2 siz
   gpu::grow(context, view_, sizeof(shared::RaycastView));
   gpu::grow(context, volumes_, shared::kMaxVolumes * sizeof(shared::RaycastVolume));
   gpu::GraphicsInfo info{&shaders::raycast_box_vert, nullptr, {}, VK_FORMAT_UNDEFINED};
+  info.culls_back_faces = true;
   if (form == RaycastForm::two_pass) {
     info.fragment = &shaders::raycast_interval_frag;
     info.colours = {kIntervalFormat};
@@ -83,7 +84,6 @@ void RaycastPass::draw_surface(gpu::Recorder& recorder, const shared::RaycastDra
                                const gpu::Image& surface) const {
   recorder.prepare_for_draws({gpu::read(volumes_)});
   recorder.begin_rendering({{&surface}}, glm::uvec2(surface.info().size));
-  recorder.set_culling(true);
   recorder.bind_for_draws(*interval_, {{shared::kBindRaycastVolumes, gpu::read(volumes_)}});
   recorder.push(*interval_, bytes_of(draw));
   recorder.draw(shared::kBoxVertices);
@@ -95,7 +95,6 @@ void RaycastPass::record_single_pass(gpu::Recorder& recorder, const Inputs& in,
   recorder.prepare_for_draws({gpu::read(view_), gpu::read(volumes_), gpu::sampled(in.depth, nearest_)});
   recorder.prepare_for_draws(*single_, {in.volumes.bindings()}, {});
   recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, 1}, glm::uvec2(target.info().size));
-  recorder.set_culling(true);
   recorder.bind_for_draws(*single_, {in.volumes.bindings()},
                           {
                               {shared::kBindRaycastView, gpu::read(view_)},

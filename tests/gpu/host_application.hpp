@@ -18,8 +18,14 @@ namespace brume::gpu {
 // What runs long makes and destroys every pipeline of its renderers, under the layers.
 inline const bool kSharesPipelines = !is_thorough("frames");
 
-/// The instance and the device of all host applications of a program, with or without the validation layers.
-template <bool kValidates>
+/// The least device is of Vulkan 1.2 and has the required features alone, but timelineSemaphore for the
+/// application itself.
+enum class HostKind { validated, without_layers, least };
+/// Of hosts that ask for none.
+inline const HostKind kUsualHost = is_thorough("least") ? HostKind::least : HostKind::validated;
+
+/// The instance and the device of all host applications of a kind in a program.
+template <HostKind kKind>
 class SharedDevice {
  public:
   using Pipelines = SharedPipelines<SharedDevice>;
@@ -36,16 +42,25 @@ class SharedDevice {
     shared_.reset();
   }
 
-  SharedDevice() : instance(kValidates), vk(instance.vk()) {
+  SharedDevice()
+      : instance(kKind != HostKind::without_layers, {},
+                 kKind == HostKind::least ? VK_API_VERSION_1_2 : VK_API_VERSION_1_3),
+        vk(instance.vk()),
+        features(kKind == HostKind::least ? VK_FALSE : VK_TRUE) {
     host.get_instance_proc_addr = kSharesPipelines ? Pipelines::instance_proc_addr : system_loader();
     host.instance = instance.handle();
-    host.physical_device = choose_device(list_devices(vk, host.instance), "").handle;
+    host.physical_device = choose_device(list_devices(vk, host.instance, host_needs()), "").handle;
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    DeviceFeatures features;
+    if (kKind == HostKind::least) {
+      features.features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+      features.vulkan12.scalarBlockLayout = VK_TRUE;
+      features.vulkan12.pNext = nullptr;
+      host.enabled_features = features.chain();
+    }
     features.vulkan12.timelineSemaphore = VK_TRUE;  // of `done_`
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
@@ -59,6 +74,7 @@ class SharedDevice {
 
   Instance instance;
   Functions vk;
+  DeviceFeatures features;
   HostDevice host;
 
  private:
@@ -69,19 +85,28 @@ class SharedDevice {
 class SharedDevices : public testing::Environment {
  public:
   void TearDown() override {
-    SharedDevice<true>::end();
-    SharedDevice<false>::end();
+    SharedDevice<HostKind::validated>::end();
+    SharedDevice<HostKind::without_layers>::end();
+    SharedDevice<HostKind::least>::end();
   }
 };
 inline testing::Environment* const g_shared_devices = testing::AddGlobalTestEnvironment(new SharedDevices);
 
 class HostApplication {
  public:
-  explicit HostApplication(std::size_t frames_in_flight, bool validates = true) : slots_(frames_in_flight) {
-    if (validates)
-      use(SharedDevice<true>::get());
-    else
-      use(SharedDevice<false>::get());
+  explicit HostApplication(std::size_t frames_in_flight, HostKind kind = kUsualHost)
+      : slots_(frames_in_flight) {
+    switch (kind) {
+      case HostKind::validated:
+        use(SharedDevice<HostKind::validated>::get());
+        break;
+      case HostKind::without_layers:
+        use(SharedDevice<HostKind::without_layers>::get());
+        break;
+      case HostKind::least:
+        use(SharedDevice<HostKind::least>::get());
+        break;
+    }
     vk_.GetDeviceQueue(host_.device, 0, 0, &queue_);
     const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
                                          VK_SEMAPHORE_TYPE_TIMELINE, 0};
@@ -113,28 +138,26 @@ class HostApplication {
     check(vk_.BeginCommandBuffer(slot.commands, &begin), "vkBeginCommandBuffer");
     record(slot.commands, number, completed_);
     check(vk_.EndCommandBuffer(slot.commands), "vkEndCommandBuffer");
-    const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr,
-                                           slot.commands, 0};
-    const VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, done_, number,
-                                       VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,    0};
-    VkSubmitInfo2 submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-    submit.commandBufferInfoCount = 1;
-    submit.pCommandBufferInfos = &buffer;
-    submit.signalSemaphoreInfoCount = 1;
-    submit.pSignalSemaphoreInfos = &signal;
-    check(vk_.QueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+    const VkTimelineSemaphoreSubmitInfo timeline{
+        VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO, nullptr, 0, nullptr, 1, &number};
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.pNext = &timeline;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &slot.commands;
+    submit.signalSemaphoreCount = 1;
+    submit.pSignalSemaphores = &done_;
+    check(vk_.QueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
   }
   /// Until the device is done with all frames.
   void wait() { wait_for(submitted_); }
 
   /// Copies an image in the layout GENERAL that compute shaders wrote.
   void copy(VkCommandBuffer commands, VkImage image, VkExtent2D size, VkBuffer to) const {
-    const VkMemoryBarrier2 written{
-        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr,
-        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-        VK_PIPELINE_STAGE_2_COPY_BIT,           VK_ACCESS_2_TRANSFER_READ_BIT};
-    barrier(commands, written);
+    const VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
+                                  VK_ACCESS_TRANSFER_READ_BIT};
+    vk_.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
+                           1, &written, 0, nullptr, 0, nullptr);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {size.width, size.height, 1};
@@ -143,11 +166,10 @@ class HostApplication {
 
   /// Compute shaders see what was written before.
   void wait_for_compute(VkCommandBuffer commands) const {
-    const VkMemoryBarrier2 written{
-        VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr,
-        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,   VK_ACCESS_2_MEMORY_WRITE_BIT,
-        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-    barrier(commands, written);
+    const VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
+                                  VK_ACCESS_SHADER_READ_BIT};
+    vk_.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                           0, 1, &written, 0, nullptr, 0, nullptr);
   }
 
   std::vector<std::string> take_messages() { return instance_->take_messages(); }
@@ -158,20 +180,13 @@ class HostApplication {
     VkCommandBuffer commands = VK_NULL_HANDLE;
   };
 
-  void barrier(VkCommandBuffer commands, const VkMemoryBarrier2& memory) const {
-    VkDependencyInfo dependency{};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &memory;
-    vk_.CmdPipelineBarrier2(commands, &dependency);
-  }
-  template <bool kValidates>
-  void use(SharedDevice<kValidates>& shared) {
+  template <HostKind kKind>
+  void use(SharedDevice<kKind>& shared) {
     instance_ = &shared.instance;
     host_ = shared.host;
     vk_ = shared.vk;
-    all_submitted_ = &SharedDevice<kValidates>::Pipelines::frame;
-    all_completed_ = &SharedDevice<kValidates>::Pipelines::completed;
+    all_submitted_ = &SharedDevice<kKind>::Pipelines::frame;
+    all_completed_ = &SharedDevice<kKind>::Pipelines::completed;
     submitted_before_ = *all_submitted_;
   }
   void make_slot(Slot& slot) {

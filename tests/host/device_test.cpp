@@ -8,6 +8,13 @@
 namespace brume::host {
 namespace {
 
+/// Clears a feature in the struct of its version, in a chain.
+void clear(const gpu::Feature& feature, VkPhysicalDeviceFeatures2& chain) {
+  for (auto* each = reinterpret_cast<VkBaseOutStructure*>(&chain); each; each = each->pNext)
+    if (each->sType == feature.of_version.type)
+      *reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(each) + feature.of_version.offset) = 0;
+}
+
 /// What a physical device reports in the place of the truth.
 struct Reported {
   static inline const gpu::Feature* missing = nullptr;
@@ -26,10 +33,7 @@ struct Reported {
   static void call(PFN_vkGetPhysicalDeviceFeatures2 real, VkPhysicalDevice device,
                    VkPhysicalDeviceFeatures2* features) {
     real(device, features);
-    if (!missing) return;
-    for (auto* each = reinterpret_cast<VkBaseOutStructure*>(features); each; each = each->pNext)
-      if (each->sType == missing->of_version.type)
-        *reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(each) + missing->of_version.offset) = 0;
+    if (missing) clear(*missing, *features);
   }
   static void call(PFN_vkGetPhysicalDeviceProperties2 real, VkPhysicalDevice device,
                    VkPhysicalDeviceProperties2* properties) {
@@ -86,10 +90,17 @@ TEST_F(DeviceTest, IsRefusedWithoutAFeature) {
   expect_taken();
 }
 
-TEST_F(DeviceTest, IsRefusedBeforeVulkan13) {
+TEST_F(DeviceTest, IsTakenWithoutWhatCanBeReplaced) {
+  for (const gpu::Feature& feature : gpu::optional_features()) {
+    Reported::missing = &feature;
+    expect_taken();
+  }
+}
+
+TEST_F(DeviceTest, IsRefusedBeforeVulkan12) {
+  Reported::api_version = VK_API_VERSION_1_1;
+  expect_refused_device(BRUME_ERROR_DEVICE, "only Vulkan versions before 1.2");
   Reported::api_version = VK_API_VERSION_1_2;
-  expect_refused_device(BRUME_ERROR_DEVICE, "only Vulkan versions before 1.3");
-  Reported::api_version = VK_API_VERSION_1_3;
   expect_taken();
 }
 
@@ -132,14 +143,18 @@ TEST_F(DeviceTest, IsRefusedForAnotherQueueFamily) {
 TEST_F(DeviceTest, IsRefusedWhereTheHostForgotAFeature) {
   for (const gpu::Feature& feature : gpu::required_features()) {
     gpu::DeviceFeatures all;
-    for (auto* each = reinterpret_cast<VkBaseOutStructure*>(&all.features); each; each = each->pNext)
-      if (each->sType == feature.of_version.type)
-        *reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(each) + feature.of_version.offset) = 0;
+    clear(feature, all.features);
     params_.enabled_features = all.chain();
     expect_refused_device(BRUME_ERROR_DEVICE, std::string("the device was created without ") + feature.name);
   }
   params_.enabled_features = brume_vulkan_features();
   expect_taken();
+  for (const gpu::Feature& feature : gpu::optional_features()) {
+    gpu::DeviceFeatures all;
+    clear(feature, all.features);
+    params_.enabled_features = all.chain();
+    expect_taken();
+  }
 
   VkPhysicalDeviceVulkan12Features other{};
   other.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -192,7 +207,7 @@ class MergeTest : public DeviceTest {
     info.pNext = chain;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    gpu::Functions vk = gpu::SharedDevice<true>::get().instance.vk();
+    gpu::Functions vk = gpu::SharedDevice<gpu::HostKind::validated>::get().instance.vk();
     ASSERT_EQ(vk.CreateDevice(params_.physical_device, &info, nullptr, &params_.device), VK_SUCCESS);
     vk.load_device(params_.device);
     params_.enabled_features = chain;
@@ -259,11 +274,11 @@ TEST(DeviceDocs, HaveTheTableOfFeatures) {
   const std::size_t from = page.find("## Vulkan device features"), to = page.find("\n## ", from);
   const std::string section = page.substr(from, to - from);
   static const std::regex kRow(R"(\n\| `(\w+)` \|)");
-  std::vector<std::string> documented, required;
+  std::vector<std::string> documented, used;
   for (std::sregex_iterator row(section.begin(), section.end(), kRow), end; row != end; ++row)
     documented.push_back((*row)[1]);
-  for (const gpu::Feature& feature : gpu::required_features()) required.emplace_back(feature.name);
-  EXPECT_EQ(documented, required);
+  for (const gpu::Feature& feature : gpu::features()) used.emplace_back(feature.name);
+  EXPECT_EQ(documented, used);
 }
 
 }  // namespace

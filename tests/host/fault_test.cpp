@@ -47,7 +47,7 @@ const std::vector<gpu::Replacement> kFaulty{
     X(AllocateDescriptorSets) X(CreateQueryPool)
 #undef X
 #define X(function) BRUME_INTERPOSED(Commands, function),
-    X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+    X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp)
 #undef X
 };
 // clang-format on

@@ -24,7 +24,7 @@ class HeapTest : public YardTest {
   static constexpr int kCycle = 4;
 
   /// What a frame allocates does not depend on its number of pixels.
-  HeapTest() : YardTest(false, {16, 9}) {}
+  HeapTest() : YardTest(gpu::HostKind::without_layers, {16, 9}) {}
 
   static double thread_milliseconds() {
     std::timespec now{};

@@ -54,7 +54,7 @@ class HostedPair : public testing::Test {
   HostedPair() : scenario_(render::two_smokes(0.6f)) { scenario_.timeline.doors.clear(); }
 
   void make_sides(std::size_t in_flight, std::uint32_t march_scale) {
-    host_.emplace(in_flight);
+    host_.emplace(in_flight, kind_);
     gpu_ = std::make_unique<gpu::Context>(host_->device());
     recording_ = std::make_unique<gpu::HostRecording>(*gpu_);
     simulation_ = scenario::Simulation::create(scenario_).value_or_throw();
@@ -144,6 +144,7 @@ class HostedPair : public testing::Test {
   }
 
   scenario::Scenario scenario_;
+  gpu::HostKind kind_ = gpu::kUsualHost;
   std::optional<gpu::HostApplication> host_;
   std::unique_ptr<gpu::Context> gpu_;
   std::unique_ptr<gpu::HostRecording> recording_;

@@ -34,6 +34,7 @@ inline brume_device_params params_of(const gpu::HostDevice& host) {
   params.instance = host.instance;
   params.physical_device = host.physical_device;
   params.device = host.device;
+  params.enabled_features = host.enabled_features;
   return params;
 }
 

@@ -9,7 +9,7 @@ class LightsTest : public YardTest {
  protected:
   static constexpr glm::uvec2 kPicture{32, 18};
 
-  LightsTest() : YardTest(true, kPicture) {}
+  LightsTest() : YardTest(gpu::kUsualHost, kPicture) {}
   void make_yard() {
     make({32, 16, 32}, 0.25f);
     smoke(1, {3, 0.6f, 3}, 500, 100);

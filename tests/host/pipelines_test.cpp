@@ -57,7 +57,7 @@ struct Compiled {
 
 class PipelinesTest : public YardTest {
  protected:
-  PipelinesTest() : YardTest(true, {16, 9}) {
+  PipelinesTest() : YardTest(gpu::kUsualHost, {16, 9}) {
     Compiled::reset();
     for (const gpu::Replacement& replacement :
          {BRUME_INTERPOSED(Compiled, CreateComputePipelines),

@@ -22,11 +22,11 @@ struct Queries {
 
 class TimingsTest : public YardTest {
  protected:
-  TimingsTest() : YardTest(true, {16, 9}) {
+  TimingsTest() : YardTest(gpu::kUsualHost, {16, 9}) {
     Queries::calls = 0;
     for (const gpu::Replacement& replacement :
          {BRUME_INTERPOSED(Queries, CreateQueryPool), BRUME_INTERPOSED(Queries, GetQueryPoolResults),
-          BRUME_INTERPOSED(Queries, CmdResetQueryPool), BRUME_INTERPOSED(Queries, CmdWriteTimestamp2),
+          BRUME_INTERPOSED(Queries, CmdResetQueryPool), BRUME_INTERPOSED(Queries, CmdWriteTimestamp),
           BRUME_INTERPOSED(Queries, GetPhysicalDeviceQueueFamilyProperties)})
       replacements_.push_back(replacement);
   }

@@ -72,8 +72,8 @@ class YardTest : public testing::Test {
   static constexpr glm::uvec2 kSizes[] = {{64, 36}, {33, 17}, {80, 45}, {1, 7}};
 
   /// `first`: the size of frames until resize().
-  explicit YardTest(bool validates = true, glm::uvec2 first = kSizes[0])
-      : first_(first), host_(3, validates), gpu_(host_.device()), recording_(gpu_) {
+  explicit YardTest(gpu::HostKind kind = gpu::kUsualHost, glm::uvec2 first = kSizes[0])
+      : first_(first), host_(3, kind), gpu_(host_.device()), recording_(gpu_) {
     memory_.vk = gpu_.vk();
     memory_.device = host_.device().device;
   }
