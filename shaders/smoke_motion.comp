@@ -22,8 +22,8 @@ layout(scalar, push_constant) uniform Push { SmokeMotionParams params; };
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
-  const float transmittance = texelFetch(smoke, px, 0).a, nowhere = uintBitsToFloat(0x7f800000u);
-  vec4 found = vec4(0.0, 0.0, nowhere, nowhere);
+  const float transmittance = texelFetch(smoke, px, 0).a;
+  vec4 found = vec4(0.0, 0.0, kNoSmoke, kNoSmoke);
   if (transmittance < 1.0) {
     const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
     const float z_surface = view_distance(frame.camera, texelFetch(depth, px, 0).r);
@@ -33,7 +33,7 @@ void main() {
       found.xy = (past.xy / past.w * 0.5 + 0.5) * vec2(frame.size_px) - (vec2(px) + 0.5 + params.jitter_px);
     // Thin smoke has no entry.
     const float entry = entries[uint(px.x) + frame.size_px.x * uint(px.y)] / length(ray);
-    found.zw = vec2(min(entry, z), z);
+    found.zw = min(vec2(min(entry, z), z), kNoSmoke);
   }
   imageStore(motion_image, px, found);
 }

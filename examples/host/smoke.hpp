@@ -50,6 +50,10 @@ inline Camera camera_at(double seconds, std::uint32_t player = 0) {
   return {position, unit(minus({0, 1.2f, 0}, position)), {0, 1, 0}};
 }
 
+/// Where a frame samples its pixels, from their middles [px].
+struct Jitter {
+  float x = 0, y = 0;
+};
 /// What one player sees: in a part of the picture.
 struct View {
   Camera camera;
@@ -58,12 +62,13 @@ struct View {
 
 /// The smoke: everything that a host adds to its renderer.
 struct Smoke {
-  Smoke(const brume_device_params& host, std::uint32_t width, std::uint32_t height)
+  /// `has_motion`: frames have brume_renderer_motion.
+  Smoke(const brume_device_params& host, std::uint32_t width, std::uint32_t height, bool has_motion)
       : level(context, triangles()),
         world(level),
         field(level),
         device(context, host),
-        renderer(device, renderer_params(width, height)) {
+        renderer(device, renderer_params(width, height, has_motion)) {
     brume_event grenade = brume_event_defaults(BRUME_EVENT_SMOKE, 0);
     grenade.u.smoke.voxels = brume_smoke_voxels(140, kVoxel);  // m^3
     grenade.u.smoke.from = brume::api::position(0, 1.5, 6);
@@ -97,13 +102,14 @@ struct Smoke {
     return params;
   }
 
-  brume_renderer_params renderer_params(std::uint32_t width, std::uint32_t height) const {
+  brume_renderer_params renderer_params(std::uint32_t width, std::uint32_t height, bool has_motion) const {
     static constexpr brume_light light{
         BRUME_LIGHT_POINT, {kLight.x, kLight.y, kLight.z}, {0, -1, 0}, {60, 40, 22}, 0, 0};
     brume_renderer_params params = brume_renderer_defaults();
     params.width = width;
     params.height = height;
     params.temporal = 1;
+    params.motion = has_motion ? 1 : 0;
     params.lights = &light;
     params.light_count = 1;
     params.points = points.data();
@@ -114,7 +120,7 @@ struct Smoke {
   }
 
   void record(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed, double seconds,
-              VkImageView depth, VkImageView picture, const std::vector<View>& views) {
+              VkImageView depth, VkImageView picture, const std::vector<View>& views, Jitter jitter) {
     world.advance_to(static_cast<std::uint32_t>(seconds * 64));
     field.update(world.state());
     brume_frame_params params = brume_frame_defaults();
@@ -124,6 +130,8 @@ struct Smoke {
     params.jitter_index = static_cast<std::uint32_t>(frame);
     params.continues_previous = 1;
     params.camera.vertical_fov = kFieldOfView;
+    params.camera.jitter_x = jitter.x;
+    params.camera.jitter_y = jitter.y;
     params.depth = {depth, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kNear, INFINITY, 1};
     params.picture = {picture, VK_FORMAT_R16G16B16A16_SFLOAT, 1.0f};
     params.ambient[0] = 0.04f;

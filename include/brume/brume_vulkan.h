@@ -478,7 +478,7 @@ BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, Vk
 /// anti-aliasing: half floats. R and G lead from where the smoke of a pixel is to where it was in the view's
 /// previous frame [px], to the right and down, without jitter; 0 where the frame does not continue. B is the
 /// distance along the view axis at which the transmittance falls to 0.99 [m], A the mean distance of the
-/// smoke's light [m], which R and G follow; both are infinite where there is no smoke. In
+/// smoke's light [m], which R and G follow; both are 65504, the largest half float, where there is none. In
 /// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders; frames, also of other views, share one image, which
 /// is another one after brume_renderer_resize. Either pointer may be null. Errors: BRUME_ERROR_ORDER before
 /// the first frame, after a frame that failed, and unless brume_renderer_params::motion was 1.

@@ -7,6 +7,9 @@ SHARED_BEGIN
 SHARED_BINDING(kBindSmokeMotion, 120u);
 SHARED_BINDING(kBindMotionEntries, 121u);
 
+/// The distance where there is no smoke [m]: the largest half float. Drivers may store infinity as no number.
+SHARED_CONST float kNoSmoke = 65504.0f;
+
 struct SmokeMotionParams {
   mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame, without jitter
   vec2 jitter_px;             // from the middle of each pixel to the point that it shows, y down

@@ -177,7 +177,7 @@ struct OwnChain {
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_FALSE};
 
   OwnChain() {
-    features.features.shaderInt64 = VK_TRUE;
+    features.features.robustBufferAccess = VK_TRUE;
     vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     vulkan12.timelineSemaphore = VK_TRUE;
     vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
@@ -197,7 +197,7 @@ class MergeTest : public DeviceTest {
   void expect_merged(void* chain, const OwnChain& own) {
     brume_feature_storage storage;
     ASSERT_OK(brume_vulkan_merge_features(chain, &storage));
-    EXPECT_TRUE(own.features.features.shaderInt64 && own.vulkan12.timelineSemaphore &&
+    EXPECT_TRUE(own.features.features.robustBufferAccess && own.vulkan12.timelineSemaphore &&
                 own.vulkan13.maintenance4 && own.timeline.timelineSemaphore);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{

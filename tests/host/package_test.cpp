@@ -123,6 +123,31 @@ TEST_F(HostExample, DrawsTheSameWithAnyNumberOfFramesInFlight) {
             split);
 }
 
+// Behind a fast camera, the smoke's part of the picture lies where it is without temporal anti-aliasing, but
+// for what jitter and accumulation smooth at this size.
+TEST_F(HostExample, TemporalAntiAliasingFollowsTheSmoke) {
+  const std::string film = "--frames 50 --size 64x36 --speed 3 ";
+  const std::string without = picture(BRUME_HOST_EXAMPLE, "without", film),
+                    empty = picture(BRUME_HOST_EXAMPLE, "empty", film + "--no-smoke");
+  const auto away = [&](const std::string& taa) {
+    const std::string drawn = picture(BRUME_HOST_EXAMPLE, taa, film + "--taa " + taa);
+    const auto apart = [](char a, char b) {
+      return std::abs(static_cast<unsigned char>(a) - static_cast<unsigned char>(b));
+    };
+    double sum = 0;
+    int smoky = 0;
+    for (std::size_t i = without.size() - std::size_t{3} * 64 * 36; i < without.size(); ++i) {
+      if (apart(without[i], empty[i]) <= 12) continue;
+      sum += apart(drawn[i], without[i]);
+      ++smoky;
+    }
+    EXPECT_GT(smoky, 300);
+    return sum / smoky;
+  };
+  const double surfaces = away("surfaces"), smoke = away("smoke");
+  EXPECT_LT(smoke, 0.7 * surfaces) << surfaces;
+}
+
 // Its own barriers and those of the library fit together. What is valid with three frames in flight is so
 // with one, which waits more often.
 TEST_F(HostExample, IsValid) {
@@ -132,6 +157,11 @@ TEST_F(HostExample, IsValid) {
                 (folder_.path() / "valid.ppm").string() + "' --in-flight 3 2>&1");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.output, "");
+  const ShellRun taa = run_shell(std::string(kValidation) +
+                                 "'" BRUME_HOST_EXAMPLE "' --frames 26 --size 32x18 --taa smoke -o '" +
+                                 (folder_.path() / "taa.ppm").string() + "' --in-flight 3 2>&1");
+  EXPECT_EQ(taa.status, 0);
+  EXPECT_EQ(taa.output, "");
 }
 
 // Grey walls, and the smoke in front of the doorway, which light comes through.
