@@ -24,10 +24,7 @@ scene::OptionInfo grid_setting(const char* key) {
   return scene::info_of<scene::GridOptions>(key, [](auto& o, auto& v) { scene::visit_grid_options(o, v); });
 }
 scene::OptionInfo timeline_setting(const char* key) {
-  return scene::info_of<scene::Timeline>(key, [](auto& o, auto& v) {
-    scene::visit_timeline_options(o, v);
-    scene::visit_level_options(o, v);
-  });
+  return scene::info_of<scene::Timeline>(key, [](auto& o, auto& v) { scene::visit_timeline_options(o, v); });
 }
 scene::OptionInfo sun_setting(const char* key) {
   return scene::info_of<scene::SunOptions>(key, [](auto& o, auto& v) { scene::visit_sun_options(o, v); });

@@ -49,10 +49,10 @@ void lay_out_light(Game& game) {
   const scene::Timeline& file = game.session().file();
   scene::Timeline exposed;
   exposed.exposure = timeline.exposure;
-  const auto visit_timeline = [](auto& options, auto&& visitor) {
-    scene::visit_timeline_options(options, visitor);
+  const auto visit_exposure = [](auto& options, auto&& visitor) {
+    scene::visit_exposure_options(options, visitor);
   };
-  if (option_rows(exposed, file, visit_timeline, [](const std::string& key) { return key == "exposure"; }))
+  if (option_rows(exposed, file, visit_exposure))
     apply(game, "exposure", game.session().live().set_exposure(exposed.exposure));
   scene::Timeline bounced;
   bounced.bounces = timeline.bounces;

@@ -48,7 +48,7 @@ void lay_out_picture(TankState& state, TankChoices& choices) {
                     {{"remap", scene::LensPoints::remap}, {"rejection", scene::LensPoints::rejection}});
   changed |=
       tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_tank_picture_options(o, v); });
-  changed |= tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); });
+  changed |= tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_film_options(o, v); });
   changed |= radios("tone", "tone curve:", scene.tone,
                     {{"neutral", scene::ToneCurve::neutral}, {"standard", scene::ToneCurve::standard}});
   if (changed) state.edit() = scene;

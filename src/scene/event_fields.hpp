@@ -8,7 +8,6 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -34,11 +33,6 @@ struct FlagField {
 /// A file in or below the timeline's folder. May be missing.
 struct FileField {
   const char *key, *about;
-};
-/// One of some names, by their order in the member; the first is the default.
-struct ChoiceField {
-  const char *key, *about;
-  std::span<const char* const> names;
 };
 
 /// What must hold between two fields. Messages are about the first of them.

@@ -1,10 +1,14 @@
-// Every numeric setting of a timeline in one place: key, unit, range and description. The reader and writer
-// of timelines, the C interfaces, the program's options, the viewer's panels, Blender's add-on and the tables
-// of the documentation take their ranges from it or are tested against it. Events: scene/event_fields.hpp.
+// Every number and choice of a timeline's settings in one place: key, unit, range and description. The reader
+// and writer of timelines, the C interfaces, the program's options, the viewer's panels, Blender's add-on and
+// the tables of the documentation take their ranges from it or are tested against it. Events:
+// scene/event_fields.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace brume::scene {
 
@@ -13,6 +17,12 @@ struct OptionInfo {
   const char* unit;   ///< Empty: a fraction or factor. kDegrees: the member holds radians.
   const char* about;  ///< One line.
   double low, high;   ///< Inclusive range in `unit`; for vectors, of each component.
+};
+
+/// A setting that is one of some names, by their order in the member, an enumeration.
+struct ChoiceField {
+  const char *key, *about;
+  std::span<const char* const> names;
 };
 
 /// The unit of angles: degrees in the file and in OptionInfo, radians in the member.
@@ -37,12 +47,31 @@ constexpr std::uint32_t kMostSamples = 1u << 24;
 
 // Each function calls visit(info, member) for every setting of a struct, in file order; a const struct gives
 // const members. The default is the value in a default-constructed struct. Members are float, std::uint32_t,
-// glm::vec3, and std::optional of float, glm::vec3 or glm::ivec3.
+// glm::vec3, and std::optional of float, glm::vec3 or glm::ivec3. Choices are visit(ChoiceField, member).
 
 template <typename Options, typename Visitor>
-void visit_timeline_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"duration", "s", "duration of the film", 0.01, kLatestTime}, o.duration);
+void visit_exposure_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"exposure", "EV", "radiance is multiplied by 2^exposure", -20, 20}, o.exposure);
+}
+
+template <typename Options, typename Visitor>
+void visit_duration_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"duration", "s", "duration of the film", 0.01, kLatestTime}, o.duration);
+}
+
+/// What timelines and scenes of tanks begin with.
+template <typename Options, typename Visitor>
+void visit_film_options(Options& o, Visitor&& visit) {
+  visit_duration_options(o, visit);
+  visit_exposure_options(o, visit);
+}
+
+/// By their number in ToneCurve.
+inline constexpr std::array kToneCurves{"neutral", "standard"};
+
+template <typename Options, typename Visitor>
+void visit_tone_options(Options& o, Visitor&& visit) {
+  visit(ChoiceField{"tone", "tone curve", kToneCurves}, o.tone);
 }
 
 /// Largest mean cosine of a phase function, forwards or backwards: closer to 1, the peak of Henyey-Greenstein
@@ -59,6 +88,14 @@ void visit_bounce_options(Options& o, Visitor&& visit) {
         o.bounces);
 }
 
+/// Members of PictureSettings.
+template <typename Options, typename Visitor>
+void visit_picture_options(Options& o, Visitor&& visit) {
+  visit_exposure_options(o, visit);
+  visit_bounce_options(o, visit);
+  visit_tone_options(o, visit);
+}
+
 /// How the scene's file becomes the level: settings that a running simulation cannot change.
 template <typename Options, typename Visitor>
 void visit_level_options(Options& o, Visitor&& visit) {
@@ -68,6 +105,14 @@ void visit_level_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"ground", "m", "height of a ground that reaches to the horizon", -kFarthestPoint,
                    kFarthestPoint},
         o.ground);
+}
+
+/// All settings of a timeline outside of its tables: readers, writer, check and tests go through this list.
+template <typename Options, typename Visitor>
+void visit_timeline_options(Options& o, Visitor&& visit) {
+  visit_duration_options(o, visit);
+  visit_picture_options(o, visit);
+  visit_level_options(o, visit);
 }
 
 template <typename Options, typename Visitor>
@@ -225,15 +270,15 @@ void visit_camera_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10}, o.shutter);
 }
 
-/// The description of one setting: info_of<SkyOptions>("stars", [](auto& o, auto& v) { visit_sky_options(o,
-/// v);
-/// }).
+/// The description of one number, such as
+/// info_of<SkyOptions>("stars", [](auto& o, auto& v) { visit_sky_options(o, v); }).
 template <typename Options, typename Visit>
 OptionInfo info_of(std::string_view key, Visit visit) {
   OptionInfo found{};
   const Options options{};
-  const auto look = [&](const OptionInfo& info, const auto&) {
-    if (info.key == key) found = info;
+  const auto look = [&]<typename Info>(const Info& info, const auto&) {
+    if constexpr (std::is_same_v<Info, OptionInfo>)
+      if (info.key == key) found = info;
   };
   visit(options, look);
   return found;

@@ -37,12 +37,20 @@ struct RoleOptions {
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 
-struct Timeline : EventLists {
+template <typename Value>
+using Plain = Value;
+
+/// How pictures are lit and exposed. With std::optional as Field: settings of which some are given.
+template <template <typename> typename Field = Plain>
+struct PictureSettings {
+  Field<float> exposure{};
+  Field<std::uint32_t> bounces{};
+  Field<ToneCurve> tone{};
+};
+
+struct Timeline : EventLists, PictureSettings<> {
   std::filesystem::path scene;  ///< Resolved against the timeline's own folder.
   float duration = 4.0f;
-  float exposure = 0.0f;
-  std::uint32_t bounces = 0;
-  ToneCurve tone = ToneCurve::neutral;
   glm::vec3 origin{0};
   float scale = 1;
   std::optional<float> ground;

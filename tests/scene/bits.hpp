@@ -19,6 +19,7 @@ class Bits {
   void operator()(const OptionInfo&, const Member& member) {
     add(member);
   }
+  void operator()(const ChoiceField&, const auto& choice) { add(static_cast<std::uint32_t>(choice)); }
   void add(float v) { bits.push_back(std::bit_cast<std::uint32_t>(v)); }
   void add(double v) { bits.push_back(std::bit_cast<std::uint64_t>(v)); }
   void add(std::uint32_t v) { bits.push_back(v); }

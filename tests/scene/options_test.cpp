@@ -57,6 +57,11 @@ class RowMaker {
     EXPECT_FALSE(member) << info.key;
     add(info, " | ");
   }
+  void operator()(const ChoiceField& field, const auto& choice) {
+    const std::string name = field.names[static_cast<std::size_t>(choice)];
+    rows.push_back(
+        {"| " + table_ + "`" + field.key + "` | \"" + name + "\" | ", std::string("| ") + field.about});
+  }
   struct Row {
     std::string start, end;
   };
@@ -109,8 +114,6 @@ TEST(Options, MatchTheTableInTheDocs) {
       detail("`[volume.detail]` "), carrier("`[[carrier.key]]` "), decal("`[[decal]]` "), tank("`[[tank]]` "),
       camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
-  visit_bounce_options(static_cast<const Timeline&>(Timeline()), top);
-  visit_level_options(static_cast<const Timeline&>(Timeline()), top);
   visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
   visit_smoke_options(static_cast<const SmokeOptions&>(SmokeOptions()), smoke);
   visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
@@ -147,7 +150,8 @@ TEST(Options, OfTanksMatchTheTableInTheDocs) {
   const auto text = read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / page).value_or_throw();
   RowMaker top(""), tank("`[tank]` "), sky("`[sky]` "), fog("`[fog]` "), light("`[[light]]` "),
       glass("`[glass]` "), camera("`[[camera]]` ");
-  visit_timeline_options(static_cast<const TankScene&>(TankScene()), top);
+  visit_film_options(static_cast<const TankScene&>(TankScene()), top);
+  visit_tone_options(static_cast<const TankScene&>(TankScene()), top);
   visit_tank_picture_options(static_cast<const TankScene&>(TankScene()), tank);
   visit_pack_options(static_cast<const spheres::PackOptions&>(spheres::PackOptions()), tank);
   visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
@@ -167,9 +171,14 @@ struct Checker {
     EXPECT_GE(value, info.low) << info.key;
     EXPECT_LE(value, info.high) << info.key;
   }
+  void meet_key(const char* key) { EXPECT_TRUE(keys.insert(key).second) << key << " is there twice"; }
   void meet(const OptionInfo& info) {
     EXPECT_LT(info.low, info.high) << info.key;
-    EXPECT_TRUE(keys.insert(info.key).second) << info.key << " is there twice";
+    meet_key(info.key);
+  }
+  void operator()(const ChoiceField& field, const auto& choice) {
+    meet_key(field.key);
+    EXPECT_LT(static_cast<std::size_t>(choice), field.names.size()) << field.key;
   }
   void operator()(const OptionInfo& info, float& member) {
     meet(info);
@@ -197,10 +206,26 @@ std::size_t met(Options options, Visit visit) {
   return checker.keys.size();
 }
 
+/// Stands in for a member of any type.
+struct AnyMember {
+  template <typename Member>
+  operator Member() const;
+};
+
+/// The number of members of an aggregate without bases.
+template <typename Aggregate, typename... Members>
+constexpr std::size_t members_of() {
+  if constexpr (requires { Aggregate{Members()..., AnyMember()}; })
+    return members_of<Aggregate, Members..., AnyMember>();
+  else
+    return sizeof...(Members);
+}
+
 TEST(Options, AreCompleteWithDefaultsInRange) {
 #define MET(options, visit) met(options, [](auto& o, auto& v) { visit(o, v); })
-  EXPECT_EQ(MET(Timeline(), visit_timeline_options), 2u);
-  EXPECT_EQ(MET(Timeline(), visit_level_options), 3u);
+  constexpr std::size_t kPictureSettings = members_of<PictureSettings<>>();
+  EXPECT_EQ(MET(Timeline(), visit_picture_options), kPictureSettings);
+  EXPECT_EQ(MET(Timeline(), visit_timeline_options), kPictureSettings + 4);
   EXPECT_EQ(MET(GridOptions(), visit_grid_options), 3u);
   EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 16u);
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
@@ -218,7 +243,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(ShotEvent(), visit_event_numbers), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_event_numbers), 8u);
   EXPECT_EQ(MET(BlastEvent(), visit_event_numbers), 6u);
-  EXPECT_EQ(MET(TankScene(), visit_timeline_options), 2u);
+  EXPECT_EQ(MET(TankScene(), visit_film_options), 2u);
   EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 4u);
   EXPECT_EQ(MET(spheres::PackOptions(), visit_pack_options), 5u);
   EXPECT_EQ(MET(TankFog(), visit_fog_options), 2u);

@@ -76,6 +76,10 @@ class Drawing {
   void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) {
     if (below(2) == 0) member = glm::ivec3(point(info.low, info.high));
   }
+  template <typename Choice>
+  void operator()(const ChoiceField& field, Choice& choice) {
+    choice = static_cast<Choice>(below(static_cast<std::uint32_t>(field.names.size())));
+  }
 
  private:
   std::mt19937 random_;
@@ -228,7 +232,6 @@ inline Timeline random_timeline(std::uint32_t seed) {
   Timeline timeline;
   timeline.scene = "scenes/" + std::string(draw.below(2) == 0 ? "demo.gltf" : "level \"1\"/Scene.txt");
   visit_timeline_options(timeline, draw);
-  visit_level_options(timeline, draw);
   visit_grid_options(timeline.grid, draw);
   visit_smoke_options(timeline.smoke, draw);
   if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
@@ -258,7 +261,6 @@ inline Timeline random_timeline(std::uint32_t seed) {
     if (draw.below(2) == 0) volume.first = draw.below(1000);
     if (draw.below(2) == 0) volume.last = 1000 + draw.below(kLastFrame - 1000);
   }
-  if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;
   double time = draw.share();
   for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {
     CameraKey key{time, {draw.place(), draw.place(), 1}};

@@ -110,7 +110,7 @@ std::string tables_for_blender() {
     visit(defaults, settings);
     text += std::string("    \"") + table + "\": " + settings.text() + ",\n";
   };
-  add("timeline", Timeline(), [](auto& o, auto& v) { visit_timeline_options(o, v); });
+  add("timeline", Timeline(), [](auto& o, auto& v) { visit_film_options(o, v); });
   add("grid", GridOptions(), [](auto& o, auto& v) { visit_grid_options(o, v); });
   add("smoke", SmokeOptions(), [](auto& o, auto& v) { visit_smoke_options(o, v); });
   add("volume", VolumeOptions(), [](auto& o, auto& v) { visit_volume_options(o, v); });

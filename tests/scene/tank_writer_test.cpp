@@ -21,9 +21,9 @@ constexpr std::array kPalettes{"", "viridis", "viridis:0.2-0.6", "viridis:1-0"};
 TankScene random_scene(std::uint32_t seed) {
   Drawing draw(seed);
   TankScene scene;
-  visit_timeline_options(scene, draw);
+  visit_film_options(scene, draw);
+  visit_tone_options(scene, draw);
   visit_tank_picture_options(scene, draw);
-  scene.tone = draw.below(2) == 0 ? ToneCurve::neutral : ToneCurve::standard;
   scene.view = TankView{draw.below(2)};
   scene.lighting = TankLighting{draw.below(2)};
   scene.lens_points = LensPoints{draw.below(2)};
@@ -71,9 +71,10 @@ TankScene random_scene(std::uint32_t seed) {
 
 std::vector<std::uint64_t> bits_of(const TankScene& scene) {
   Bits b;
-  visit_timeline_options(scene, b);
+  visit_film_options(scene, b);
+  visit_tone_options(scene, b);
   visit_tank_picture_options(scene, b);
-  b.add(static_cast<std::uint32_t>(scene.tone)), b.add(static_cast<std::uint32_t>(scene.view));
+  b.add(static_cast<std::uint32_t>(scene.view));
   b.add(static_cast<std::uint32_t>(scene.lighting)), b.add(static_cast<std::uint32_t>(scene.lens_points)),
       b.add(scene.file.string());
   visit_pack_options(scene.pack, b);

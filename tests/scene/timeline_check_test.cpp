@@ -35,6 +35,7 @@ class Spoiler {
   void operator()(const OptionInfo& info, std::optional<Member>& member) {
     if (member) (*this)(info, *member);
   }
+  void operator()(const ChoiceField&, const auto&) {}
   void place(glm::vec3& place) {
     if (draw_.below(one_in_) == 0) place.z = odd(-kFarthestEvent, kFarthestEvent);
   }
@@ -82,7 +83,6 @@ void spoil_effects(VolumeOptions& volume, Spoiler& s) {
 
 void spoil(Timeline& t, Spoiler& s) {
   visit_timeline_options(t, s);
-  visit_level_options(t, s);
   visit_grid_options(t.grid, s);
   visit_smoke_options(t.smoke, s);
   visit_sky_options(t.sky, s);

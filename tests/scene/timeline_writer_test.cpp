@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct EventBits {
   Bits& b;
   void operator()(const FileField&, const fs::path& file) { b.add(file.string()); }
-  void operator()(const ChoiceField&, const auto& choice) { b.add(static_cast<std::uint32_t>(choice)); }
+  void operator()(const ChoiceField& field, const auto& choice) { b(field, choice); }
   void operator()(const EventRule&, const auto&, const auto&) {}
   void operator()(const auto&, const auto& member) { b.add(member); }
 };
@@ -91,8 +91,6 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   Bits b;
   b.add(timeline.scene.string());
   visit_timeline_options(timeline, b);
-  visit_level_options(timeline, b);
-  b.add(static_cast<std::uint32_t>(timeline.tone));
   visit_grid_options(timeline.grid, b);
   visit_smoke_options(timeline.smoke, b);
   visit_sky_options(timeline.sky, b);

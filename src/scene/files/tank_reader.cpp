@@ -31,8 +31,8 @@ class TankReader {
     std::uint32_t version = 0;
     root.require("version");
     root.read("version", version, 1, 1);
-    visit_timeline_options(scene_, OptionReader{root});
-    read_tone(root, scene_.tone);
+    visit_film_options(scene_, OptionReader{root});
+    visit_tone_options(scene_, OptionReader{root});
     root.require("tank");
     // Find all tables before any is read: unknown keys are the first failure.
     const toml::table* const tank = root.table("tank");

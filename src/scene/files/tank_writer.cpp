@@ -25,8 +25,8 @@ class TankWriter : private TomlText {
 
   std::string write(const TankScene& scene) {
     text_ += "version = 1\n";
-    options(scene, TankScene(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
-    if (scene.tone == ToneCurve::standard) line("tone", std::string("standard"));
+    options(scene, TankScene(), "", [](auto& o, auto& v) { visit_film_options(o, v); });
+    options(scene, TankScene(), "", [](auto& o, auto& v) { visit_tone_options(o, v); });
     write_tank(scene);
     options(scene.sky, SkyOptions(), "\n[sky]\n", [](auto& o, auto& v) { visit_sky_options(o, v); });
     options(scene.fog, TankFog(), "\n[fog]\n", [](auto& o, auto& v) { visit_fog_options(o, v); });

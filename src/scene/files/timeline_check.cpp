@@ -37,6 +37,7 @@ class Checker {
   void operator()(const OptionInfo& info, const std::optional<Member>& member) {
     if (member) (*this)(info, *member);
   }
+  void operator()(const ChoiceField&, const auto&) {}
 
   void number(const char* key, double value, double low, double high) {
     if (!(value >= low && value <= high)) out_of_range(key, value, low, high);
@@ -252,8 +253,6 @@ Result<void> check_settings(const Timeline& timeline) {
   // The timeline's own settings, then its tables.
   Checker look("the timeline");
   visit_timeline_options(timeline, look);
-  visit_bounce_options(timeline, look);
-  visit_level_options(timeline, look);
   if (auto done = look.done(); !done) return done;
   Checker grid("[grid]"), smoke("[smoke]"), sky("[sky]"), sun("[sun]");
   visit_grid_options(timeline.grid, grid);

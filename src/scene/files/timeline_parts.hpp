@@ -2,12 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "scene/files/toml_table.hpp"
 #include "scene/options.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scene {
+
+/// "a", "b" or "c"
+std::string in_words(std::span<const char* const> names);
+/// The number of the chosen name, `usual` without one.
+std::size_t read_choice(TomlTable& table, const ChoiceField& field, std::size_t usual);
 
 /// Reads settings from a table: the visitor of scene/options.hpp.
 struct OptionReader {
@@ -29,6 +36,10 @@ struct OptionReader {
   void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) const {
     table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
   }
+  template <typename Choice>
+  void operator()(const ChoiceField& field, Choice& choice) const {
+    choice = static_cast<Choice>(read_choice(table, field, static_cast<std::size_t>(choice)));
+  }
 };
 
 /// The time of the next key, which must be later than the last one.
@@ -45,7 +56,6 @@ constexpr const char* kExpectedFile = ": expected the name of a file below the f
 /// The file that a key names below the folder of `path`, if there is such a key.
 void read_file_name(TomlTable& table, const std::filesystem::path& path, const char* key,
                     std::filesystem::path& file);
-void read_tone(TomlTable& root, ToneCurve& tone);
 Result<void> read_sky(const toml::table& source, const std::filesystem::path& path, SkyOptions& sky);
 /// Adds a [[camera]], which must come later than those before.
 Result<void> read_camera_key(const toml::table& source, const std::filesystem::path& path,

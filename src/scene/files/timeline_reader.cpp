@@ -15,14 +15,6 @@
 namespace brume::scene {
 namespace {
 
-/// "a", "b" or "c"
-std::string in_words(std::span<const char* const> names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + in_quotes(names[i]);
-  return text;
-}
-
 std::string kinds_in_words() {
   std::vector<const char*> kinds;
   for_each_event_kind([&](const char* kind, auto) { kinds.push_back(kind); });
@@ -37,6 +29,7 @@ struct EventReader {
   Event& event;
 
   void operator()(const OptionInfo& info, auto& member) { OptionReader{table}(info, member); }
+  void operator()(const ChoiceField& field, auto& choice) { OptionReader{table}(field, choice); }
   void operator()(const PointField& field, glm::vec3& point) {
     table.require(field.key);
     table.read(field.key, point, -kFarthestEvent, kFarthestEvent);
@@ -54,14 +47,6 @@ struct EventReader {
   }
   void operator()(const FileField& field, std::filesystem::path& file) {
     read_file_name(table, path, field.key, file);
-  }
-  template <typename Choice>
-  void operator()(const ChoiceField& field, Choice& choice) {
-    std::string name = field.names.front();
-    table.read(field.key, name);
-    const auto found = std::ranges::find(field.names, name);
-    if (found == field.names.end()) return fail(field.key, in_words(field.names));
-    choice = static_cast<Choice>(found - field.names.begin());
   }
   void operator()(const EventRule& rule, const auto& value, const auto& other) {
     if (!holds(rule, value, other)) fail(rule.key, expectation(rule));
@@ -96,9 +81,6 @@ class TimelineReader {
     if (scene.empty() || scene.find('\0') != std::string::npos)
       root.fail("scene", "\"scene\": expected the name of a scene file");
     visit_timeline_options(timeline_, OptionReader{root});
-    visit_bounce_options(timeline_, OptionReader{root});
-    visit_level_options(timeline_, OptionReader{root});
-    read_tone(root, timeline_.tone);
     const toml::table* const grid = root.table("grid");
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");

@@ -9,11 +9,11 @@
 
 namespace brume::scene {
 
-/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
-/// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
-/// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
-/// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], [volume.detail], particles and its
-/// members), [[carrier]] (name, object, [[carrier.key]]), [[decal]], [[tank]], [[role]] (object, role), and
+/// Reads a timeline: TOML with `version = 1`, `scene`, the keys of visit_timeline_options, the tables [grid]
+/// (voxel, size, origin), [smoke], [sky] and [sun] with the members above as keys, [[volume]] (file, first,
+/// last, density, heat, color, position, clip, ping_pong, loop, range, opacity, color_map, carrier,
+/// [[volume.mask]], [volume.disturb], [volume.detail], particles and its members), [[carrier]] (name, object,
+/// [[carrier.key]]), [[decal]], [[tank]], [[role]] (object, role), and
 /// [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type, time
 /// and the fields of its type (scene/event_fields.hpp). Points are in metres, [-10^6, 10^6]; the
 /// points of events [-16384, 16384]. check_objects checks whether the objects of doors, roles and carriers

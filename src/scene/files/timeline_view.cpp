@@ -1,9 +1,27 @@
-// What timelines and scenes of tanks both have: camera, sky, tone curve.
+// What timelines and scenes of tanks both have: choices, files, camera, sky.
+#include <algorithm>
+
 #include "scene/files/scene_files.hpp"
 #include "scene/files/timeline_parts.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
+
+std::string in_words(std::span<const char* const> names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + in_quotes(names[i]);
+  return text;
+}
+
+std::size_t read_choice(TomlTable& table, const ChoiceField& field, std::size_t usual) {
+  std::string name = field.names[usual];
+  table.read(field.key, name);
+  const auto found = std::ranges::find(field.names, name);
+  if (found != field.names.end()) return static_cast<std::size_t>(found - field.names.begin());
+  table.fail(field.key, in_quotes(field.key) + ": expected " + in_words(field.names));
+  return usual;
+}
 
 void read_file_name(TomlTable& table, const std::filesystem::path& path, const char* key,
                     std::filesystem::path& file) {
@@ -12,16 +30,6 @@ void read_file_name(TomlTable& table, const std::filesystem::path& path, const c
   if (name.empty()) return;
   if (!is_safe_relative(name)) table.fail(key, in_quotes(key) + kExpectedFile);
   file = path.parent_path() / name;
-}
-
-void read_tone(TomlTable& root, ToneCurve& tone) {
-  std::string name = "neutral";
-  root.read("tone", name);
-  if (name == "standard") {
-    tone = ToneCurve::standard;
-  } else if (name != "neutral") {
-    root.fail("tone", "\"tone\": expected \"neutral\" or \"standard\"");
-  }
 }
 
 Result<void> read_sky(const toml::table& source, const std::filesystem::path& path, SkyOptions& sky) {

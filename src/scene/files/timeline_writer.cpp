@@ -27,22 +27,22 @@ struct EventTexts {
   };
   std::vector<Line> lines = {};
 
-  void operator()(const OptionInfo& info, const auto& member) {
-    OptionTexts option;
-    option(info, member);
-    lines.push_back({info.key, option.texts.front().second, false});
-  }
+  void operator()(const OptionInfo& info, const auto& member) { add_option(info, member); }
+  void operator()(const ChoiceField& field, const auto& choice) { add_option(field, choice); }
   void operator()(const FileField& field, const fs::path& file) {
     lines.push_back(
         {field.key, file.empty() ? "" : to_text(path_from(file, folder).generic_string()), false});
   }
-  void operator()(const ChoiceField& field, const auto& choice) {
-    const std::string name = field.names[static_cast<std::size_t>(choice)];
-    lines.push_back({field.key, to_text(name), false});
-  }
   void operator()(const EventRule&, const auto&, const auto&) {}
   void operator()(const auto& field, const auto& member) {
     lines.push_back({field.key, to_text(member), true});
+  }
+
+ private:
+  void add_option(const auto& field, const auto& member) {
+    OptionTexts option;
+    option(field, member);
+    lines.push_back({field.key, option.texts.front().second, false});
   }
 };
 
@@ -77,9 +77,6 @@ class Writer : private TomlText {
     text_ += "version = 1\n";
     line("scene", path_from(timeline.scene, folder_).generic_string());
     options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
-    options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_bounce_options(o, v); });
-    if (timeline.tone == ToneCurve::standard) line("tone", std::string("standard"));
-    options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_level_options(o, v); });
     options(timeline.grid, GridOptions(), "\n[grid]\n", [](auto& o, auto& v) { visit_grid_options(o, v); });
     SmokeOptions smoke = timeline.smoke;
     if (smoke.droplet) smoke.anisotropy = SmokeOptions().anisotropy;

@@ -40,20 +40,23 @@ std::filesystem::path path_from(const std::filesystem::path& path, const std::fi
 class OptionTexts {
  public:
   void operator()(const OptionInfo& info, const float& member) {
-    add(info, is_angle(info) ? degrees_text(info, member) : to_text(member));
+    add(info.key, is_angle(info) ? degrees_text(info, member) : to_text(member));
   }
   template <typename Member>
   void operator()(const OptionInfo& info, const Member& member) {
-    add(info, to_text(member));
+    add(info.key, to_text(member));
   }
   template <typename Member>
   void operator()(const OptionInfo& info, const std::optional<Member>& member) {
-    add(info, member ? to_text(*member) : "");
+    add(info.key, member ? to_text(*member) : "");
+  }
+  void operator()(const ChoiceField& field, const auto& choice) {
+    add(field.key, to_text(std::string(field.names[static_cast<std::size_t>(choice)])));
   }
   std::vector<std::pair<const char*, std::string>> texts;
 
  private:
-  void add(const OptionInfo& info, std::string text) { texts.emplace_back(info.key, std::move(text)); }
+  void add(const char* key, std::string text) { texts.emplace_back(key, std::move(text)); }
 };
 
 /// The text of a file, line by line.
