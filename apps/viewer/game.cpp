@@ -164,11 +164,17 @@ void Game::set_steering(bool steers) {
   notify_("you steer " + carriers[choices_.carrier].name + "; K adds a key, Esc ends");
 }
 
+void Game::change_settings(const std::string& what, scene::Timeline settings) {
+  if (!report(session_->set_settings(std::move(settings)))) return;
+  setting_changed(what);
+  ++changes_;
+}
+
 bool Game::set_chosen_carrier(scene::Carrier carrier, const std::string& what) {
   settle();
-  std::vector<scene::Carrier> carriers = session_->live().scenario().timeline.carriers;
-  carriers[choices_.carrier] = std::move(carrier);
-  if (!report(session_->set_carriers(std::move(carriers)))) return false;
+  scene::Timeline settings = session_->live().scenario().timeline;
+  settings.carriers[choices_.carrier] = std::move(carrier);
+  if (!report(session_->set_settings(std::move(settings)))) return false;
   ++changes_;
   history_->add(edits(what));
   return true;

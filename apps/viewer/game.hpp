@@ -74,6 +74,8 @@ class Game {
   /// A timeline that ends now, whose last frame is what the window shows, without debug view.
   scene::Timeline snapshot() const;
 
+  /// Takes over the settings of a timeline (Session::set_settings) that a widget changed.
+  void change_settings(const std::string& what, scene::Timeline settings);
   /// A setting changed, by a widget that may still be dragged: one step to undo once settle() says it is not.
   void setting_changed(const std::string& what) { changing_ = what; }
   void settle();

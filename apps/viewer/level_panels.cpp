@@ -19,13 +19,6 @@ bool is_lighting(const std::string& key) {
   return key == "anisotropy" || key == "droplet" || key == "multiple_scattering";
 }
 
-// What a setting changed led to: a line if it failed, and a step to undo.
-void apply(Game& game, const char* what, const Result<void>& done) {
-  if (!done) return game.notify(done.failure().message);
-  game.setting_changed(what);
-  game.change_picture();
-}
-
 // Smoke settings; changing one that the simulation depends on simulates again from the start.
 void smoke_rows(Game& game, const char* what, const std::function<bool(const std::string&)>& selects) {
   const scenario::Scenario& scenario = game.session().live().scenario();
@@ -41,29 +34,33 @@ void smoke_rows(Game& game, const char* what, const std::function<bool(const std
           return option_row(info, member, standard);
         }
       });
-  if (changed) apply(game, what, game.session().set_smoke(smoke));
+  if (!changed) return;
+  scene::Timeline settings = scenario.timeline;
+  settings.smoke = smoke;
+  game.change_settings(what, std::move(settings));
 }
 
 void lay_out_light(Game& game) {
   const scene::Timeline& timeline = game.session().live().scenario().timeline;
   const scene::Timeline& file = game.session().file();
-  scene::Timeline exposed;
-  exposed.exposure = timeline.exposure;
-  const auto visit_exposure = [](auto& options, auto&& visitor) {
-    scene::visit_exposure_options(options, visitor);
-  };
-  if (option_rows(exposed, file, visit_exposure))
-    apply(game, "exposure", game.session().live().set_exposure(exposed.exposure));
-  scene::Timeline bounced;
-  bounced.bounces = timeline.bounces;
-  const auto visit_bounces = [](auto& options, auto&& visitor) {
-    scene::visit_bounce_options(options, visitor);
-  };
-  if (option_rows(bounced, file, visit_bounces))
-    apply(game, "bounces", game.session().live().set_bounces(bounced.bounces));
+  scene::PictureSettings<> picture = timeline;
   scene::SkyOptions sky = timeline.sky;
-  const auto visit = [](auto& options, auto&& visitor) { scene::visit_sky_options(options, visitor); };
-  if (option_rows(sky, file.sky, visit)) apply(game, "sky", game.session().live().set_sky(sky));
+  std::string changed;
+  each_row<scene::PictureSettings<>>(
+      picture, file, [](auto& o, auto&& visitor) { scene::visit_picture_options(o, visitor); },
+      [&](const scene::OptionInfo& info, auto& member, const auto& standard) {
+        if (!option_row(info, member, standard)) return false;
+        changed = info.key;
+        return true;
+      });
+  if (option_rows(sky, file.sky, [](auto& o, auto&& visitor) { scene::visit_sky_options(o, visitor); }))
+    changed = "sky";
+  if (!changed.empty()) {
+    scene::Timeline settings = timeline;
+    static_cast<scene::PictureSettings<>&>(settings) = picture;
+    settings.sky = sky;
+    game.change_settings(changed, std::move(settings));
+  }
   smoke_rows(game, "light in the smoke", is_lighting);
 }
 

@@ -39,18 +39,18 @@ void begin_row(const char* label, const char* about = nullptr);
 /// A patch of a linear colour in [0, 1] whose popup edits it. Returns whether it changed.
 bool color_patch(glm::vec3& color);
 
-/// Calls `row` with the description of each member that `visit`, one of the visit_* functions, visits, the
+/// Calls `row` with the description of each number that `visit`, one of the visit_* functions, visits, the
 /// member, and its value in `file`, with which the document began. Returns whether a row changed its member.
 template <typename Options, typename Visit, typename Row>
 bool each_row(Options& options, const Options& file, Visit visit, Row row) {
   bool changed = false;
   // Both visits are in the same order, so that index i is the file's value of member i.
   std::vector<const void*> initial;
-  visit(file, [&](const scene::OptionInfo&, auto& member) { initial.push_back(&member); });
+  visit(file, [&](const auto&, auto& member) { initial.push_back(&member); });
   std::size_t i = 0;
-  visit(options, [&](const scene::OptionInfo& info, auto& member) {
-    using Member = std::remove_reference_t<decltype(member)>;
-    changed = row(info, member, *static_cast<const Member*>(initial[i++])) || changed;
+  visit(options, [&]<typename Info, typename Member>(const Info& info, Member& member) {
+    const auto& initially = *static_cast<const Member*>(initial[i++]);
+    if constexpr (std::is_same_v<Info, scene::OptionInfo>) changed = row(info, member, initially) || changed;
   });
   return changed;
 }

@@ -96,7 +96,9 @@ void Session::step(int ticks) {
 }
 
 Result<void> Session::set_first_exposure(float exposure) {
-  if (auto done = live_->set_exposure(exposure); !done) return done;
+  scene::Timeline settings = live_->scenario().timeline;
+  settings.exposure = exposure;
+  if (auto done = live_->set_settings(std::move(settings)); !done) return done;
   initial_.exposure = exposure;
   return {};
 }
@@ -124,17 +126,8 @@ Session::Edits Session::edits() const {
 }
 
 Result<void> Session::restore(const Edits& edits) {
-  if (edits.events != events_) {
-    if (auto done = live_->reset(edits.timeline); !done) return done;
-  } else {
-    if (auto done = live_->set_smoke(edits.timeline.smoke); !done) return done;
-    if (auto done = live_->set_sky(edits.timeline.sky); !done) return done;
-    if (auto done = live_->set_carriers(edits.timeline.carriers); !done) return done;
-    if (auto done = live_->set_volumes(edits.timeline.volumes); !done) return done;
-    if (auto done = live_->set_decals(edits.timeline.decals); !done) return done;
-    if (auto done = live_->set_exposure(edits.timeline.exposure); !done) return done;
-    if (auto done = live_->set_bounces(edits.timeline.bounces); !done) return done;
-  }
+  auto done = edits.events != events_ ? live_->reset(edits.timeline) : live_->set_settings(edits.timeline);
+  if (!done) return done;
   events_ = edits.events;
   actions_ = edits.actions;
   next_letter_ = edits.next_letter;
@@ -144,15 +137,11 @@ Result<void> Session::restore(const Edits& edits) {
   return {};
 }
 
-Result<void> Session::set_smoke(const scene::SmokeOptions& smoke) {
-  auto done = live_->set_smoke(smoke);
+Result<void> Session::set_settings(scene::Timeline settings) {
+  const bool moves_carriers = settings.carriers != live_->scenario().timeline.carriers;
+  auto done = live_->set_settings(std::move(settings));
+  if (done && moves_carriers) ++key_changes_;
   seek(seconds_);
-  return done;
-}
-
-Result<void> Session::set_carriers(std::vector<scene::Carrier> carriers) {
-  auto done = live_->set_carriers(std::move(carriers));
-  if (done) ++key_changes_;
   return done;
 }
 

@@ -76,11 +76,8 @@ class Session {
   /// Replays all actions from the start along the recorded camera path.
   void play();
 
-  /// Changes all smokes, at the present time, too.
-  Result<void> set_smoke(const scene::SmokeOptions& smoke);
-
-  /// Changes the keys of the carriers, as EditableScenario::set_carriers.
-  Result<void> set_carriers(std::vector<scene::Carrier> carriers);
+  /// Takes over all of a timeline but its events (EditableScenario::set_settings), at the present time, too.
+  Result<void> set_settings(scene::Timeline settings);
 
   // The recorded camera path.
   bool follows_path() const { return follows_path_; }

@@ -25,7 +25,7 @@ bool decal_rows(scene::DecalOptions& decal, const scene::DecalOptions& file) {
 }  // namespace
 
 void lay_out_decals(Game& game) {
-  scenario::EditableScenario& live = game.session().live();
+  const scenario::EditableScenario& live = game.session().live();
   bool shown = game.choices().decals;
   if (checkbox("show (B)", &shown)) game.act(Action::decals, glm::vec3(0, 0, -1));
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("off, to compare with the picture without decals; not saved");
@@ -45,9 +45,9 @@ void lay_out_decals(Game& game) {
   }
   ImGui::PopID();
   if (!changed) return;
-  if (const auto done = live.set_decals(std::move(decals)); !done) return game.notify(done.failure().message);
-  game.setting_changed("decal");
-  game.change_picture();
+  scene::Timeline settings = live.scenario().timeline;
+  settings.decals = std::move(decals);
+  game.change_settings("decal", std::move(settings));
 }
 
 }  // namespace brume::viewer

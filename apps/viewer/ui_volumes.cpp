@@ -183,7 +183,7 @@ bool transfer_rows(scene::VolumeOptions& options, const volumes::VolumeFrame& fr
 }  // namespace
 
 void lay_out_volumes(Game& game) {
-  scenario::EditableScenario& live = game.session().live();
+  const scenario::EditableScenario& live = game.session().live();
   std::vector<scene::VolumeOptions> volumes = live.scenario().timeline.volumes;
   const std::vector<scene::VolumeOptions>& file = game.session().file().volumes;
   bool changed = false;
@@ -209,10 +209,9 @@ void lay_out_volumes(Game& game) {
   }
   ImGui::PopID();
   if (!changed) return;
-  if (const auto done = live.set_volumes(std::move(volumes)); !done)
-    return game.notify(done.failure().message);
-  game.setting_changed("volume");
-  game.change_picture();
+  scene::Timeline settings = live.scenario().timeline;
+  settings.volumes = std::move(volumes);
+  game.change_settings("volume", std::move(settings));
 }
 
 }  // namespace brume::viewer

@@ -202,92 +202,8 @@ ObjectLevel& EditableScenario::last_level() {
   return *last_level_;
 }
 
-Result<void> EditableScenario::set_smoke(const scene::SmokeOptions& smoke) {
-  scene::Timeline chosen;
-  chosen.smoke = smoke;
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  if (same_life(smoke, scenario_.timeline.smoke)) {
-    scenario_.timeline.smoke = smoke;
-    return {};
-  }
-  chosen = scenario_.timeline;
-  chosen.smoke = smoke;
-  return replay(std::move(chosen), {true, true});
-}
-
-Result<void> EditableScenario::set_sky(const scene::SkyOptions& sky) {
-  scene::Timeline chosen;
-  chosen.sky = sky;
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.sky = sky;
-  return {};
-}
-
-Result<void> EditableScenario::set_volumes(std::vector<scene::VolumeOptions> volumes) {
-  const std::vector<scene::VolumeOptions>& present = scenario_.timeline.volumes;
-  BRUME_ASSERT(volumes.size() == present.size(), std::to_string(volumes.size()));
-  scene::Timeline chosen;
-  chosen.carriers = scenario_.timeline.carriers;
-  chosen.volumes = std::move(volumes);
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  for (std::size_t i = 0; i < present.size(); ++i) {
-    auto done = scenario_.volumes->choose_grids(i, chosen.volumes[i]);
-    if (done) continue;
-    // Volumes::at warns where those before cannot be read again.
-    for (std::size_t k = 0; k < i; ++k) static_cast<void>(scenario_.volumes->choose_grids(k, present[k]));
-    return done;
-  }
-  scenario_.timeline.volumes = std::move(chosen.volumes);
-  return {};
-}
-
-Result<void> EditableScenario::set_decals(std::vector<scene::DecalOptions> decals) {
-  BRUME_ASSERT(std::ranges::equal(decals, scenario_.timeline.decals, same_decal),
-               std::to_string(decals.size()));
-  scene::Timeline chosen;
-  chosen.carriers = scenario_.timeline.carriers;
-  chosen.decals = std::move(decals);
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.decals = std::move(chosen.decals);
-  return {};
-}
-
-Result<void> EditableScenario::set_carriers(std::vector<scene::Carrier> carriers) {
-  BRUME_ASSERT(std::ranges::equal(carriers, scenario_.timeline.carriers, same_carrier),
-               std::to_string(carriers.size()));
-  scene::Timeline chosen;
-  chosen.carriers = std::move(carriers);
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.carriers = std::move(chosen.carriers);
-  return {};
-}
-
-Result<void> EditableScenario::set_exposure(float exposure) {
-  scene::Timeline chosen;
-  chosen.exposure = exposure;
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.exposure = exposure;
-  return {};
-}
-
-Result<void> EditableScenario::set_bounces(std::uint32_t bounces) {
-  scene::Timeline chosen;
-  chosen.bounces = bounces;
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  scenario_.timeline.bounces = bounces;
-  return {};
-}
-
-Result<void> EditableScenario::set_camera(std::vector<scene::CameraKey> keys) {
-  scene::Timeline chosen;
-  chosen.camera = std::move(keys);
-  if (auto checked = scene::check_settings(chosen); !checked) return checked;
-  if (auto loaded = load_lens_openings(chosen, scenario_.lens_openings); !loaded) return loaded;
-  scenario_.timeline.camera = std::move(chosen.camera);
-  return {};
-}
-
-Result<void> EditableScenario::reset(scene::Timeline timeline) {
+/// Fails unless the scenario has loaded what a timeline refers to.
+Result<void> EditableScenario::expect_same_parts(const scene::Timeline& timeline) const {
   const scene::GridOptions grid = grid_of(scenario_.voxels.grid.layout());
   std::error_code error;
   if (timeline.scene != scenario_.timeline.scene &&
@@ -303,7 +219,45 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
         ErrorCode::bad_input,
         "the timeline has other volumes, decals, tanks, carriers or roles than the scenario; load it as a "
         "new scenario"};
-  timeline.grid = grid;
+  return {};
+}
+
+/// All or none.
+Result<void> EditableScenario::choose_grids(const std::vector<scene::VolumeOptions>& volumes) {
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    auto done = scenario_.volumes->choose_grids(i, volumes[i]);
+    if (done) continue;
+    // Volumes::at warns where those before cannot be read again.
+    for (std::size_t k = 0; k < i; ++k)
+      static_cast<void>(scenario_.volumes->choose_grids(k, scenario_.timeline.volumes[k]));
+    return done;
+  }
+  return {};
+}
+
+Result<void> EditableScenario::set_settings(scene::Timeline settings) {
+  const scene::Timeline& present = scenario_.timeline;
+  if (auto done = expect_same_parts(settings); !done) return done;
+  settings.grid = grid_of(scenario_.voxels.grid.layout());
+  scene::for_each_event_kind([&](const char*, auto list) { settings.*list = present.*list; });
+  // Volumes that stay may be anywhere: a file of grids alone decides where its volume is.
+  scene::Timeline checked = settings;
+  if (settings.volumes == present.volumes) checked.volumes.clear();
+  if (auto done = scene::check_settings(checked); !done) return done;
+  if (auto done = load_lens_openings(settings, scenario_.lens_openings); !done) return done;
+  if (auto done = choose_grids(settings.volumes); !done) return done;
+  if (same_life(settings.smoke, present.smoke)) {
+    scenario_.timeline = std::move(settings);
+    return {};
+  }
+  auto done = replay(std::move(settings), {true, true});
+  if (!done) static_cast<void>(choose_grids(present.volumes));
+  return done;
+}
+
+Result<void> EditableScenario::reset(scene::Timeline timeline) {
+  if (auto done = expect_same_parts(timeline); !done) return done;
+  timeline.grid = grid_of(scenario_.voxels.grid.layout());
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;
   if (auto checked = scene::check_objects(timeline, scenario_.scene); !checked) return checked;

@@ -39,24 +39,11 @@ class EditableScenario {
   /// an event that the simulation rejects.
   Result<void> add(const scene::Timeline& actions);
 
-  /// Changes all smokes, existing ones included; a change of their amount or life replays them all.
-  Result<void> set_smoke(const scene::SmokeOptions& smoke);
-  Result<void> set_sky(const scene::SkyOptions& sky);
-  /// Changes the look of the volumes and the grids that they show; as many as there are, of the same files.
-  /// Fails with bad_input as check_settings and Volumes::choose_grids do.
-  Result<void> set_volumes(std::vector<scene::VolumeOptions> volumes);
-  /// Changes where the decals are and how they darken; as many as there are, of the same files and grids.
-  /// Fails with bad_input as check_settings does.
-  Result<void> set_decals(std::vector<scene::DecalOptions> decals);
-  /// Changes the keys of the carriers; as many as there are, with the same names and objects. The same
-  /// failure.
-  Result<void> set_carriers(std::vector<scene::Carrier> carriers);
-  /// [EV]
-  Result<void> set_exposure(float exposure);
-  /// How often surfaces and smoke pass light on to each other; 0: never.
-  Result<void> set_bounces(std::uint32_t bounces);
-  /// The path of the camera; sorted by time, no two times equal.
-  Result<void> set_camera(std::vector<scene::CameraKey> keys);
+  /// Takes over all of a timeline but its events: how smoke, sky, pictures, volumes, decals and carriers are,
+  /// and the path of the camera. A change of the amount or life of smoke replays all of it. Fails with
+  /// bad_input as check_settings, load_lens_openings and Volumes::choose_grids do, and for a timeline that
+  /// `reset` refuses for its scene, grid or parts.
+  Result<void> set_settings(scene::Timeline settings);
 
   /// Replaces the timeline by another one of the same scene, with the same grid or none, at the present tick.
   /// Fails with bad_input for another scene or grid, for volumes or decals of other files, for carriers of
@@ -73,6 +60,8 @@ class EditableScenario {
   bool moves_are_last(const scene::Timeline& actions) const;
   bool changes_are_last(const scene::Timeline& actions) const;
   Result<void> add_in_place(const scene::Timeline& actions);
+  Result<void> expect_same_parts(const scene::Timeline& timeline) const;
+  Result<void> choose_grids(const std::vector<scene::VolumeOptions>& volumes);
   Result<void> replay(scene::Timeline timeline, const Unchanged& unchanged);
   ObjectLevel& last_level();
 

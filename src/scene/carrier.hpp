@@ -13,6 +13,8 @@ struct CarrierKey {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 position_world{0};
   glm::vec3 rotation{0};  ///< About x, then y, then z [degrees]; may exceed a turn.
+
+  bool operator==(const CarrierKey&) const = default;
 };
 
 /// What volumes and decals move with, and objects of the scene: a drone, an engine.
@@ -23,6 +25,8 @@ struct Carrier {
   std::string object = {};
   std::vector<CarrierKey> keys;  ///< At least one, sorted by time, no two times equal.
   std::string place = {};        ///< "file:line:column" for error messages.
+
+  bool operator==(const Carrier&) const = default;
 };
 
 /// Where a carrier is at a time [s], as a key of that time: passes through all keys with continuous velocity,

@@ -17,6 +17,8 @@ struct MaskKey {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 color{1};
   float intensity = 1;
+
+  bool operator==(const MaskKey&) const = default;
 };
 
 /// A grid of a volume that glows in one colour: where its value is 1, color * intensity leaves each metre.
@@ -25,6 +27,8 @@ struct VolumeMask {
   glm::vec3 color{1};
   float intensity = 1;
   std::vector<MaskKey> keys;  ///< Replace both; sorted by time, no two times equal. Linear in between.
+
+  bool operator==(const VolumeMask&) const = default;
 };
 inline constexpr std::size_t kMostMasks = 4;
 /// Extinction of a volume with masks whose file states none: what only glows blocks no light.
@@ -91,6 +95,8 @@ struct VolumeOptions {
   std::uint32_t particles = 0;  ///< Quads that show its masks instead of a march; 0: none.
   float particle_size = 0.6f;
   std::string place = {};  ///< "file:line:column" for error messages.
+
+  bool operator==(const VolumeOptions&) const = default;
 };
 
 }  // namespace brume::scene

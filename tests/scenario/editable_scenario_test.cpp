@@ -182,11 +182,11 @@ TEST_F(EditableScenarioTest, MatchesItsTimelineAtEveryTime) {
       const auto done = live->add(player.actions());
       ASSERT_TRUE(done) << done.failure().message;
       if (i % 10 == 7) {
-        scene::SmokeOptions smoke = live->scenario().timeline.smoke;
-        smoke.voxels = 800 + player.below(1500);
-        smoke.hold = 0.5f * static_cast<float>(player.below(5));
-        smoke.erosion = 0.25f;
-        ASSERT_TRUE(live->set_smoke(smoke));
+        scene::Timeline settings = live->scenario().timeline;
+        settings.smoke.voxels = 800 + player.below(1500);
+        settings.smoke.hold = 0.5f * static_cast<float>(player.below(5));
+        settings.smoke.erosion = 0.25f;
+        ASSERT_TRUE(live->set_settings(settings));
       }
       if (i % 10 == 9)
         expect_as_saved(*live, {live->simulation().world().tick() / 64.0, player.time(), player.time()});
@@ -259,19 +259,61 @@ TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
               t.texts[0].text = " ";
             }).find("no visible letter"),
             std::string::npos);
-  scene::SmokeOptions smoke;
-  smoke.voxels = 0;
-  EXPECT_EQ(live->set_smoke(smoke).failure().message,
+}
+
+TEST_F(EditableScenarioTest, TakesOverAllSettingsOrNone) {
+  const auto live = rooms();
+  live->add(Player(1, folder).actions()).value_or_throw();
+  live->advance_to(1);
+  const scene::Timeline first = live->scenario().timeline;
+  const std::string before = scene::format_timeline(first, "");
+  const std::uint64_t hash = live->simulation().world().state_hash();
+  const auto refused = [&](const std::function<void(scene::Timeline&)>& make) {
+    scene::Timeline settings = first;
+    settings.sky.stars = 0.5f;
+    make(settings);
+    const auto done = live->set_settings(settings);
+    EXPECT_FALSE(done);
+    EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
+    EXPECT_EQ(live->simulation().world().state_hash(), hash);
+    return done.failure().message;
+  };
+  EXPECT_EQ(refused([](auto& t) { t.smoke.voxels = 0; }),
             "[smoke]: \"voxels\": expected a number from 1 to 1.67772e+07, found 0");
-  EXPECT_FALSE(live->set_exposure(21));
-  EXPECT_FALSE(live->set_bounces(17));
-  EXPECT_FALSE(live->set_camera({{1, {}}, {1, {}}}));
-  EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
-  EXPECT_TRUE(live->set_exposure(2));
-  EXPECT_TRUE(live->set_bounces(8));
-  EXPECT_TRUE(live->set_camera({{1, {}}, {2, {}}}));
-  EXPECT_EQ(reloaded(live->scenario().timeline).timeline.camera.size(), 2u);
-  EXPECT_EQ(reloaded(live->scenario().timeline).timeline.bounces, 8u);
+  EXPECT_EQ(refused([](auto& t) { t.exposure = 21; }),
+            "the timeline: \"exposure\": expected a number from -20 to 20, found 21");
+  EXPECT_EQ(refused([](auto& t) { t.bounces = 17; }),
+            "the timeline: \"bounces\": expected a number from 0 to 16, found 17");
+  EXPECT_EQ(refused([](auto& t) {
+              t.camera = {{1, {}}, {1, {}}};
+            }),
+            "camera at 1 s: \"time\": expected a later time than the previous key's");
+  EXPECT_NE(refused([&](auto& t) {
+              t.camera = {{1, {}}};
+              t.camera[0].camera.lens.opening = folder / "none.png";
+            }).find("none.png"),
+            std::string::npos);
+  EXPECT_EQ(refused([](auto& t) { t.scene = "other.glb"; }),
+            "other.glb: expected the scenario's own scene, rooms.glb");
+  EXPECT_EQ(refused([](auto& t) { t.grid.voxel = 0.5f; }),
+            "the timeline has another grid than the scenario; load it as a new scenario");
+
+  // Events of the settings are ignored; those of the scenario stay.
+  scene::Timeline settings = first;
+  settings.exposure = 2;
+  settings.bounces = 8;
+  settings.tone = scene::ToneCurve::standard;
+  settings.sky.stars = 0.5f;
+  settings.camera = {{1, {}}, {2, {}}};
+  const std::string expected = scene::format_timeline(settings, "");
+  scene::for_each_event_list(settings, [](const char*, auto& events) { events.clear(); });
+  settings.blasts = {{0.5, vec3(0, 1, 0)}};
+  settings.grid = {settings.grid.voxel, {}, {}};
+  EXPECT_TRUE(live->set_settings(settings));
+  EXPECT_EQ(live->simulation().world().state_hash(), hash);
+  EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), expected);
+  EXPECT_EQ(scene::format_timeline(reloaded(live->scenario().timeline).timeline, folder / "out"),
+            scene::format_timeline(live->scenario().timeline, folder / "out"));
   expect_as_saved(*live, {1, 2});
 }
 
@@ -328,7 +370,9 @@ TEST_F(EditableScenarioTest, ARecordingOfTheDemoReloadsToTheSameState) {
     t.texts[0].toward_world = door;
   });
   play(3.5, [&](auto& t) { t.blasts = {{3.5, door}}; });
-  live->set_camera({{0, {eye, door, 1}}, {4, {eye + vec3(3, 0, 0), door, 1}}}).value_or_throw();
+  scene::Timeline settings = live->scenario().timeline;
+  settings.camera = {{0, {eye, door, 1}}, {4, {eye + vec3(3, 0, 0), door, 1}}};
+  live->set_settings(settings).value_or_throw();
 
   const fs::path file = folder / "out/take.toml";
   scene::save_timeline(file, live->scenario().timeline).value_or_throw();

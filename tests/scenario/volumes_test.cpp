@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "grids/files/grid_files.hpp"
+#include "scenario/editable_scenario.hpp"
 #include "scenario/scenario.hpp"
 #include "tests/log_lines.hpp"
 #include "tests/scenario/volume_folder.hpp"
@@ -316,6 +317,21 @@ TEST_F(VolumesTest, AnOpacityCurveDoesNotChangeHowDenseTheFirstViewIs) {
   const float plain = extinction({}) * 0.3f;
   EXPECT_NEAR(extinction({{0, 1}, {1, 1}}), plain, 1e-3f * plain);
   EXPECT_NEAR(extinction({{0, 0.5f}, {1, 0.5f}}), 2 * plain, 2e-3f * plain);
+}
+
+// A file alone may place its volume where timelines may not.
+TEST_F(VolumesTest, SettingsBesideAFarVolumeCanChange) {
+  save("a.brv", {cube("density", 1)});
+  Scenario scenario = load_scenario(folder_ / "a.brv", {}).value_or_throw();
+  scenario.timeline.volumes[0].position_world.x = 2e6f;
+  const auto live = EditableScenario::create(std::move(scenario)).value_or_throw();
+  scene::Timeline settings = live->scenario().timeline;
+  settings.exposure = 1;
+  EXPECT_TRUE(live->set_settings(settings));
+  settings.volumes[0].extinction = 2;
+  EXPECT_EQ(live->set_settings(settings).failure().message,
+            "[[volume]] a.brv: \"position\": expected a number from -1e+06 to 1e+06, found 2e+06");
+  EXPECT_EQ(live->scenario().timeline.exposure, 1);
 }
 
 TEST_F(VolumesTest, APlacedVolumeIsWhereTheTimelineSays) {

@@ -161,9 +161,9 @@ TEST_F(CarriersTest, KeysAreAddedMovedRemovedAndUndone) {
 TEST_F(CarriersTest, AKeyOutsideOfItsRangeIsRefused) {
   Game& game = start();
   game.session().seek(1);
-  std::vector<scene::Carrier> carriers = timeline().carriers;
-  carriers[0].keys[0].position_world.x = 2e6f;
-  const auto done = game.session().live().set_carriers(carriers);
+  scene::Timeline settings = timeline();
+  settings.carriers[0].keys[0].position_world.x = 2e6f;
+  const auto done = game.session().set_settings(settings);
   ASSERT_FALSE(done);
   EXPECT_NE(done.failure().message.find("[[carrier]] crane: key at 0 s: \"position\""), std::string::npos);
   EXPECT_EQ(keys()[0].position_world.x, 2);
@@ -174,9 +174,10 @@ TEST_F(CarriersTest, ATimelineWithOtherPartsIsRefused) {
   const auto expect_refused = [&](auto change) {
     scene::Timeline other = timeline();
     change(other);
-    const auto done = live.reset(other);
-    ASSERT_FALSE(done);
-    EXPECT_NE(done.failure().message.find("load it as a new scenario"), std::string::npos);
+    for (const auto& done : {live.reset(other), live.set_settings(other)}) {
+      ASSERT_FALSE(done);
+      EXPECT_NE(done.failure().message.find("load it as a new scenario"), std::string::npos);
+    }
   };
   expect_refused([](scene::Timeline& t) { t.decals.pop_back(); });
   expect_refused([](scene::Timeline& t) { t.decals[0].grid = "fuel"; });
@@ -220,19 +221,16 @@ TEST_F(CarriersTest, WithoutCarriersNothingIsSteered) {
 
 TEST_F(CarriersTest, DecalsAndMasksAreEditedUndoneAndSaved) {
   Game& game = start();
-  scenario::EditableScenario& live = game.session().live();
-  std::vector<scene::DecalOptions> decals = timeline().decals;
-  decals[1].strength = 0.25f;
-  decals[1].fade = 0.5f;
-  ASSERT_TRUE(live.set_decals(decals));
-  game.setting_changed("decal");
+  scene::Timeline settings = timeline();
+  settings.decals[1].strength = 0.25f;
+  settings.decals[1].fade = 0.5f;
+  game.change_settings("decal", settings);
   game.settle();
-  std::vector<scene::VolumeOptions> volumes = timeline().volumes;
-  volumes[1].masks[0].color = {0, 0.5f, 1};
-  volumes[1].disturbance.strength = 0;
-  volumes[1].particles = 100;
-  ASSERT_TRUE(live.set_volumes(volumes));
-  game.setting_changed("volume");
+  scene::VolumeOptions& volume = settings.volumes[1];
+  volume.masks[0].color = {0, 0.5f, 1};
+  volume.disturbance.strength = 0;
+  volume.particles = 100;
+  game.change_settings("volume", settings);
   game.settle();
   EXPECT_EQ(frame_input(game, holes_).decals[1].strength, 0.25f);
   const auto particles = frame_input(game, holes_).particles;
@@ -246,7 +244,7 @@ TEST_F(CarriersTest, DecalsAndMasksAreEditedUndoneAndSaved) {
   const scene::Timeline again = scene::load_timeline(path).value_or_throw();
   EXPECT_EQ(scene::format_timeline(again, folder_.path()),
             scene::format_timeline(game.session().recording(), folder_.path()));
-  EXPECT_EQ(again.volumes[1].disturbance, volumes[1].disturbance);
+  EXPECT_EQ(again.volumes[1].disturbance, volume.disturbance);
 
   act(Action::undo);
   EXPECT_EQ(lines_.back(), "undone: volume");
@@ -255,9 +253,9 @@ TEST_F(CarriersTest, DecalsAndMasksAreEditedUndoneAndSaved) {
   act(Action::undo);
   EXPECT_EQ(timeline().decals[1].strength, 1);
 
-  decals[0].gamma = 20;
-  EXPECT_EQ(live.set_decals(decals).failure().message,
-            "[[decal]] fog.brv: \"gamma\": expected a number from 0.1 to 10, found 20");
+  settings.decals[0].gamma = 20;
+  game.change_settings("decal", settings);
+  EXPECT_EQ(lines_.back(), "[[decal]] fog.brv: \"gamma\": expected a number from 0.1 to 10, found 20");
 }
 
 TEST(CarrierKeysTest, KeysOfATime) {

@@ -27,7 +27,9 @@ template <typename Options, typename Visit>
 Table table(const char* name, Visit visit) {
   return {name, [visit](const VisitInfo& info) {
             const Options options;
-            visit(options, [&](const scene::OptionInfo& each, const auto&) { info(each); });
+            visit(options, [&]<typename Info>(const Info& each, const auto&) {
+              if constexpr (std::is_same_v<Info, scene::OptionInfo>) info(each);
+            });
           }};
 }
 
@@ -49,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         table<scene::SmokeOptions>("Smoke", [](auto& o, auto&& v) { scene::visit_smoke_options(o, v); }),
         table<scene::SkyOptions>("Sky", [](auto& o, auto&& v) { scene::visit_sky_options(o, v); }),
-        table<scene::Timeline>("Timeline", [](auto& o, auto&& v) { scene::visit_timeline_options(o, v); }),
+        table<scene::Timeline>("Light", [](auto& o, auto&& v) { scene::visit_picture_options(o, v); }),
+        table<scene::TankScene>("TankFilm", [](auto& o, auto&& v) { scene::visit_film_options(o, v); }),
         table<scene::Camera>("Camera", [](auto& o, auto&& v) { scene::visit_camera_options(o, v); }),
         table<scene::ShotEvent>("Shots", [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); }),
         table<scene::TextEvent>("Words", [](auto& o, auto&& v) { scene::visit_event_numbers(o, v); }),

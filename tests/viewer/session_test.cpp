@@ -142,7 +142,9 @@ TEST_F(SessionTest, EmptyingRemovesAllActionsAndKeepsSettings) {
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
   advance(0.25);
   ASSERT_NE(session_->simulation().world().state_hash(), before);
-  ASSERT_TRUE(session_->live().set_exposure(2));
+  scene::Timeline settings = session_->live().scenario().timeline;
+  settings.exposure = 2;
+  ASSERT_TRUE(session_->set_settings(settings));
   ASSERT_TRUE(session_->empty());
   EXPECT_EQ(session_->simulation().world().state_hash(), before);
   EXPECT_EQ(session_->recording().smokes.size(), 0u);
