@@ -115,9 +115,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
   if (options.sun) timeline.sun = *options.sun;
   if (!options.has_ground) timeline.ground.reset();
   if (options.voxel) timeline.grid.voxel = *options.voxel;
-  if (options.exposure) timeline.exposure = *options.exposure;
-  if (options.tone) timeline.tone = *options.tone;
-  if (options.bounces) timeline.bounces = *options.bounces;
+  scene::replace_given(timeline, options.picture);
   if (!options.has_smoke) timeline.smokes.clear();
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
 }
@@ -280,11 +278,11 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.scale = as_float(options.scale);
   parsed.voxel = as_float(options.voxel);
   parsed.smoke_size = as_float(options.smoke_size);
-  parsed.exposure = as_float(options.exposure);
-  parsed.bounces = options.bounces;
+  parsed.picture.exposure = as_float(options.exposure);
+  parsed.picture.bounces = options.bounces;
   // Texts that name a choice.
   if (!options.tone.empty())
-    parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
+    parsed.picture.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   parsed.has_ground = options.ground != "none";
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
   if (!options.opacity.empty()) parsed.opacity = parse_opacity(options.opacity);

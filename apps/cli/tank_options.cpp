@@ -67,9 +67,10 @@ scenario::TankScenario load_tank(const std::filesystem::path& input,
                                  const scenario::FirstViewOptions& options,
                                  const std::function<bool()>& stopped) {
   scenario::TankScenario scenario = scenario::load_tank_scenario(input, stopped).value_or_throw();
-  if (options.exposure) scenario.scene.exposure = *options.exposure;
-  if (options.tone) scenario.scene.tone = *options.tone;
-  if (options.bounces) scenario.scene.bounces = *options.bounces;
+  const scene::PictureSettings<std::optional>& given = options.picture;
+  if (given.exposure) scenario.scene.exposure = *given.exposure;
+  if (given.bounces) scenario.scene.bounces = *given.bounces;
+  if (given.tone) scenario.scene.tone = *given.tone;
   return scenario;
 }
 

@@ -8,6 +8,7 @@
 #include "scenario/first_smoke.hpp"
 #include "scene/daylight.hpp"
 #include "scene/files/load.hpp"
+#include "scene/options.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -280,9 +281,10 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   timeline.origin = chosen_origin(scene, path, timeline.scale);
   const float light = choose_light(timeline, scene, options.sun);
   // Until it is measured, the lights alone decide the exposure.
-  timeline.exposure = options.exposure.value_or(std::clamp(-std::log2(light), -20.0f, 20.0f));
+  timeline.exposure = std::clamp(-std::log2(light), -20.0f, 20.0f);
+  scene::replace_given(timeline, options.picture);
   if (!scene.camera && options.has_ground) timeline.ground = ground_below(scene, timeline);
-  if (options.bounces.value_or(0) > 0 && scene.objects.empty())
+  if (timeline.bounces > 0 && scene.objects.empty())
     log_warning(path.string() + ": bounces change nothing without a level");
   // Volumes are lit from below by the ground, where nothing else is there.
   if (timeline.ground && scene.objects.empty()) timeline.sky.bounce = luminance(kGroundColor);
@@ -291,8 +293,6 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   if (!bounds.empty() && is_line(bounds))
     log_warning(path.string() + ": nothing to see: none of its triangles has an area");
   scene::Camera camera = scene::default_camera(scene, options.aspect);
-  timeline.bounces = options.bounces.value_or(0);
-  timeline.tone = options.tone.value_or(timeline.tone);
 
   // Its smoke.
   const bool is_fitted = !scene.camera && !options.camera;

@@ -22,9 +22,8 @@ struct FirstViewOptions {
   /// Replaces the camera of the result [m]; the smoke is placed for it.
   std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};
-  std::optional<float> exposure;              ///< [EV]; empty: measured (Scenario::measure_exposure).
-  std::optional<std::uint32_t> bounces = {};  ///< Timeline::bounces; empty: none.
-  std::optional<scene::ToneCurve> tone = {};
+  /// Without an exposure, it is measured (Scenario::measure_exposure).
+  scene::PictureSettings<std::optional> picture = {};
   // For a volume alone, as in scene::VolumeOptions.
   std::string density = {}, heat = {};
   std::optional<float> kelvin = {}, volume_frame_rate = {};

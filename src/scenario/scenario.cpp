@@ -210,7 +210,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
       assemble(std::move(timeline), std::move(*scene), std::move(*volumes), options.aspect, cache_folder);
   if (!scenario) return scenario;
   scenario->camera_is_fitted = is_fitted;
-  scenario->measure_exposure = !options.exposure;
+  scenario->measure_exposure = !options.picture.exposure;
   if (options.smokes.empty()) free_smokes(*scenario, input, options);
   return scenario;
 }

@@ -7,6 +7,7 @@
 
 #include "core/log.hpp"
 #include "scene/daylight.hpp"
+#include "scene/options.hpp"
 #include "shared/volume.h"
 
 namespace brume::scenario {
@@ -147,10 +148,11 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const vol
   timeline.sky.horizon = {0.13f, 0.22f, 0.40f};
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
   const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
-  timeline.exposure = options.exposure.value_or(glows ? fire_exposure(frame, extent, volume)
-                                                      : kVolumeExposure - std::log2(dimmed));
+  timeline.exposure = glows ? fire_exposure(frame, extent, volume) : kVolumeExposure - std::log2(dimmed);
   // Clipped flames are yellow; compressed ones are pink.
-  timeline.tone = options.tone.value_or(glows ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
+  timeline.tone = glows ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
+  scene::replace_given(timeline, options.picture);
+  timeline.bounces = 0;  // there is no level
   if (options.has_ground) timeline.ground = 0.0f;
   timeline.grid.voxel =
       options.voxel.value_or(std::clamp(largest * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));

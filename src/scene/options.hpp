@@ -96,6 +96,17 @@ void visit_picture_options(Options& o, Visitor&& visit) {
   visit_tone_options(o, visit);
 }
 
+/// Replaces settings of pictures by those that are given.
+template <typename Settings, typename GivenSettings>
+void replace_given(Settings& settings, const GivenSettings& given) {
+  visit_picture_options(given, [&](const auto& info, const auto& value) {
+    visit_picture_options(settings, [&]<typename Member>(const auto& other, Member& member) {
+      if constexpr (std::is_same_v<decltype(value.value()), const Member&>)
+        if (value && other.key == std::string_view(info.key)) member = *value;
+    });
+  });
+}
+
 /// How the scene's file becomes the level: settings that a running simulation cannot change.
 template <typename Options, typename Visitor>
 void visit_level_options(Options& o, Visitor&& visit) {

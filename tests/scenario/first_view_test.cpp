@@ -116,7 +116,7 @@ TEST_F(FirstViewTest, VolumesAreLitByTheGround) {
   EXPECT_EQ(first_view(cloud, options).sky.bounce, usual);
   EXPECT_EQ(first_view(scene::load_scene(box(4)).value_or_throw(), {}).sky.bounce, usual);
   const LogLines warnings;
-  options.bounces = 8;
+  options.picture.bounces = 8;
   first_view(cloud, options);
   EXPECT_EQ(warnings.lines, std::vector<std::string>{"cloud.vdb: bounces change nothing without a level"});
 }
@@ -128,13 +128,15 @@ TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
                                  .smoke_size = 3.0f,
                                  .smokes = {{1, {0, 1, 0}, {1, 1, 1}}},
                                  .sun = scene::SunOptions{0, 1.5707963f},
-                                 .exposure = -1.0f};
+                                 .picture = {-1.0f, 8, scene::ToneCurve::standard}};
   const scene::Timeline timeline = prepare_first_view("box.obj", scene, options);
   EXPECT_FLOAT_EQ(scene::world_bounds(scene).high.x, 8);
   EXPECT_EQ(timeline.grid.voxel, 0.3f);
   EXPECT_EQ(timeline.smoke.voxels, 523u) << "a ball of ten voxels across";
   EXPECT_EQ(timeline.smokes[0].time, 1);
   EXPECT_EQ(timeline.exposure, -1);
+  EXPECT_EQ(timeline.bounces, 8u);
+  EXPECT_EQ(timeline.tone, scene::ToneCurve::standard);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_NEAR(scene.lights[0].direction_world.y, -1, 1e-6f);
 }

@@ -319,6 +319,16 @@ TEST_F(VolumesTest, AnOpacityCurveDoesNotChangeHowDenseTheFirstViewIs) {
   EXPECT_NEAR(extinction({{0, 0.5f}, {1, 0.5f}}), 2 * plain, 2e-3f * plain);
 }
 
+TEST_F(VolumesTest, AVolumeAloneTakesAllPictureSettingsButBounces) {
+  save("a.brv", {cube("density", 1)});
+  FirstViewOptions options;
+  options.picture = {-1.0f, 8, scene::ToneCurve::standard};
+  const scene::Timeline timeline = load_scenario(folder_ / "a.brv", {}, options).value_or_throw().timeline;
+  EXPECT_EQ(timeline.exposure, -1);
+  EXPECT_EQ(timeline.bounces, 0u);
+  EXPECT_EQ(timeline.tone, scene::ToneCurve::standard);
+}
+
 // A file alone may place its volume where timelines may not.
 TEST_F(VolumesTest, SettingsBesideAFarVolumeCanChange) {
   save("a.brv", {cube("density", 1)});
