@@ -13,6 +13,7 @@
 #include "scene/files/timeline_writer.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scenario/two_rooms.hpp"
+#include "tests/scene/random_timeline.hpp"
 #include "tests/work_folder.hpp"
 
 namespace brume::scenario {
@@ -152,6 +153,16 @@ class EditableScenarioTest : public testing::Test {
       expect_same_picture(live.simulation(), *expected);
     }
   }
+  /// The message of an edit that fails and changes nothing.
+  static std::string refusal(const EditableScenario& live, const std::function<Result<void>()>& edit) {
+    const std::string before = scene::format_timeline(live.scenario().timeline, "");
+    const std::uint64_t hash = live.simulation().world().state_hash();
+    const auto done = edit();
+    EXPECT_FALSE(done);
+    EXPECT_EQ(scene::format_timeline(live.scenario().timeline, ""), before);
+    EXPECT_EQ(live.simulation().world().state_hash(), hash);
+    return done.failure().message;
+  }
   /// Smoke as rays read it, and the surfaces.
   static void expect_same_picture(const Simulation& a, const Simulation& b) {
     const glm::ivec3 size = a.world().grid().size();
@@ -227,18 +238,12 @@ TEST_F(EditableScenarioTest, IsIndependentOfTheOrderOfActions) {
 TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
   const auto live = rooms();
   live->advance_to(1);
-  const std::string before = scene::format_timeline(live->scenario().timeline, "");
-  const std::uint64_t hash = live->simulation().world().state_hash();
   const auto refused = [&](const std::function<void(scene::Timeline&)>& make) {
     scene::Timeline actions;
     actions.shots = {Player(1, folder).shot(0.5)};
     actions.doors = {{0.5, "door", true}};
     make(actions);
-    const auto done = live->add(actions);
-    EXPECT_FALSE(done);
-    EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
-    EXPECT_EQ(live->simulation().world().state_hash(), hash);
-    return done.failure().message;
+    return refusal(*live, [&] { return live->add(actions); });
   };
   EXPECT_EQ(refused([](auto& t) { t.shots[0].radius = 20; }),
             "shot at 0.5 s: \"radius\": expected a number from 0.01 to 10, found 20");
@@ -261,59 +266,54 @@ TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
             std::string::npos);
 }
 
-TEST_F(EditableScenarioTest, TakesOverAllSettingsOrNone) {
+TEST_F(EditableScenarioTest, TakesOverAllOfATimelineOrNothing) {
   const auto live = rooms();
   live->add(Player(1, folder).actions()).value_or_throw();
   live->advance_to(1);
-  const scene::Timeline first = live->scenario().timeline;
-  const std::string before = scene::format_timeline(first, "");
-  const std::uint64_t hash = live->simulation().world().state_hash();
-  const auto refused = [&](const std::function<void(scene::Timeline&)>& make) {
-    scene::Timeline settings = first;
-    settings.sky.stars = 0.5f;
-    make(settings);
-    const auto done = live->set_settings(settings);
-    EXPECT_FALSE(done);
-    EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
-    EXPECT_EQ(live->simulation().world().state_hash(), hash);
-    return done.failure().message;
-  };
-  EXPECT_EQ(refused([](auto& t) { t.smoke.voxels = 0; }),
-            "[smoke]: \"voxels\": expected a number from 1 to 1.67772e+07, found 0");
-  EXPECT_EQ(refused([](auto& t) { t.exposure = 21; }),
-            "the timeline: \"exposure\": expected a number from -20 to 20, found 21");
-  EXPECT_EQ(refused([](auto& t) { t.bounces = 17; }),
-            "the timeline: \"bounces\": expected a number from 0 to 16, found 17");
-  EXPECT_EQ(refused([](auto& t) {
-              t.camera = {{1, {}}, {1, {}}};
-            }),
-            "camera at 1 s: \"time\": expected a later time than the previous key's");
-  EXPECT_NE(refused([&](auto& t) {
-              t.camera = {{1, {}}};
-              t.camera[0].camera.lens.opening = folder / "none.png";
-            }).find("none.png"),
-            std::string::npos);
-  EXPECT_EQ(refused([](auto& t) { t.scene = "other.glb"; }),
-            "other.glb: expected the scenario's own scene, rooms.glb");
-  EXPECT_EQ(refused([](auto& t) { t.grid.voxel = 0.5f; }),
-            "the timeline has another grid than the scenario; load it as a new scenario");
+  for (const auto edit : {&EditableScenario::set_settings, &EditableScenario::reset}) {
+    const auto refused = [&](const std::function<void(scene::Timeline&)>& make) {
+      scene::Timeline settings = live->scenario().timeline;
+      settings.sky.stars = 0.5f;
+      make(settings);
+      return refusal(*live, [&] { return (live.get()->*edit)(settings); });
+    };
+    EXPECT_EQ(refused([](auto& t) { t.smoke.voxels = 0; }),
+              "[smoke]: \"voxels\": expected a number from 1 to 1.67772e+07, found 0");
+    EXPECT_EQ(refused([](auto& t) { t.bounces = 17; }),
+              "the timeline: \"bounces\": expected a number from 0 to 16, found 17");
+    EXPECT_EQ(refused([](auto& t) { t.camera.resize(2); }),
+              "camera at 0 s: \"time\": expected a later time than the previous key's");
+    EXPECT_NE(refused([&](auto& t) {
+                t.camera.resize(1);
+                t.camera[0].camera.lens.opening = folder / "none.png";
+              }).find("none.png"),
+              std::string::npos);
+    EXPECT_EQ(refused([](auto& t) { t.scene = "other.glb"; }),
+              "other.glb: expected the scenario's own scene, rooms.glb");
+    EXPECT_EQ(refused([](auto& t) { t.grid.voxel = 0.5f; }),
+              "the timeline has another grid than the scenario; load it as a new scenario");
+  }
+}
 
-  // Events of the settings are ignored; those of the scenario stay.
-  scene::Timeline settings = first;
-  settings.exposure = 2;
-  settings.bounces = 8;
-  settings.tone = scene::ToneCurve::standard;
-  settings.sky.stars = 0.5f;
+TEST_F(EditableScenarioTest, TakesOverSettingsAndKeepsItsEvents) {
+  const auto live = rooms();
+  live->add(Player(1, folder).actions()).value_or_throw();
+  live->advance_to(1);
+  const std::uint64_t hash = live->simulation().world().state_hash();
+  scene::Timeline settings = live->scenario().timeline;
+  scene::Drawing draw(1);
+  visit_picture_options(settings, draw);
+  visit_sky_options(settings.sky, draw);
   settings.camera = {{1, {}}, {2, {}}};
-  const std::string expected = scene::format_timeline(settings, "");
+  const std::string expected = scene::format_timeline(settings, folder / "out");
+  EXPECT_NE(expected, scene::format_timeline(live->scenario().timeline, folder / "out"));
   scene::for_each_event_list(settings, [](const char*, auto& events) { events.clear(); });
   settings.blasts = {{0.5, vec3(0, 1, 0)}};
   settings.grid = {settings.grid.voxel, {}, {}};
   EXPECT_TRUE(live->set_settings(settings));
   EXPECT_EQ(live->simulation().world().state_hash(), hash);
-  EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), expected);
-  EXPECT_EQ(scene::format_timeline(reloaded(live->scenario().timeline).timeline, folder / "out"),
-            scene::format_timeline(live->scenario().timeline, folder / "out"));
+  EXPECT_EQ(scene::format_timeline(live->scenario().timeline, folder / "out"), expected);
+  EXPECT_EQ(scene::format_timeline(reloaded(live->scenario().timeline).timeline, folder / "out"), expected);
   expect_as_saved(*live, {1, 2});
 }
 
@@ -332,14 +332,6 @@ TEST_F(EditableScenarioTest, ResetRestoresTheInitialState) {
   EXPECT_EQ(live->scenario().masks.count(), 0u);
   EXPECT_TRUE(live->simulation().hidden_objects().empty());
   expect_as_saved(*live, {3, 1});
-
-  scene::Timeline other = first;
-  other.scene = "other.glb";
-  EXPECT_EQ(live->reset(other).failure().message, "other.glb: expected the scenario's own scene, rooms.glb");
-  other = first;
-  other.grid.voxel = 0.5f;
-  EXPECT_EQ(live->reset(other).failure().message,
-            "the timeline has another grid than the scenario; load it as a new scenario");
 }
 
 TEST_F(EditableScenarioTest, ARecordingOfTheDemoReloadsToTheSameState) {
