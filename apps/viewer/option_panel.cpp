@@ -7,7 +7,6 @@
 #include <glm/gtc/color_space.hpp>
 #include <numbers>
 
-#include "apps/viewer/option_labels.hpp"
 #include "apps/viewer/widgets.hpp"
 
 namespace brume::viewer {
@@ -107,6 +106,13 @@ bool pick_colour(glm::vec3& colour, float strength) {
 }
 
 }  // namespace
+
+std::string label_of(const scene::OptionInfo& info) {
+  if (info.label) return info.label;
+  std::string words = info.key;
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
 
 void begin_row(const char* label, const char* about) {
   ImGui::AlignTextToFramePadding();

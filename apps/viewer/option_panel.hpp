@@ -19,6 +19,9 @@ namespace brume::viewer {
 /// The part of a row's width that its label takes.
 constexpr float kLabelWidth = 0.42f;
 
+/// The label of a setting.
+std::string label_of(const scene::OptionInfo& info);
+
 // One row per number, or colour: a slider with unit and tooltip; a right click restores the value of the
 // file, Ctrl+click types a value. Values stay in their range. The labels of changed values are marked.
 // Returns whether the value changed.

@@ -89,10 +89,12 @@ bool size_row(glm::uvec3& size) {
 /// Rows for what no table of settings holds.
 bool radius_rows(spheres::PackOptions& pack, const spheres::PackOptions& file) {
   const double largest = 0.5 * std::min({pack.size.x, pack.size.y, pack.size.z});
-  const scene::OptionInfo smallest_info{"smallest", "voxels", "`radius` in the file, its first number",
-                                        scene::kLeastRadius, largest};
-  const scene::OptionInfo largest_info{"largest", "voxels", "`radius` in the file, its second number",
-                                       scene::kLeastRadius, largest};
+  const scene::OptionInfo smallest_info{
+      "smallest",          "voxels", "`radius` in the file, its first number",
+      scene::kLeastRadius, largest,  "smallest radius"};
+  const scene::OptionInfo largest_info{
+      "largest",           "voxels", "`radius` in the file, its second number",
+      scene::kLeastRadius, largest,  "largest radius"};
   bool changed = false;
   if (option_row(smallest_info, pack.radius.x, file.radius.x)) {
     pack.radius.y = std::max(pack.radius.x, pack.radius.y);

@@ -25,14 +25,15 @@ struct WalkerOptions {
 template <typename Options, typename Visitor>
 void visit_walker_options(Options& o, Visitor&& visit) {
   using scene::OptionInfo;
-  visit(OptionInfo{"half_width", "m", "from the body's middle to its side", 0.05, 1}, o.half_width);
+  visit(OptionInfo{"half_width", "m", "from the body's middle to its side", 0.05, 1, "half its width"},
+        o.half_width);
   visit(OptionInfo{"height", "m", "of the body", 0.2, 3}, o.height);
-  visit(OptionInfo{"eye", "m", "of the eye over the feet", 0.1, 3}, o.eye);
-  visit(OptionInfo{"step", "m", "highest step climbed without a jump", 0, 2}, o.step);
-  visit(OptionInfo{"walk_speed", "m/s", "on foot", 0.1, 100}, o.walk_speed);
-  visit(OptionInfo{"fly_speed", "m/s", "in flight", 0.1, 1000}, o.fly_speed);
-  visit(OptionInfo{"run", "", "speed factor when running", 1, 10}, o.run);
-  visit(OptionInfo{"jump", "m", "height of a jump", 0, 10}, o.jump);
+  visit(OptionInfo{"eye", "m", "of the eye over the feet", 0.1, 3, "height of the eye"}, o.eye);
+  visit(OptionInfo{"step", "m", "highest step climbed without a jump", 0, 2, "highest step"}, o.step);
+  visit(OptionInfo{"walk_speed", "m/s", "on foot", 0.1, 100, "walking speed"}, o.walk_speed);
+  visit(OptionInfo{"fly_speed", "m/s", "in flight", 0.1, 1000, "flying speed"}, o.fly_speed);
+  visit(OptionInfo{"run", "", "speed factor when running", 1, 10, "running is faster by"}, o.run);
+  visit(OptionInfo{"jump", "m", "height of a jump", 0, 10, "height of a jump"}, o.jump);
   visit(OptionInfo{"gravity", "m/s2", "acceleration of a fall", 0.1, 100}, o.gravity);
 }
 

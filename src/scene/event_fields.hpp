@@ -95,10 +95,11 @@ void visit_event(Event& e, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_hole_times(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"reach", "s", "time until the front reaches the far end", 0, 60}, o.reach);
-  visit(OptionInfo{"expand", "s", "time to open, at each depth", 0, 60}, o.expand);
-  visit(OptionInfo{"stay", "s", "time fully open", 0, 600}, o.stay);
-  visit(OptionInfo{"fade", "s", "time to close", 0, 60}, o.fade);
+  visit(OptionInfo{"reach", "s", "time until the front reaches the far end", 0, 60, "time to pierce"},
+        o.reach);
+  visit(OptionInfo{"expand", "s", "time to open, at each depth", 0, 60, "time to open"}, o.expand);
+  visit(OptionInfo{"stay", "s", "time fully open", 0, 600, "time open"}, o.stay);
+  visit(OptionInfo{"fade", "s", "time to close", 0, 60, "time to close"}, o.fade);
 }
 
 inline constexpr std::array kShotShapes{"cylinder", "box", "mask"};
@@ -125,10 +126,11 @@ void visit_event(Event& e, Visitor&& visit) {
   visit(PointField{"toward", "a point on the path of the row's middle"}, e.toward_world);
   visit(EventRule{RuleKind::differs, "toward", "from"}, e.toward_world, e.from_world);
   visit(FileField{"font", "a font file"}, e.font);
-  visit(OptionInfo{"size", "m", "height of a capital letter", 0.02, 10}, e.size);
-  visit(OptionInfo{"spacing", "", "extra space between letters, in heights of a capital", -0.5, 10},
+  visit(OptionInfo{"size", "m", "height of a capital letter", 0.02, 10, "letter height"}, e.size);
+  visit(OptionInfo{"spacing", "", "extra space between letters, in heights of a capital", -0.5, 10,
+                   "letter spacing"},
         e.spacing);
-  visit(OptionInfo{"interval", "s", "time from letter to letter", 0, 10}, e.interval);
+  visit(OptionInfo{"interval", "s", "time from letter to letter", 0, 10, "time between letters"}, e.interval);
   visit_hole_times(e.times, visit);
   visit(OptionInfo{"roll", kDegrees, "rotates the row clockwise as seen by the shooter", -360, 360}, e.roll);
 }
@@ -137,11 +139,13 @@ template <EventOf<BlastEvent> Event, typename Visitor>
 void visit_event(Event& e, Visitor&& visit) {
   visit(PointField{"at", "the centre of the explosion"}, e.at_world);
   visit(OptionInfo{"radius", "m", "radius of the cavity", 0.1, 100}, e.radius);
-  visit(OptionInfo{"speed", "m/s", "speed of the front", 1, 10000}, e.speed);
-  visit(OptionInfo{"remaining", "", "fraction of the density that remains", 0, 1}, e.remaining);
-  visit(OptionInfo{"refill_rim", "s", "time until the rim is full again", 0.01, 60}, e.refill_rim);
+  visit(OptionInfo{"speed", "m/s", "speed of the front", 1, 10000, "speed of the front"}, e.speed);
+  visit(OptionInfo{"remaining", "", "fraction of the density that remains", 0, 1, "smoke that remains"},
+        e.remaining);
+  visit(OptionInfo{"refill_rim", "s", "time until the rim is full again", 0.01, 60, "edge full after"},
+        e.refill_rim);
   visit(OptionInfo{"refill_middle", "s", "time until the middle is full again; at least `refill_rim`", 0.01,
-                   60},
+                   60, "middle full after"},
         e.refill_middle);
   visit(EventRule{RuleKind::at_least, "refill_middle", "refill_rim"}, e.refill_middle, e.refill_rim);
   visit(OptionInfo{"flash", "W/sr", "intensity of the fireball, 0.3 s long", 0, 1e6}, e.flash);

@@ -13,10 +13,11 @@
 namespace brume::scene {
 
 struct OptionInfo {
-  const char* key;    ///< In the file.
-  const char* unit;   ///< Empty: a fraction or factor. kDegrees: the member holds radians.
-  const char* about;  ///< One line.
-  double low, high;   ///< Inclusive range in `unit`; for vectors, of each component.
+  const char* key;              ///< In the file.
+  const char* unit;             ///< Empty: a fraction or factor. kDegrees: the member holds radians.
+  const char* about;            ///< One line.
+  double low, high;             ///< Inclusive range in `unit`; for vectors, of each component.
+  const char* label = nullptr;  ///< In the viewer's panels; null: the words of the key.
 };
 
 /// A setting that is one of some names, by their order in the member, an enumeration.
@@ -56,7 +57,8 @@ void visit_exposure_options(Options& o, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_duration_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"duration", "s", "duration of the film", 0.01, kLatestTime}, o.duration);
+  visit(OptionInfo{"duration", "s", "duration of the film", 0.01, kLatestTime, "length of the film"},
+        o.duration);
 }
 
 /// What timelines and scenes of tanks begin with.
@@ -135,38 +137,44 @@ void visit_grid_options(Options& o, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_smoke_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"voxels", "", "voxels that a grown smoke fills", 1, 1 << 24}, o.voxels);
-  visit(OptionInfo{"bloom", "s", "time from going off to full size", 0.05, 60}, o.bloom);
-  visit(OptionInfo{"hold", "s", "time at full size", 0, kLatestTime}, o.hold);
-  visit(OptionInfo{"dissolve", "s", "time to dissolve", 0.05, 60}, o.dissolve);
-  visit(OptionInfo{"extinction", "1/m", "extinction at full density", 0.01, 100}, o.extinction);
-  visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
+  visit(OptionInfo{"voxels", "", "voxels that a grown smoke fills", 1, 1 << 24, "volume"}, o.voxels);
+  visit(OptionInfo{"bloom", "s", "time from going off to full size", 0.05, 60, "time to grow"}, o.bloom);
+  visit(OptionInfo{"hold", "s", "time at full size", 0, kLatestTime, "time at full size"}, o.hold);
+  visit(OptionInfo{"dissolve", "s", "time to dissolve", 0.05, 60, "time to dissolve"}, o.dissolve);
+  visit(OptionInfo{"extinction", "1/m", "extinction at full density", 0.01, 100, "density"}, o.extinction);
+  visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1, "colour"}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -kMostAnisotropy,
-                   kMostAnisotropy},
+                   kMostAnisotropy, "glow against light"},
         o.anisotropy);
-  visit(OptionInfo{"droplet", "um", "droplet diameter; replaces `anisotropy`", 0.1, 50}, o.droplet);
-  visit(
-      OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0, 1},
-      o.multiple_scattering);
-  visit(OptionInfo{"erosion", "", "how deeply noise erodes the rim", 0, 1}, o.erosion);
-  visit(OptionInfo{"noise_size", "m", "edge length of a noise cell", 0.05, 100}, o.noise_size);
-  visit(OptionInfo{"detail", "", "strength of noise finer than that, down to 2 cm; 0: none", 0, 1}, o.detail);
+  visit(OptionInfo{"droplet", "um", "droplet diameter; replaces `anisotropy`", 0.1, 50, "droplet size"},
+        o.droplet);
+  visit(OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0,
+                   1, "inner glow"},
+        o.multiple_scattering);
+  visit(OptionInfo{"erosion", "", "how deeply noise erodes the rim", 0, 1, "raggedness"}, o.erosion);
+  visit(OptionInfo{"noise_size", "m", "edge length of a noise cell", 0.05, 100, "size of billows"},
+        o.noise_size);
+  visit(OptionInfo{"detail", "", "strength of noise finer than that, down to 2 cm; 0: none", 0, 1,
+                   "detail below that"},
+        o.detail);
   visit(OptionInfo{"swirl", "m", "how far the noise swirls around its place", 0, 10}, o.swirl);
-  visit(OptionInfo{"swirl_period", "s", "period of the swirl; the first turn is faster", 0.1, kLatestTime},
+  visit(OptionInfo{"swirl_period", "s", "period of the swirl; the first turn is faster", 0.1, kLatestTime,
+                   "time of a swirl"},
         o.swirl_period);
-  visit(OptionInfo{"rise", "m/s", "speed at which the noise rises", -10, 10}, o.rise);
-  visit(OptionInfo{"hole_rim", "m", "largest displacement of hole rims by noise", 0, 10}, o.hole_rim);
+  visit(OptionInfo{"rise", "m/s", "speed at which the noise rises", -10, 10, "billows rise by"}, o.rise);
+  visit(OptionInfo{"hole_rim", "m", "largest displacement of hole rims by noise", 0, 10, "ragged holes"},
+        o.hole_rim);
 }
 
 template <typename Options, typename Visitor>
 void visit_sky_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"zenith", "", "radiance at the zenith", 0, 1000}, o.zenith);
-  visit(OptionInfo{"horizon", "", "radiance at the horizon", 0, 1000}, o.horizon);
-  visit(OptionInfo{"ambient", "", "ambient radiance", 0, 1000}, o.ambient);
+  visit(OptionInfo{"zenith", "", "radiance at the zenith", 0, 1000, "sky above"}, o.zenith);
+  visit(OptionInfo{"horizon", "", "radiance at the horizon", 0, 1000, "sky at the horizon"}, o.horizon);
+  visit(OptionInfo{"ambient", "", "ambient radiance", 0, 1000, "light in shadows"}, o.ambient);
   visit(OptionInfo{"stars", "", "radiance of the brightest star", 0, 1000}, o.stars);
   visit(OptionInfo{"bounce", "",
                    "fraction of `ambient` that reaches places without a view of the sky, by interreflection",
-                   0, 1},
+                   0, 1, "light indoors"},
         o.bounce);
 }
 
@@ -187,37 +195,42 @@ void visit_volume_options(Options& o, Visitor&& visit) {
         o.x_axis);
   visit(OptionInfo{"y_axis", "", "the same for y", -1e9, 1e9}, o.y_axis);
   visit(OptionInfo{"z_axis", "", "the same for z", -1e9, 1e9}, o.z_axis);
-  visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12}, o.extinction);
-  visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
+  visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12, "density"},
+        o.extinction);
+  visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1, "colour"}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -kMostAnisotropy,
-                   kMostAnisotropy},
+                   kMostAnisotropy, "glow against light"},
         o.anisotropy);
-  visit(
-      OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0, 1},
-      o.multiple_scattering);
-  visit(OptionInfo{"emission", "", "brightness of what glows", 0, 1e6}, o.emission);
-  visit(OptionInfo{"kelvin", "K", "temperature where the heat is 1", 0, 1e5}, o.kelvin);
+  visit(OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0,
+                   1, "inner glow"},
+        o.multiple_scattering);
+  visit(OptionInfo{"emission", "", "brightness of what glows", 0, 1e6, "brightness"}, o.emission);
+  visit(OptionInfo{"kelvin", "K", "temperature where the heat is 1", 0, 1e5, "temperature"}, o.kelvin);
   visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.001, 1000}, o.frame_rate);
   visit(OptionInfo{"start", "s", "time of the first frame of a sequence", -kLatestTime, kLatestTime},
         o.start);
-  visit(OptionInfo{"glow", "", "fraction of the colours that is emitted, unlit, instead of scattered", 0, 1},
+  visit(OptionInfo{"glow", "", "fraction of the colours that is emitted, unlit, instead of scattered", 0, 1,
+                   "unlit"},
         o.glow);
 }
 
 /// What a VolumeMask and a MaskKey share.
 template <typename Options, typename Visitor>
 void visit_mask_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"color", "", "colour of what the mask emits", 0, 1}, o.color);
-  visit(OptionInfo{"intensity", "1/m", "radiance that a metre emits where the mask is 1", 0, 1e6},
-        o.intensity);
+  visit(OptionInfo{"color", "", "colour of what the mask emits", 0, 1, "colour"}, o.color);
+  visit(
+      OptionInfo{"intensity", "1/m", "radiance that a metre emits where the mask is 1", 0, 1e6, "brightness"},
+      o.intensity);
 }
 
 template <typename Options, typename Visitor>
 void visit_disturbance_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"strength", "units", "largest displacement along each axis", 0, 1e6}, o.strength);
-  visit(OptionInfo{"size", "units", "size of the noise's largest features", 1e-6, 1e6}, o.size);
+  visit(OptionInfo{"size", "units", "size of the noise's largest features", 1e-6, 1e6, "size of the noise"},
+        o.size);
   visit(OptionInfo{"drift", "units/s", "how fast the noise moves", -1e6, 1e6}, o.drift);
-  visit(OptionInfo{"grow", "units", "length along `drift` over which the strength grows from 0", 0, 1e6},
+  visit(OptionInfo{"grow", "units", "length along `drift` over which the strength grows from 0", 0, 1e6,
+                   "grows over"},
         o.grow);
 }
 
@@ -225,7 +238,9 @@ template <typename Options, typename Visitor>
 void visit_detail_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"strength", "", "how much noise finer than the voxels wears away thin parts", 0, 1},
         o.strength);
-  visit(OptionInfo{"size", "units", "size of its largest billows; 0: four voxels", 0, 1e6}, o.size);
+  visit(
+      OptionInfo{"size", "units", "size of its largest billows; 0: four voxels", 0, 1e6, "size of the noise"},
+      o.size);
   visit(OptionInfo{"drift", "units/s", "how fast it moves", -1e6, 1e6}, o.drift);
 }
 
@@ -233,7 +248,8 @@ template <typename Options, typename Visitor>
 void visit_particle_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"particles", "", "quads that show the masks, instead of a march; 0: none", 0, 65536},
         o.particles);
-  visit(OptionInfo{"particle_size", "", "radius of a quad relative to the box's shortest side", 0.001, 2},
+  visit(OptionInfo{"particle_size", "", "radius of a quad relative to the box's shortest side", 0.001, 2,
+                   "size of particles"},
         o.particle_size);
 }
 
@@ -250,7 +266,7 @@ void visit_tank_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
   visit(OptionInfo{"scale", "", "metres per metre of the tank", 1e-6, 1e6}, o.scale);
   visit(OptionInfo{"samples", "", "paths of each pixel in an image; one in each of its samples at least", 1,
-                   64},
+                   64, "samples of a pixel"},
         o.samples);
 }
 
@@ -265,7 +281,8 @@ void visit_decal_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"correction", "", "how much of `gamma` applies at the middle slice", 0, 1}, o.correction);
   visit(OptionInfo{"falloff", "", "how fast that fades towards the first and the last slice", 0, 100},
         o.falloff);
-  visit(OptionInfo{"fade", "", "part of the box, at each side, over which the decal fades out", 0, 0.5},
+  visit(OptionInfo{"fade", "", "part of the box, at each side, over which the decal fades out", 0, 0.5,
+                   "fades at the sides"},
         o.fade);
   visit(OptionInfo{"scatter", "voxels", "how far noise scatters the samples", 0, 4}, o.scatter);
 }
@@ -273,12 +290,16 @@ void visit_decal_options(Options& o, Visitor&& visit) {
 /// Field of view, lens and shutter: position, target and files are not settings.
 template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170}, o.vertical_fov);
-  visit(OptionInfo{"aperture", "m", "radius of the lens; 0: all is sharp", 0, 100}, o.lens.aperture);
-  visit(OptionInfo{"focus", "m", "sharp distance along the view; 0: as far as the target", 0, kFarthestPoint},
+  visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170, "field of view"}, o.vertical_fov);
+  visit(OptionInfo{"aperture", "m", "radius of the lens; 0: all is sharp", 0, 100, "aperture radius"},
+        o.lens.aperture);
+  visit(OptionInfo{"focus", "m", "sharp distance along the view; 0: as far as the target", 0, kFarthestPoint,
+                   "focus distance"},
         o.lens.focus);
-  visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);
-  visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10}, o.shutter);
+  visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64, "aperture blades"},
+        o.lens.blades);
+  visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10, "shutter time"},
+        o.shutter);
 }
 
 /// The description of one number, such as
