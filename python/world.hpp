@@ -30,6 +30,7 @@ struct ValueSetter {
   std::uint32_t ticks_per_second;
   void operator()(const sim::PositionField& field, sim::Position& member) const;
   void operator()(const sim::NumberField& field, std::uint32_t& member) const;
+  void operator()(const sim::ChoiceField&, const auto&) const {}
 };
 
 class World : public Smoke {

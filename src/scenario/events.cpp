@@ -70,6 +70,7 @@ struct Converter {
   void operator()(const sim::NumberField& field, std::uint32_t& member) const {
     if (const auto number = found(field.key).number) member = steps(field.unit, *number);
   }
+  void operator()(const sim::ChoiceField&, const auto&) const {}
 
  private:
   FieldFinder found(const char* key) const {

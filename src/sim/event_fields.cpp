@@ -46,6 +46,7 @@ struct FieldCheck {
   void operator()(const NumberField& field, std::uint32_t number) {
     if (outcome) outcome = check.number(field.about, number, field.low, high(field));
   }
+  void operator()(const ChoiceField&, const auto&) {}  // check_rules has it
   std::uint64_t high(const NumberField& field) const {
     if (!field.in_voxels) return field.high;
     const double metres = static_cast<double>(layout.voxel_size) * static_cast<double>(field.high);

@@ -32,8 +32,13 @@ constexpr std::uint32_t steps_of(FieldUnit unit) {
 
 /// A position, within kMaxCoordinate along each axis.
 struct PositionField {
-  const char* key;    ///< As in timelines.
-  const char* about;  ///< For messages.
+  const char* key;               ///< As in timelines.
+  const char* about;             ///< For messages.
+  const char* c_name = nullptr;  ///< In the structs of brume.h; null: the key.
+};
+/// One of some values of an enumeration.
+struct ChoiceField {
+  const char* c_name;  ///< In the structs of brume.h.
 };
 /// A number.
 struct NumberField {
@@ -65,8 +70,8 @@ constexpr const char* name_of(const LevelEdit&) {
   return "edit";
 }
 
-// Each function calls visit(field, member) for every position and number of an event besides its tick; a
-// const event gives const members.
+// Each function calls visit(field, member) for every position, number and choice of an event besides its
+// tick, in the order in which logs and packets code them; a const event gives const members.
 
 template <EventOf<ThrowSmoke> Event, typename Visitor>
 void visit_fields(Event& e, Visitor&& visit) {
@@ -84,15 +89,16 @@ void visit_fields(Event& e, Visitor&& visit) {
   const auto time = [](const char* key, const char* c_name) {
     return NumberField{key, c_name, "milliseconds", FieldUnit::millisecond, 0, kMaxMilliseconds};
   };
-  visit(PositionField{"from", "the muzzle"}, e.origin);
+  visit(PositionField{"from", "the muzzle", "origin"}, e.origin);
   visit(PositionField{"toward", "`toward`"}, e.toward);
   visit(NumberField{"radius", "radius", "a radius", FieldUnit::metre_1024, 1, kMaxCoordinate}, e.radius);
-  visit(NumberField{"roll", "roll", "a roll", FieldUnit::turn_65536, 0, kFullTurn - 1}, e.roll);
-  visit(NumberField{"mask", "mask_index", "a mask", FieldUnit::one, 0, kMaxMasks - 1}, e.mask);
   visit(time("reach", "reach_far"), e.timing.reach_far);
   visit(time("expand", "expand"), e.timing.expand);
   visit(time("stay", "stay_open"), e.timing.stay_open);
   visit(time("fade", "fade"), e.timing.fade);
+  visit(ChoiceField{"shape"}, e.shape);
+  visit(NumberField{"mask", "mask_index", "a mask", FieldUnit::one, 0, kMaxMasks - 1}, e.mask);
+  visit(NumberField{"roll", "roll", "a roll", FieldUnit::turn_65536, 0, kFullTurn - 1}, e.roll);
 }
 
 template <EventOf<Blast> Event, typename Visitor>
@@ -114,10 +120,11 @@ void visit_fields(Event& e, Visitor&& visit) {
 
 template <EventOf<MoveBody> Event, typename Visitor>
 void visit_fields(Event& e, Visitor&& visit) {
+  visit(NumberField{"body", "body", "a body", FieldUnit::one, 0, UINT32_MAX}, e.body);
   visit(PositionField{"to", "`to`"}, e.to);
 }
 
-/// Its blocks are no numbers.
+/// Its blocks are no fields.
 template <EventOf<LevelEdit> Event, typename Visitor>
 void visit_fields(Event&, Visitor&&) {}
 

@@ -40,7 +40,8 @@ void add_item(Words& words, const LiveCloud& live, std::uint32_t tick) {
   words.add(phase.front);
 }
 
-void add_item(Words& words, const LiveBlast& live, std::uint32_t) {
+template <typename Field>
+void add_item(Words& words, const Live<Field>& live, std::uint32_t) {
   words.add(live.id);
   words.add(live.field->hash());
 }

@@ -32,10 +32,14 @@ struct LiveCloud {
   std::shared_ptr<const Cloud> cloud;
 };
 
-struct LiveBlast {
-  std::uint32_t id = 0;
-  std::shared_ptr<const BlastField> field;
+/// What an event leaves for some time, made once when it takes place. A Field has event(), reached(),
+/// end_tick() and hash(), and for packets centre() and from_parts(), as BlastField.
+template <typename Field>
+struct Live {
+  std::uint32_t id = 0;  ///< Id of its event.
+  std::shared_ptr<const Field> field;
 };
+using LiveBlast = Live<BlastField>;
 
 /// A hole that has not closed yet.
 struct BulletHole {
@@ -86,7 +90,7 @@ std::optional<std::string> foreign_reason(const State& state, const State& own, 
 /// Calls visit(what, member) for each list of a state: what it lists, and a pointer to it. The one place that
 /// enumerates them, in the order in which they are hashed and coded.
 template <typename Visitor>
-void for_each_state_list(Visitor&& visit) {
+constexpr void for_each_state_list(Visitor&& visit) {
   visit("grenades", &State::flights);
   visit("clouds", &State::clouds);
   visit("explosions", &State::blasts);

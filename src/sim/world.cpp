@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
@@ -35,7 +37,20 @@ bool inside(glm::ivec3 v, glm::ivec3 low, glm::ivec3 high) {
   return glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, high));
 }
 
-/// The tick at which a hole has fully closed.
+// The tick at which an item of a state ends: a grenade detonates, a hole has fully closed.
+std::uint32_t end_of(const Flight& flight, std::uint32_t) {
+  return flight.detonation_tick;
+}
+std::uint32_t end_of(const LiveCloud& live, std::uint32_t) {
+  return live.cloud->end_tick();
+}
+template <typename Field>
+std::uint32_t end_of(const Live<Field>& live, std::uint32_t) {
+  return live.field->end_tick();
+}
+std::uint32_t end_of(const Body&, std::uint32_t) {
+  return kNever;
+}
 std::uint32_t end_of(const BulletHole& hole, std::uint32_t ticks_per_second) {
   const HoleTimingMs& t = hole.shot.timing;
   const std::uint64_t life = std::uint64_t{t.reach_far} + t.expand + t.stay_open + t.fade;
@@ -59,29 +74,42 @@ void insert_by_id(std::vector<T>& list, T element) {
   list.insert(place, std::move(element));
 }
 
+/// Whether items of a state are the fields that events of a kind leave.
+template <typename Kind, typename Item>
+constexpr bool kHoldsFieldsOf = false;
+template <typename Kind, typename Field>
+constexpr bool kHoldsFieldsOf<Kind, Live<Field>> =
+    std::is_same_v<decltype(std::declval<const Field&>().event()), const Kind&>;
+template <typename Kind>
+constexpr int count_field_lists() {
+  int count = 0;
+  for_each_state_list(
+      [&]<typename Item>(const char*, std::vector<Item> State::*) { count += kHoldsFieldsOf<Kind, Item>; });
+  return count;
+}
+
 }  // namespace
 
 std::uint32_t next_end(const State& state) {
   std::uint32_t next = kNever;
-  for (const Flight& flight : state.flights) next = std::min(next, flight.detonation_tick);
-  for (const LiveCloud& live : state.clouds) {
-    next = std::min(next, live.cloud->end_tick());
+  for_each_state_list([&](const char*, auto list) {
+    for (const auto& item : state.*list) next = std::min(next, end_of(item, state.ticks_per_second));
+  });
+  for (const LiveCloud& live : state.clouds)
     if (const auto settle = live.cloud->settle_tick()) next = std::min(next, *settle);
-  }
-  for (const LiveBlast& live : state.blasts) next = std::min(next, live.field->end_tick());
-  for (const BulletHole& hole : state.holes) next = std::min(next, end_of(hole, state.ticks_per_second));
   return next;
 }
 
 void remove_ended(State& state) {
   const std::uint32_t tick = state.tick;
-  std::erase_if(state.clouds, [&](const LiveCloud& live) { return live.cloud->end_tick() <= tick; });
+  for_each_state_list([&]<typename Item>(const char*, std::vector<Item> State::*list) {
+    if constexpr (!std::is_same_v<Item, Flight>)
+      std::erase_if(state.*list,
+                    [&](const auto& item) { return end_of(item, state.ticks_per_second) <= tick; });
+  });
   for (LiveCloud& live : state.clouds)
     if (const auto settle = live.cloud->settle_tick(); settle && *settle <= tick)
       live.cloud = std::make_shared<const Cloud>(live.cloud->settled());
-  std::erase_if(state.blasts, [&](const LiveBlast& live) { return live.field->end_tick() <= tick; });
-  std::erase_if(state.holes,
-                [&](const BulletHole& hole) { return end_of(hole, state.ticks_per_second) <= tick; });
 }
 
 World::World(const voxel::Solids& level, const WorldSettings& settings)
@@ -379,12 +407,6 @@ void World::apply(const Shot& event) {
 }
 
 template <>
-void World::apply(const Blast& event) {
-  auto field = std::make_shared<const BlastField>(grid(), event, settings_.ticks_per_second);
-  if (!field->reached().empty()) state_.blasts.push_back({state_.events, std::move(field)});
-}
-
-template <>
 void World::apply(const MoveBody& event) {
   auto place = std::lower_bound(state_.bodies.begin(), state_.bodies.end(), event.body,
                                 [](const Body& b, std::uint32_t body) { return b.body < body; });
@@ -405,6 +427,19 @@ void World::apply(const LevelEdit& event) {
   level_.add(changes);
   state_.edits = level_.edits();
   flow(event.tick, of_smoke);
+}
+
+/// Of the kinds of which a field is left: into its list, unless it reaches nothing.
+template <typename Kind>
+void World::apply(const Kind& event) {
+  static_assert(count_field_lists<Kind>() == 1, "neither an `apply` of its own nor a list of Live fields");
+  for_each_state_list([&]<typename Item>(const char*, std::vector<Item> State::*list) {
+    if constexpr (kHoldsFieldsOf<Kind, Item>) {
+      using Field = typename decltype(Item::field)::element_type;
+      auto field = std::make_shared<Field>(grid(), event, settings_.ticks_per_second);
+      if (!field->reached().empty()) (state_.*list).push_back({state_.events, std::move(field)});
+    }
+  });
 }
 
 void World::play_tick(std::uint32_t tick) {

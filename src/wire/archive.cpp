@@ -19,12 +19,9 @@ void predict_events(DeltaContext& context, std::uint32_t tick, const std::varian
 }  // namespace
 
 DeltaContext::DeltaContext(std::uint32_t tick) {
-  for (const Field field : {Field::throw_tick, Field::detonation_tick, Field::shot_tick, Field::body_tick,
-                            Field::body_tick_before, Field::edit_tick})
+  for (const Field field :
+       {Field::throw_tick, Field::detonation_tick, Field::body_tick, Field::body_tick_before})
     at(field) = tick;
-  sim::Shot shot;
-  shot.tick = tick;
-  serialize(*this, shot);
   predict_events(*this, tick, static_cast<const sim::Event*>(nullptr));
   sim::SmokeSettings smoke;
   serialize(*this, smoke);

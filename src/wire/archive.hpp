@@ -34,30 +34,20 @@ enum class Field : std::uint8_t {
   throw_tick = centre + 3,
   detonation_tick,
   flow_tick,
-  shot_tick,
   body_tick,
   body_tick_before,
-  edit_tick,
   kind,
   voxels,
   bloom,
   hold,
   dissolve,
-  bullet_radius,
-  reach_far,
-  expand,
-  stay_open,
-  fade,
-  shape,
-  mask,
-  roll,
   distance,
   body,
   count
 };
 
 /// Kinds of the numbers of events behind them: by the event's place in sim::Event, then by its tick and the
-/// numbers of sim/event_fields.hpp.
+/// numbers and choices of sim/event_fields.hpp.
 constexpr std::size_t kMostEventNumbers = 16;
 constexpr std::size_t kFields =
     static_cast<std::size_t>(Field::count) + std::variant_size_v<sim::Event> * kMostEventNumbers;
@@ -195,21 +185,6 @@ void serialize(F& archive, sim::SmokeSettings& smoke) {
   archive.field(Field::dissolve, smoke.dissolve_ticks);
 }
 
-template <typename F>
-void serialize(F& archive, sim::Shot& shot) {
-  archive.field(Field::shot_tick, shot.tick);
-  serialize_position(archive, Field::from, shot.origin);
-  serialize_position(archive, Field::toward, shot.toward);
-  archive.field(Field::bullet_radius, shot.radius);
-  archive.field(Field::reach_far, shot.timing.reach_far);
-  archive.field(Field::expand, shot.timing.expand);
-  archive.field(Field::stay_open, shot.timing.stay_open);
-  archive.field(Field::fade, shot.timing.fade);
-  archive.field(Field::shape, shot.shape);
-  archive.field(Field::mask, shot.mask);
-  archive.field(Field::roll, shot.roll);
-}
-
 /// Codes the fields of an event: the visitor of sim/event_fields.hpp.
 template <typename F, typename Event>
 class EventCoder {
@@ -217,16 +192,19 @@ class EventCoder {
   explicit EventCoder(F& archive) : archive_(archive) {}
 
   void operator()(const sim::PositionField& field, sim::Position& position) {
+    // What an event goes towards is the second one.
     const std::string_view key = field.key;
     serialize_position(archive_,
-                       key == "from"     ? Field::from
-                       : key == "toward" ? Field::toward
-                       : key == "to"     ? Field::body_at
-                                         : Field::centre,
+                       is_second_      ? Field::toward
+                       : key == "from" ? Field::from
+                       : key == "to"   ? Field::body_at
+                                       : Field::centre,
                        position);
+    is_second_ = true;
   }
   void operator()(const sim::NumberField&, std::uint32_t& number) { add(number); }
-  void add(std::uint32_t& number) {
+  void operator()(const sim::ChoiceField&, auto& choice) { add(choice); }
+  void add(auto& number) {
     const std::size_t first = sim::Event(Event{}).index() * kMostEventNumbers;
     BRUME_ASSERT(count_ < kMostEventNumbers, "an event with more numbers than kinds");
     archive_.field(static_cast<Field>(static_cast<std::size_t>(Field::count) + first + count_++), number);
@@ -235,6 +213,7 @@ class EventCoder {
  private:
   F& archive_;
   std::size_t count_ = 0;
+  bool is_second_ = false;
 };
 
 /// The tick and the fields of an event, as sim/event_fields.hpp lists them.

@@ -12,27 +12,6 @@
 namespace brume::wire {
 namespace {
 
-template <typename Coder>
-void serialize(Archive<Coder>& archive, sim::ThrowSmoke& smoke) {
-  archive.field(Field::throw_tick, smoke.tick);
-  serialize_position(archive, Field::from, smoke.from);
-  serialize_position(archive, Field::toward, smoke.at);
-  serialize(archive, smoke.smoke);
-}
-
-template <typename Coder>
-void serialize(Archive<Coder>& archive, sim::MoveBody& move) {
-  archive.field(Field::body_tick, move.tick);
-  archive.field(Field::body, move.body);
-  serialize_position(archive, Field::body_at, move.to);
-}
-
-template <typename Coder>
-void serialize(Archive<Coder>& archive, sim::LevelEdit& edit) {
-  archive.field(Field::edit_tick, edit.tick);
-  serialize(archive, edit.blocks);
-}
-
 constexpr auto kFirstByte = static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events));
 
 // A default event of the variant's alternative with this index.
@@ -53,10 +32,8 @@ void code_event(Archive<Coder>& archive, sim::Event& event) {
   if constexpr (Coder::kReads) event = event_of_kind(kind, std::make_index_sequence<kKinds>());
   std::visit(
       [&](auto& e) {
-        if constexpr (requires { serialize(archive, e); })
-          serialize(archive, e);
-        else
-          serialize_event(archive, e);
+        serialize_event(archive, e);
+        if constexpr (requires { e.blocks; }) serialize(archive, e.blocks);
       },
       event);
   if constexpr (Coder::kReads) {

@@ -14,7 +14,7 @@ using sim::Body;
 using sim::BulletHole;
 using sim::EditBlocks;
 using sim::Flight;
-using sim::LiveBlast;
+using sim::Live;
 using sim::LiveCloud;
 using sim::State;
 
@@ -33,7 +33,8 @@ bool same(const Item& a, const Item& b) {
 bool same(const LiveCloud& a, const LiveCloud& b) {
   return a.cloud == b.cloud || a.cloud->hash() == b.cloud->hash();
 }
-bool same(const LiveBlast& a, const LiveBlast& b) {
+template <typename Made>
+bool same(const Live<Made>& a, const Live<Made>& b) {
   return a.field == b.field || a.field->hash() == b.field->hash();
 }
 
@@ -48,7 +49,7 @@ void serialize_fields(F& archive, Flight& flight) {
 
 template <typename F>
 void serialize_fields(F& archive, BulletHole& hole) {
-  serialize(archive, hole.shot);
+  serialize_event(archive, hole.shot);
   archive.field(Field::distance, hole.distance);
 }
 
@@ -234,27 +235,29 @@ class StateCoder {
            before.cloud->settled().hash() == now.cloud->hash();
   }
 
-  void code_item(const LiveBlast* before, LiveBlast& live) {
+  template <typename Made>
+  void code_item(const Live<Made>* before, Live<Made>& live) {
     // The event and the centre, validated before they are used.
-    sim::Blast blast;
+    using Event = std::remove_cvref_t<decltype(live.field->event())>;
+    Event event;
     sim::Position centre{0};
     sim::BlockSet reached;
     if constexpr (!kReads) {
-      blast = live.field->event();
+      event = live.field->event();
       centre = live.field->centre();
       reached = live.field->reached();
     }
     if (before) {
-      sim::Blast expected = before->field->event();
+      Event expected = before->field->event();
       serialize_event(archive_.context, expected);
     }
-    serialize_event(archive_, blast);
+    serialize_event(archive_, event);
     serialize_position(archive_, Field::centre, centre);
     if (!archive_.ok()) return;
     const sim::VoxelRuler ruler(archive_.layout());
     if constexpr (kReads) {
-      check_event(blast);
-      check_begun(blast.tick);
+      check_event(event);
+      check_begun(event.tick);
       check_event(sim::MoveBody{0, 0, centre});
       if (!archive_.ok()) return;
     }
@@ -263,10 +266,10 @@ class StateCoder {
     archive_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), {}, reached);
     if constexpr (kReads) {
       if (!archive_.ok()) return;
-      auto field = sim::BlastField::from_parts(archive_.layout(), blast, centre, std::move(reached),
-                                               now_.ticks_per_second);
+      auto field =
+          Made::from_parts(archive_.layout(), event, centre, std::move(reached), now_.ticks_per_second);
       if (field)
-        live.field = std::make_shared<const sim::BlastField>(std::move(*field));
+        live.field = std::make_shared<const Made>(std::move(*field));
       else
         archive_.fail(field.failure().message);
     }

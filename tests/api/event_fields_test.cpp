@@ -81,6 +81,7 @@ struct FieldComparison {
   int ranges = 0;
 
   void operator()(const sim::PositionField&, const sim::Position&) {}
+  void operator()(const sim::ChoiceField&, const auto&) {}
   void operator()(const sim::NumberField& field, std::uint32_t initial) {
     const std::string name = std::string(field.c_name) + suffix_of(field.unit);
     const auto member = header.members.find(name);
