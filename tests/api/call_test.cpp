@@ -247,30 +247,5 @@ TEST(Lengths, AmountsOfSmokeAreRoundedAndClamped) {
   for (const double no_edge : {0.0, -1.0, kNaN}) EXPECT_EQ(brume_smoke_voxels(1e9, no_edge), 1u);
 }
 
-TEST(Events, DefaultsAreThoseOfTheSimulation) {
-  const brume_smoke_event smoke = brume_event_defaults(BRUME_EVENT_SMOKE, 0).u.smoke;
-  const sim::SmokeSettings settings;
-  EXPECT_EQ(smoke.voxels, settings.voxels);
-  EXPECT_EQ(smoke.bloom_ticks, settings.bloom_ticks);
-  EXPECT_EQ(smoke.hold_ticks, settings.hold_ticks);
-  EXPECT_EQ(smoke.dissolve_ticks, settings.dissolve_ticks);
-  EXPECT_EQ(std::uint32_t{BRUME_MAX_SMOKE_VOXELS}, sim::kMaxFillVoxels);
-  const brume_shot_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 0).u.shot;
-  const sim::Shot true_shot;
-  EXPECT_EQ(shot.radius_1024, true_shot.radius);
-  EXPECT_EQ(shot.reach_far_ms, true_shot.timing.reach_far);
-  EXPECT_EQ(shot.expand_ms, true_shot.timing.expand);
-  EXPECT_EQ(shot.stay_open_ms, true_shot.timing.stay_open);
-  EXPECT_EQ(shot.fade_ms, true_shot.timing.fade);
-  EXPECT_EQ(shot.shape + shot.mask_index + shot.roll_65536, 0u);
-  const brume_blast_event blast = brume_event_defaults(BRUME_EVENT_BLAST, 0).u.blast;
-  const sim::Blast true_blast;
-  EXPECT_EQ(blast.radius_1024, true_blast.radius);
-  EXPECT_EQ(blast.speed_1024, true_blast.speed);
-  EXPECT_EQ(blast.remaining_255, true_blast.remaining);
-  EXPECT_EQ(blast.refill_rim_ms, true_blast.refill_rim_ms);
-  EXPECT_EQ(blast.refill_middle_ms, true_blast.refill_middle_ms);
-}
-
 }  // namespace
 }  // namespace brume::api

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <variant>
 
+#include "sim/events.hpp"
 #include "tests/api/hostile_calls.hpp"
 
 namespace brume::api {
@@ -113,12 +115,12 @@ brume_layout Hostile::layout() {
 }
 
 brume_event Hostile::event() {
-  const std::uint32_t kind = chance(0.02) ? number(9) : 1 + below(5);
+  const std::uint32_t kind = chance(0.02) ? number(9) : 1 + below(std::variant_size_v<sim::Event>);
   brume_event event = brume_event_defaults(kind, number(400));
   auto& u = event.u;
-  if (kind == BRUME_EVENT_SMOKE)
+  if (kind == BRUME_EVENT_SMOKE) {
     u.smoke = {position(), position(), number(1500) + 1, number(90), number(200), number(90)};
-  if (kind == BRUME_EVENT_SHOT) {
+  } else if (kind == BRUME_EVENT_SHOT) {
     u.shot.origin = position();
     u.shot.toward = position();
     u.shot.shape = number(chance(0.8) ? 2 : 3);
@@ -126,16 +128,17 @@ brume_event Hostile::event() {
     if (chance(0.1)) u.shot.radius_1024 = number(1000);
     if (chance(0.1)) u.shot.stay_open_ms = number(5000);
     if (chance(0.1)) u.shot.roll_65536 = number(70000);
+  } else if (kind == BRUME_EVENT_MOVE) {
+    u.move = {number(9), position()};
+  } else if (kind == BRUME_EVENT_EDIT) {
+    u.edit = {voxel(25), voxel(40), number(2)};
+  } else {
+    // A place, and numbers that have defaults.
+    for (std::uint32_t& word : u.reserved)
+      if (word != 0 && chance(0.1)) word = number(40000);
+    const brume_position at = position();
+    std::memcpy(u.reserved, &at, sizeof at);
   }
-  if (kind == BRUME_EVENT_BLAST) {
-    u.blast.at = position();
-    if (chance(0.1)) u.blast.radius_1024 = number(40000);
-    if (chance(0.1)) u.blast.speed_1024 = number(40000);
-    if (chance(0.1)) u.blast.remaining_255 = number(260);
-    if (chance(0.1)) u.blast.refill_middle_ms = number(6000);
-  }
-  if (kind == BRUME_EVENT_MOVE) u.move = {number(9), position()};
-  if (kind == BRUME_EVENT_EDIT) u.edit = {voxel(25), voxel(40), number(2)};
   if (chance(0.01)) event.struct_size = number(300);
   if (chance(0.01)) event.next = &random_;
   return event;

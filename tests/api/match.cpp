@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/level_edit.hpp"
+#include "tests/api/event_structs.hpp"
 #include "voxel/level_hash.hpp"
 
 namespace brume::api {
@@ -89,42 +89,6 @@ std::vector<voxel::Triangle> Match::triangles() const {
   for (std::size_t i = 0; i < indices.size(); i += 3)
     out.push_back({corner(i), corner(i + 1), corner(i + 2)});
   return out;
-}
-
-sim::Event sim_event(const brume_event& event, const voxel::GridLayout& layout) {
-  const auto at = [](const brume_position& p) { return sim::Position(p.x, p.y, p.z); };
-  const auto voxel = [](const brume_voxel& v) { return glm::ivec3(v.x, v.y, v.z); };
-  const auto& u = event.u;
-  switch (event.kind) {
-    case BRUME_EVENT_SMOKE:
-      return sim::ThrowSmoke{
-          event.tick,
-          at(u.smoke.from),
-          at(u.smoke.at),
-          {u.smoke.voxels, u.smoke.bloom_ticks, u.smoke.hold_ticks, u.smoke.dissolve_ticks}};
-    case BRUME_EVENT_SHOT:
-      return sim::Shot{event.tick,
-                       at(u.shot.origin),
-                       at(u.shot.toward),
-                       u.shot.radius_1024,
-                       {u.shot.reach_far_ms, u.shot.expand_ms, u.shot.stay_open_ms, u.shot.fade_ms},
-                       static_cast<sim::HoleShape>(u.shot.shape),
-                       u.shot.mask_index,
-                       u.shot.roll_65536};
-    case BRUME_EVENT_BLAST:
-      return sim::Blast{event.tick,
-                        at(u.blast.at),
-                        u.blast.radius_1024,
-                        u.blast.speed_1024,
-                        u.blast.remaining_255,
-                        u.blast.refill_rim_ms,
-                        u.blast.refill_middle_ms};
-    case BRUME_EVENT_MOVE:
-      return sim::MoveBody{event.tick, u.move.body, at(u.move.to)};
-    default:
-      return sim::LevelEdit{event.tick,
-                            sim::edit_box(layout, voxel(u.edit.low), voxel(u.edit.high), u.edit.solid == 1)};
-  }
 }
 
 std::vector<smoke::Mask> Match::sim_masks() const {

@@ -49,7 +49,4 @@ struct Match {
   std::mt19937 random_;
 };
 
-/// The event of the simulation.
-sim::Event sim_event(const brume_event& event, const voxel::GridLayout& layout);
-
 }  // namespace brume::api

@@ -6,9 +6,12 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <variant>
 
 #include "sim/world.hpp"
+#include "tests/api/event_structs.hpp"
 #include "tests/api/match.hpp"
+#include "tests/sim/random_events.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::api {
@@ -111,6 +114,22 @@ TEST_F(WorldTest, ListsWhatAStateHolds) {
   }
   EXPECT_GT(grenades, 5u);
   EXPECT_GT(blasts, 50u);
+}
+
+TEST_F(WorldTest, TakesEventsOfEveryKind) {
+  const voxel::BitGrid grid = *voxel::voxelize(match_.triangles(), match_.grid_layout());
+  sim::World expected = match_.sim_world(grid);
+  World world = played();
+  for (const sim::Event& event : sim::random_events(1, match_.grid_layout(), 12, Match::kTicks)) {
+    if (std::holds_alternative<sim::LevelEdit>(event)) continue;  // those of the match
+    expected.append(event).value_or_throw();
+    world.append(c_event(event));
+  }
+  for (std::uint32_t tick = 0; tick < Match::kTicks; tick += 5) {
+    expected.advance_to(tick);
+    world.advance_to(tick);
+    ASSERT_EQ(world.hash(), expected.state_hash()) << tick;
+  }
 }
 
 TEST_F(WorldTest, LateEventsGiveTheStatesOfEventsInTime) {

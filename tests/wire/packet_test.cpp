@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "tests/sanitized.hpp"
+#include "tests/sim/random_events.hpp"
 #include "tests/wire/busy_world.hpp"
 #include "wire/state_coding.hpp"
 
@@ -49,6 +50,19 @@ TEST(Packet, RoundTripsDeltasOfABusyMatch) {
     got.push_back(std::move(*next));
   }
   expect_same(got.back(), world.state());
+}
+
+TEST(Packet, RoundTripsWhatEventsOfEveryKindLeave) {
+  const voxel::BitGrid level = yard({40, 16, 40});
+  sim::World world = world_of(level, sim::random_events(1, level.layout(), 30, 400));
+  sim::State last = world.state();
+  for (std::uint32_t tick = 3; tick <= 800; tick += 3) {
+    world.advance_to(tick);
+    const sim::State keyframe = read(write_keyframe(world.state()), nullptr).value_or_throw();
+    ASSERT_EQ(keyframe.hash(), world.state_hash()) << tick;
+    last = read(write_delta(last, world.state()), &last).value_or_throw();
+    ASSERT_EQ(last.hash(), world.state_hash()) << tick;
+  }
 }
 
 // Unchanged clouds are not copied.

@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "sim/event_fields.hpp"
+#include "tests/sim/random_events.hpp"
 #include "tests/wire/busy_world.hpp"
 #include "tests/work_folder.hpp"
 #include "wire/event_log.hpp"
@@ -38,6 +39,14 @@ TEST(EventLog, RoundTripsABusyMatch) {
   const auto none = read_events(write_events({}, level.layout()), level.layout());
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
+}
+
+TEST(EventLog, RoundTripsEventsOfEveryKind) {
+  const voxel::GridLayout layout = yard({40, 16, 40}).layout();
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto events = sim::random_events(seed, layout, 30, 1000);
+    EXPECT_EQ(read_events(write_events(events, layout), layout).value_or_throw(), events);
+  }
 }
 
 TEST(EventLog, RejectsEventsThatTheWorldRejects) {
