@@ -212,11 +212,9 @@ TEST_F(EditableScenarioTest, IsIndependentOfTheOrderOfActions) {
   std::vector<scene::Timeline> actions;
   for (int i = 0; i < 30; ++i) {
     scene::Timeline one = player.actions();
-    const auto delay = [&](auto& list) {
+    scene::for_each_event_list(one, [&](const char*, auto& list) {
       for (auto& event : list) event.time += i * 1e-4 + 1e-6 * static_cast<double>(&event - list.data());
-    };
-    delay(one.smokes), delay(one.shots), delay(one.texts), delay(one.blasts), delay(one.moves);
-    delay(one.edits), delay(one.doors);
+    });
     actions.push_back(std::move(one));
   }
   std::uint64_t hash = 0;

@@ -240,9 +240,10 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);
   EXPECT_EQ(MET(TankOptions(), visit_tank_options), 3u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 5u);
-  EXPECT_EQ(MET(ShotEvent(), visit_event_numbers), 7u);
-  EXPECT_EQ(MET(TextEvent(), visit_event_numbers), 8u);
-  EXPECT_EQ(MET(BlastEvent(), visit_event_numbers), 6u);
+  for_each_event_kind([](const char*, auto list) {
+    const auto event = (Timeline().*list).emplace_back();
+    MET(event, visit_event_numbers);
+  });
   EXPECT_EQ(MET(TankScene(), visit_film_options), 2u);
   EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 4u);
   EXPECT_EQ(MET(spheres::PackOptions(), visit_pack_options), 5u);

@@ -85,52 +85,55 @@ class Drawing {
   std::mt19937 random_;
 };
 
-template <typename Event>
-std::vector<Event> some(Drawing& draw, const std::function<Event()>& make) {
-  std::vector<Event> events;
-  for (std::uint32_t count = draw.below(6); count > 0; --count) {
-    events.push_back(make());
-    events.back().time = draw.time();
+/// Draws the fields of an event, within its rules: a visitor of scene/event_fields.hpp.
+struct EventDrawing {
+  Drawing& draw;
+
+  void operator()(const PointField&, glm::vec3& point) { point = draw.place(); }
+  void operator()(const TextField& field, std::string& text) {
+    do text = draw.text();
+    while (fault_of(field, text));
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  void operator()(const FlagField&, bool& flag) { flag = draw.below(2) == 0; }
+  void operator()(const FileField& field, std::filesystem::path& file) {
+    if (draw.below(2) == 0) file = file_of(field.key);
+  }
+  void operator()(const ChoiceField& field, auto& choice) {
+    const auto drawn = draw.below(static_cast<std::uint32_t>(field.names.size()));
+    choice = static_cast<std::remove_reference_t<decltype(choice)>>(drawn);
+  }
+  void operator()(const OptionInfo& info, auto& member) { draw(info, member); }
+
+  // What breaks a rule changes.
+  void operator()(const EventRule& rule, glm::vec3& value, glm::vec3& other) {
+    if (rule.kind == RuleKind::differs) {
+      value = other.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
+    } else {
+      other = draw.point(-kFarthestEvent, -0.001);
+      value = draw.point(0, kFarthestEvent);
+    }
+  }
+  void operator()(const EventRule&, float& value, float other) { value = std::max(value, other); }
+  void operator()(const EventRule& rule, std::filesystem::path& file, ShotShape shape) {
+    file.clear();
+    if (!holds(rule, file, shape)) file = file_of(rule.key);
+  }
+
+ private:
+  std::string file_of(const char* key) {
+    return std::string("scenes/") + key + "/a " + std::to_string(draw.below(3)) + ".png";
+  }
+};
+
+template <typename Event>
+std::vector<Event> random_events(Drawing& draw) {
+  std::vector<Event> events(draw.below(6));
+  for (Event& event : events) {
+    visit_event(event, EventDrawing{draw});
+    event.time = draw.time();
+  }
+  std::ranges::stable_sort(events, {}, &Event::time);
   return events;
-}
-
-inline ShotEvent random_shot(Drawing& draw) {
-  ShotEvent shot;
-  shot.from_world = draw.place();
-  shot.toward_world = shot.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
-  visit_event_numbers(shot, draw);
-  shot.shape = std::array{ShotShape::cylinder, ShotShape::box, ShotShape::mask}[draw.below(3)];
-  if (shot.shape == ShotShape::mask) shot.mask = "scenes/masks/" + std::to_string(draw.below(3)) + ".png";
-  return shot;
-}
-
-inline TextEvent random_letters(Drawing& draw) {
-  TextEvent text;
-  text.text = draw.text();
-  text.from_world = draw.place();
-  text.toward_world = text.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
-  if (draw.below(2) == 0) text.font = "scenes/fonts/a b.ttf";
-  visit_event_numbers(text, draw);
-  return text;
-}
-
-inline BlastEvent random_blast(Drawing& draw) {
-  BlastEvent blast;
-  blast.at_world = draw.place();
-  visit_event_numbers(blast, draw);
-  keep_rules(blast);
-  return blast;
-}
-
-inline EditEvent random_edit(Drawing& draw) {
-  EditEvent edit;
-  edit.low_world = draw.point(-16384, -0.001);
-  edit.high_world = draw.point(0, 16384);
-  edit.solid = draw.below(2) == 0;
-  return edit;
 }
 
 /// Positions that rise, some of them twice.
@@ -268,13 +271,9 @@ inline Timeline random_timeline(std::uint32_t seed) {
     if (draw.below(2) == 0) key.camera.lens.opening = "scenes/opening.png";
     if (key.camera.position_world != key.camera.target_world) timeline.camera.push_back(key);
   }
-  timeline.smokes = some<SmokeEvent>(draw, [&] { return SmokeEvent{0, draw.place(), draw.place()}; });
-  timeline.shots = some<ShotEvent>(draw, [&] { return random_shot(draw); });
-  timeline.texts = some<TextEvent>(draw, [&] { return random_letters(draw); });
-  timeline.blasts = some<BlastEvent>(draw, [&] { return random_blast(draw); });
-  timeline.moves = some<MoveEvent>(draw, [&] { return MoveEvent{0, draw.text(), draw.place()}; });
-  timeline.edits = some<EditEvent>(draw, [&] { return random_edit(draw); });
-  timeline.doors = some<DoorEvent>(draw, [&] { return DoorEvent{0, draw.text(), draw.below(2) == 0}; });
+  for_each_event_list(timeline, [&]<typename Event>(const char*, std::vector<Event>& list) {
+    list = random_events<Event>(draw);
+  });
   return timeline;
 }
 

@@ -71,6 +71,14 @@ class Spoiler {
   std::uint32_t one_in_;
 };
 
+/// Spoils the points and numbers of an event: a visitor of scene/event_fields.hpp.
+struct EventSpoiler {
+  Spoiler& s;
+  void operator()(const PointField&, glm::vec3& point) { s.place(point); }
+  void operator()(const OptionInfo& info, auto& member) { s(info, member); }
+  void operator()(const auto&, auto&...) {}
+};
+
 void spoil_effects(VolumeOptions& volume, Spoiler& s) {
   for (VolumeMask& mask : volume.masks) {
     visit_mask_options(mask, s);
@@ -100,13 +108,9 @@ void spoil(Timeline& t, Spoiler& s) {
   for (DecalOptions& decal : t.decals) s.place(decal.position_world), visit_decal_options(decal, s);
   for (TankOptions& tank : t.tanks) s.place(tank.position_world), visit_tank_options(tank, s);
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
-  for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
-  for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_event_numbers(e, s);
-  for (TextEvent& e : t.texts) s.time(e.time), s.place(e.from_world), visit_event_numbers(e, s);
-  for (BlastEvent& e : t.blasts) s.time(e.time), s.place(e.at_world), visit_event_numbers(e, s);
-  for (MoveEvent& e : t.moves) s.time(e.time), s.place(e.to_world);
-  for (EditEvent& e : t.edits) s.time(e.time), s.place(e.low_world), s.place(e.high_world);
-  for (DoorEvent& e : t.doors) s.time(e.time);
+  for_each_event_list(t, [&](const char*, auto& list) {
+    for (auto& e : list) s.time(e.time), visit_event(e, EventSpoiler{s});
+  });
 }
 
 TEST(TimelineCheck, AcceptsExactlyWhatTheReaderAccepts) {

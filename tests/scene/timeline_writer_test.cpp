@@ -116,8 +116,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
     for (const auto& event : list) b.add(event.time), add_event(b, event);
   };
   add_camera(b, timeline.camera);
-  add_all(timeline.smokes), add_all(timeline.shots), add_all(timeline.texts), add_all(timeline.blasts);
-  add_all(timeline.moves), add_all(timeline.edits), add_all(timeline.doors);
+  for_each_event_list(timeline, [&](const char*, const auto& list) { add_all(list); });
   return b.bits;
 }
 
