@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "sim/event_fields.hpp"
 #include "sim/world.hpp"
 #include "smoke/holes.hpp"
 #include "wire/bytes.hpp"
@@ -115,14 +118,21 @@ inline void check_packets(Input bytes) {
   as_they_are ? receive_all(packets, choice / 4u) : decode_all(packets);
 }
 
+/// Lowers what makes an event large: radii and amounts. A visitor of sim/event_fields.hpp.
+struct Reduction {
+  std::uint32_t max_radius;
+  void operator()(const sim::NumberField& field, std::uint32_t& number) const {
+    if (field.in_voxels) number = std::min(number, max_radius);
+    if (field.key == std::string_view("voxels")) number = std::min(number, 64u);
+  }
+  void operator()(const auto&, const auto&) const {}
+};
+
 /// The events with small smokes and blasts, to keep runs short.
 inline std::vector<sim::Event> made_small(std::vector<sim::Event> events, float voxel_size) {
   const auto max_radius = static_cast<std::uint32_t>(voxel_size * 3 * sim::kUnitsPerMetre);
-  for (sim::Event& event : events) {
-    if (auto* smoke = std::get_if<sim::ThrowSmoke>(&event))
-      smoke->smoke.voxels = std::min(smoke->smoke.voxels, 64u);
-    if (auto* blast = std::get_if<sim::Blast>(&event)) blast->radius = std::min(blast->radius, max_radius);
-  }
+  for (sim::Event& event : events)
+    std::visit([&](auto& e) { sim::visit_fields(e, Reduction{max_radius}); }, event);
   return events;
 }
 

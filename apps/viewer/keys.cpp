@@ -2,7 +2,10 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+
+#include "apps/viewer/session.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -40,7 +43,6 @@ std::span<const KeyBinding> level_bindings() {
       KeyBinding{Action::shape_glyph, act, false, GLFW_KEY_2, "2", kShapes},
       KeyBinding{Action::shape_word, act, false, GLFW_KEY_3, "3", kShapes},
       KeyBinding{Action::shape_picture, act, false, GLFW_KEY_4, "4", kShapes},
-      KeyBinding{event_action("blast"), act, false, GLFW_KEY_E, "E", "explosion where you look"},
       KeyBinding{kUseDoor, act, false, GLFW_KEY_F, "F", "open or close the nearest door"},
       KeyBinding{Action::probe, act, false, GLFW_KEY_L, "L", "line of sight: one end, then the other"},
       // Consecutive keys with one description are one row of the help, which names each label once.
@@ -67,6 +69,18 @@ std::span<const KeyBinding> level_bindings() {
       KeyBinding{Action::save_recording, files, false, GLFW_KEY_F5, "F5", "save the session as a timeline"},
   };
   return kBindings;
+}
+
+/// The same with the keys of weapons.
+std::vector<KeyBinding> with_weapons(std::span<const KeyBinding> bindings) {
+  std::vector<KeyBinding> all(bindings.begin(), bindings.end());
+  for_each_weapon([&](const WeaponEvent& weapon, auto) {
+    if (!weapon.key) return;
+    const KeyBinding binding{
+        event_action(weapon.type), KeyGroup::act, false, weapon.key[0], weapon.key, weapon.does};
+    all.insert(std::ranges::find(all, kUseDoor, &KeyBinding::action), binding);
+  });
+  return all;
 }
 
 std::span<const KeyBinding> tank_bindings() {
@@ -108,7 +122,8 @@ std::span<const KeyBinding> tank_bindings() {
 }  // namespace
 
 std::span<const KeyBinding> key_bindings(KeyMap map) {
-  return map == KeyMap::tank ? tank_bindings() : level_bindings();
+  static const std::vector<KeyBinding> kLevel = with_weapons(level_bindings());
+  return map == KeyMap::tank ? tank_bindings() : kLevel;
 }
 
 std::optional<Action> action_of(bool mouse, int code, Modifiers held, KeyMap map) {

@@ -70,8 +70,8 @@ constexpr std::size_t count_event_kinds() {
 constexpr std::size_t kCommands = static_cast<std::size_t>(Action::count);
 constexpr std::size_t kActions = kCommands + count_event_kinds();
 
-/// The action that adds an event to the timeline, by the event's type there.
-consteval Action event_action(std::string_view type) {
+/// The action that adds an event to the timeline, by the event's type there, which must be one.
+constexpr Action event_action(std::string_view type) {
   std::size_t kind = 0;
   while (event_type(kind) != type) ++kind;
   return static_cast<Action>(kCommands + kind);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "apps/viewer/tank_camera.hpp"
 #include "apps/viewer/ui_parts.hpp"
@@ -110,23 +112,26 @@ void lay_out_level_status(const Game& game, const Figures& figures, const Notice
   if (!choices.decals) ImGui::TextUnformatted("decals hidden (B)");
 }
 
-/// Colours of the marks of events, in the order of scene::for_each_event_kind; 0: no mark.
-constexpr std::array<ImU32, 7> kEventColours{IM_COL32(200, 205, 215, 255),
-                                             IM_COL32(255, 190, 90, 255),
-                                             IM_COL32(255, 220, 140, 255),
-                                             IM_COL32(240, 90, 80, 255),
-                                             0,
-                                             IM_COL32(120, 160, 220, 255),
-                                             IM_COL32(120, 190, 120, 255)};
+/// The colour of the marks of a kind of events: red, unless the table has it; 0: no mark.
+ImU32 colour_of(std::string_view type) {
+  constexpr std::array kColours{std::pair{std::string_view("smoke"), IM_COL32(200, 205, 215, 255)},
+                                std::pair{std::string_view("shot"), IM_COL32(255, 190, 90, 255)},
+                                std::pair{std::string_view("text"), IM_COL32(255, 220, 140, 255)},
+                                std::pair{std::string_view("move"), ImU32{0}},
+                                std::pair{std::string_view("edit"), IM_COL32(120, 160, 220, 255)},
+                                std::pair{std::string_view("door"), IM_COL32(120, 190, 120, 255)}};
+  for (const auto& [kind, colour] : kColours)
+    if (kind == type) return colour;
+  return IM_COL32(240, 90, 80, 255);
+}
 
 void mark_events(const scene::Timeline& timeline, const TimeMark& mark) {
   const auto marks = [&](const auto& events, ImU32 colour) {
     for (const auto& event : events) mark(event.time, colour);
   };
   for (const scene::Carrier& carrier : timeline.carriers) marks(carrier.keys, IM_COL32(180, 130, 240, 255));
-  std::size_t kind = 0;
-  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
-    if (const ImU32 colour = kEventColours.at(kind++); colour != 0) marks(events, colour);
+  scene::for_each_event_list(timeline, [&](const char* type, const auto& events) {
+    if (const ImU32 colour = colour_of(type); colour != 0) marks(events, colour);
   });
 }
 

@@ -28,14 +28,16 @@ struct Weapons {
 /// The event of a weapon: its type in timelines, what undo calls it, and what the panel calls its settings.
 struct WeaponEvent {
   const char *type, *name, *settings;
+  const char* key = nullptr;   ///< The letter that sets it off; null: keys.cpp has its bindings.
+  const char* does = nullptr;  ///< Description of the key in the help.
 };
 /// Calls visit(event, member) for each weapon; the pointer to its settings is the second. A weapon with
-/// `at_world` goes off where the player looks (Session::set_off), by a key with event_action.
+/// `at_world` goes off where the player looks (Session::set_off), by its key.
 template <typename Visitor>
 void for_each_weapon(Visitor&& visit) {
   visit(WeaponEvent{"shot", "shot", "bullets and images"}, &Weapons::shot);
   visit(WeaponEvent{"text", "text", "letters and words"}, &Weapons::text);
-  visit(WeaponEvent{"blast", "explosion", "explosions"}, &Weapons::blast);
+  visit(WeaponEvent{"blast", "explosion", "explosions", "E", "explosion where you look"}, &Weapons::blast);
 }
 
 class Session {
