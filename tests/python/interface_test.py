@@ -14,9 +14,7 @@ from pathlib import Path
 
 import brume
 import numpy as np
-from places import BUILD, lines_through, smoky_world, work_folder
-
-STUBS = ast.parse(Path(brume.__file__).with_name("__init__.pyi").read_text())
+from places import BUILD, STUBS, lines_through, smoky_world, work_folder
 
 
 def public(names):

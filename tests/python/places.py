@@ -1,9 +1,11 @@
 """Where the tests find things, and a level that several of them use."""
 
+import ast
 import os
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import brume
 import numpy as np
@@ -12,6 +14,32 @@ SOURCE = Path(os.environ["BRUME_SOURCE_DIR"])
 BUILD = Path(os.environ["BRUME_BUILD_DIR"])
 PROGRAM = os.environ["BRUME_PROGRAM"]
 DEMO = SOURCE / "scenes" / "demo.toml"
+STUBS = ast.parse(Path(brume.__file__).with_name("__init__.pyi").read_text())
+
+
+class EventCall(NamedTuple):
+    """A function of World that adds an event."""
+    name: str
+    arguments: list  # Such as it takes: places and numbers of the first room of two_rooms.
+    places: list  # Indices of those that are points.
+    numbers: list  # Names of the numbers that have defaults.
+
+    def __call__(self, world, *arguments, **named):
+        getattr(world, self.name)(*arguments or self.arguments, **named)
+
+
+def event_calls():
+    """All of them, by the type stubs."""
+    world = next(node for node in STUBS.body if isinstance(node, ast.ClassDef) and node.name == "World")
+    for function in (node for node in world.body if isinstance(node, ast.FunctionDef)):
+        named = {argument.arg: ast.unparse(argument.annotation) for argument in function.args.kwonlyargs}
+        if not {"time", "tick"} <= set(named):
+            continue
+        required = function.args.args[1:len(function.args.args) - len(function.args.defaults)]
+        places = [i for i, argument in enumerate(required) if ast.unparse(argument.annotation) == "_Point"]
+        corners = iter([(1, 1, 5), (9, 2, 6)])
+        arguments = [next(corners) if i in places else 1 for i in range(len(required))]
+        yield EventCall(function.name, arguments, places, [name for name, kind in named.items() if kind == "float"])
 
 
 def run_brume(*arguments):

@@ -5,7 +5,7 @@ import unittest
 
 import brume
 import numpy as np
-from places import DEMO, SOURCE, lines_through, shoot_holes, smoky_world, two_rooms, work_folder
+from places import DEMO, SOURCE, event_calls, lines_through, shoot_holes, smoky_world, two_rooms, work_folder
 
 
 class LevelTest(unittest.TestCase):
@@ -83,7 +83,7 @@ class EventTest(unittest.TestCase):
         lambda w: w.shoot((1, 1, 5), (15, 1, 5), time=1.6, roll=30, shape="box"),
         lambda w: w.blast((4, 1, 4), tick=120, radius=3),
         lambda w: w.set_solid((9.9, 0, 3.9), (10.6, 2.6, 6.1), False, tick=130),
-    ]
+    ] + [lambda w, call=call, tick=tick: call(w, tick=tick) for tick, call in enumerate(event_calls(), 140)]
 
     def test_late_events_change_the_past(self):
         straight = brume.World(two_rooms())
