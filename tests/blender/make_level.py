@@ -129,11 +129,14 @@ def set_all(group, setting):
 
 def make_ranges(folder):
     """Timelines whose numbers are all at the minimum, default or maximum of their properties."""
+    from brume_blender.kinds import KINDS
+
     for setting in ("least", "usual", "most"):
         empty_scene()
         level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
-        for number, kind in enumerate(("SMOKE", "SHOT", "WORD", "BLAST")):
-            empty_with(kind, number, setting).text = LETTERS
+        for number, kind in enumerate(KINDS):
+            if kind != "DOOR":  # It has no numbers, and needs an object.
+                empty_with(kind, number, setting).text = LETTERS
         if setting != "usual":
             set_all(bpy.context.scene.brume, setting)
         bpy.ops.brume.export_level(filepath=os.path.join(folder, setting + ".glb"), format="GLTF")
