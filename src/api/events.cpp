@@ -1,6 +1,10 @@
 #include "api/events.hpp"
 
+#include <array>
 #include <cstring>
+#include <string>
+#include <type_traits>
+#include <variant>
 
 #include "api/objects.hpp"
 #include "sim/event_fields.hpp"
@@ -9,41 +13,34 @@
 namespace brume::api {
 namespace {
 
-sim::Position position_of(const brume_position& p) {
-  return {p.x, p.y, p.z};
-}
+/// Reads the words of a struct of an event, whose members have the order of sim/event_fields.hpp: its
+/// visitor.
+struct WordReader {
+  const std::uint32_t* next;
 
-sim::Event event_of(std::uint32_t tick, const brume_smoke_event& e) {
-  return sim::ThrowSmoke{tick,
-                         position_of(e.from),
-                         position_of(e.at),
-                         {e.voxels, e.bloom_ticks, e.hold_ticks, e.dissolve_ticks}};
-}
+  void operator()(const sim::PositionField&, sim::Position& position) {
+    for (int axis = 0; axis < 3; ++axis) position[axis] = static_cast<std::int32_t>(*next++);
+  }
+  void operator()(const auto&, auto& member) {
+    member = static_cast<std::remove_reference_t<decltype(member)>>(*next++);
+  }
+};
 
-sim::Event event_of(std::uint32_t tick, const brume_shot_event& e) {
-  require(e.shape <= BRUME_HOLE_MASK, "a shot's `shape` must be a brume_hole_shape");
-  return sim::Shot{tick,
-                   position_of(e.origin),
-                   position_of(e.toward),
-                   e.radius_1024,
-                   {e.reach_far_ms, e.expand_ms, e.stay_open_ms, e.fade_ms},
-                   static_cast<sim::HoleShape>(e.shape),
-                   e.mask_index,
-                   e.roll_65536};
-}
-
-sim::Event event_of(std::uint32_t tick, const brume_blast_event& e) {
-  return sim::Blast{tick,
-                    position_of(e.at),
-                    e.radius_1024,
-                    e.speed_1024,
-                    e.remaining_255,
-                    e.refill_rim_ms,
-                    e.refill_middle_ms};
-}
-
-sim::Event event_of(std::uint32_t tick, const brume_move_event& e) {
-  return sim::MoveBody{tick, e.body, position_of(e.to)};
+/// An event of a kind by its place in sim::Event, the number of its brume_event_kind less one.
+template <typename... Kinds>
+sim::Event event_of_words(const brume_event& event, const std::variant<Kinds...>*) {
+  std::array<std::uint32_t, sizeof event.u / sizeof(std::uint32_t)> words;
+  std::memcpy(words.data(), &event.u, sizeof words);
+  sim::Event made;
+  std::uint32_t kind = 0;
+  const auto read_kind = [&]<typename Kind>(Kind of_kind) {
+    if (++kind != event.kind) return;
+    of_kind.tick = event.tick;
+    sim::visit_fields(of_kind, WordReader{words.data()});
+    made = of_kind;
+  };
+  (read_kind(Kinds{}), ...);
+  return made;
 }
 
 sim::Event event_of(std::uint32_t tick, const brume_edit_event& e, const voxel::GridLayout& layout) {
@@ -54,20 +51,12 @@ sim::Event event_of(std::uint32_t tick, const brume_edit_event& e, const voxel::
 }
 
 sim::Event event_of(const brume_event& event, const voxel::GridLayout& layout) {
-  switch (event.kind) {
-    case BRUME_EVENT_SMOKE:
-      return event_of(event.tick, event.u.smoke);
-    case BRUME_EVENT_SHOT:
-      return event_of(event.tick, event.u.shot);
-    case BRUME_EVENT_BLAST:
-      return event_of(event.tick, event.u.blast);
-    case BRUME_EVENT_MOVE:
-      return event_of(event.tick, event.u.move);
-    case BRUME_EVENT_EDIT:
-      return event_of(event.tick, event.u.edit, layout);
-    default:
-      refuse("`kind` must be a brume_event_kind, not " + std::to_string(event.kind));
-  }
+  if (event.kind == 0 || event.kind > std::variant_size_v<sim::Event>)
+    refuse("`kind` must be a brume_event_kind, not " + std::to_string(event.kind));
+  if (event.kind == BRUME_EVENT_EDIT) return event_of(event.tick, event.u.edit, layout);
+  if (event.kind == BRUME_EVENT_SHOT)
+    require(event.u.shot.shape <= BRUME_HOLE_MASK, "a shot's `shape` must be a brume_hole_shape");
+  return event_of_words(event, static_cast<const sim::Event*>(nullptr));
 }
 
 sim::Event checked_event(const brume_event& event, const voxel::GridLayout& layout,

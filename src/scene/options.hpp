@@ -137,10 +137,13 @@ void visit_grid_options(Options& o, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_smoke_options(Options& o, Visitor&& visit) {
+  // Its amount and its life.
   visit(OptionInfo{"voxels", "", "voxels that a grown smoke fills", 1, 1 << 24, "volume"}, o.voxels);
   visit(OptionInfo{"bloom", "s", "time from going off to full size", 0.05, 60, "time to grow"}, o.bloom);
   visit(OptionInfo{"hold", "s", "time at full size", 0, kLatestTime, "time at full size"}, o.hold);
   visit(OptionInfo{"dissolve", "s", "time to dissolve", 0.05, 60, "time to dissolve"}, o.dissolve);
+
+  // Its light.
   visit(OptionInfo{"extinction", "1/m", "extinction at full density", 0.01, 100, "density"}, o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1, "colour"}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -kMostAnisotropy,
@@ -151,6 +154,8 @@ void visit_smoke_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0,
                    1, "inner glow"},
         o.multiple_scattering);
+
+  // Its noise.
   visit(OptionInfo{"erosion", "", "how deeply noise erodes the rim", 0, 1, "raggedness"}, o.erosion);
   visit(OptionInfo{"noise_size", "m", "edge length of a noise cell", 0.05, 100, "size of billows"},
         o.noise_size);
@@ -195,6 +200,8 @@ void visit_volume_options(Options& o, Visitor&& visit) {
         o.x_axis);
   visit(OptionInfo{"y_axis", "", "the same for y", -1e9, 1e9}, o.y_axis);
   visit(OptionInfo{"z_axis", "", "the same for z", -1e9, 1e9}, o.z_axis);
+
+  // Its light, and the times of a sequence.
   visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12, "density"},
         o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1, "colour"}, o.albedo);

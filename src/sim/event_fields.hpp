@@ -1,5 +1,5 @@
-// The fields of the events of a world's log: units and ranges. check_event and the conversions from timelines
-// and from Python walk it; tests compare the C interface with it.
+// The fields of the events of a world's log: units and ranges. check_event, logs and packets, and the
+// conversions from timelines, C and Python walk it; tests compare brume.h with it.
 #pragma once
 
 #include <concepts>
@@ -71,7 +71,8 @@ constexpr const char* name_of(const LevelEdit&) {
 }
 
 // Each function calls visit(field, member) for every position, number and choice of an event besides its
-// tick, in the order in which logs and packets code them; a const event gives const members.
+// tick, in the order of its struct in brume.h, which logs and packets have, too; a const event gives const
+// members.
 
 template <EventOf<ThrowSmoke> Event, typename Visitor>
 void visit_fields(Event& e, Visitor&& visit) {

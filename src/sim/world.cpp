@@ -429,7 +429,7 @@ void World::apply(const LevelEdit& event) {
   flow(event.tick, of_smoke);
 }
 
-/// Of the kinds of which a field is left: into its list, unless it reaches nothing.
+/// Adds the field that an event leaves to its list, unless it reaches nothing.
 template <typename Kind>
 void World::apply(const Kind& event) {
   static_assert(count_field_lists<Kind>() == 1, "neither an `apply` of its own nor a list of Live fields");
