@@ -239,7 +239,7 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.view.camera = to_camera(params.camera, params.frustum);
   input.view.size_px = {params.part.width, params.part.height};
   require(params.view < BRUME_MAX_VIEWS, "`view` must be below 4");
-  input.view.number = params.view;
+  input.view.index = params.view;
   input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
   input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues_previous != 0;

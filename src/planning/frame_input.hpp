@@ -50,8 +50,8 @@ constexpr std::uint32_t kMaxViews = 4;
 
 struct View {
   scene::Camera camera;
-  /// Which of the renderer's views this is, below kMaxViews: each continues its own film.
-  std::uint32_t number = 0;
+  /// Which of the renderer's views this is, below kMaxViews: each accumulates on its own.
+  std::uint32_t index = 0;
   /// Size of the picture [px], at most the renderer's size; the renderer's images hold it in their top left
   /// corner. 0: the renderer's size. Only pictures of a host may be smaller.
   glm::uvec2 size_px{0};

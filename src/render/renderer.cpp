@@ -154,7 +154,7 @@ void Renderer::reserve(const FramePlan& plan) {
   smoke_.reserve(plan);
   volumes_.reserve(plan);
   march_.reserve(plan);
-  if (!plan.decals.empty()) decals_.reserve(plan.input.view.number, targets_.size_px);
+  if (!plan.decals.empty()) decals_.reserve(plan.input.view.index, targets_.size_px);
   if (!plan.decals.empty() && host_) host_->reserve_normals(targets_);
   if (!picture_) return;
   particles_.reserve(plan);
@@ -331,7 +331,7 @@ void Renderer::record_picture(gpu::Recorder& recorder, const FramePlan& plan, co
   // A debug view takes the place of the picture.
   const planning::DebugView view = plan.input.debug.view;
   if (view != planning::DebugView::none) {
-    decals_.forget(recorder, plan.input.view.number);
+    decals_.forget(recorder, plan.input.view.index);
     return scope(recorder, "debug_view", [&] {
       if (view == planning::DebugView::overdraw) particles_.record_overdraw(recorder, plan, in, slices_);
       picture_->record_debug_view(recorder, plan, in);

@@ -95,7 +95,7 @@ class Renderer {
   // Where RendererOptions::media_alone:
   /// What a frame over a host's surfaces needs room for, however little of it is in view.
   struct HostNeeds {
-    std::uint32_t view = 0;  ///< View::number.
+    std::uint32_t view = 0;  ///< View::index.
     bool decals = false, shadows = false, tanks = false;
     VkFormat picture = VK_FORMAT_UNDEFINED;  ///< The format of HostFrame::picture.
   };

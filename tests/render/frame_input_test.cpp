@@ -220,7 +220,7 @@ TEST_F(FrameInputTest, TheView) {
        [](FrameInput& input) {
          input.view.camera.frustum = {-0.5f, 0.7f, -0.4f, 0.4f};
        }},
-      {"number", [](FrameInput& input) { input.view.number = 2; }, {}, "nothing is accumulated"},
+      {"index", [](FrameInput& input) { input.view.index = 2; }, {}, "nothing is accumulated"},
       {"size_px",
        [](FrameInput& input) { input.view.size_px = kSize; },
        {},

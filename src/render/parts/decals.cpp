@@ -29,22 +29,22 @@ void DecalsPart::upload(gpu::Recorder& recorder, const FramePlan& plan, const Sl
     decals.push_back(placed.decal);
     decals.back().occlusion = slices.textures()[placed.volume];
   }
-  passes_[plan.input.view.number]->upload(recorder, decals);
+  passes_[plan.input.view.index]->upload(recorder, decals);
 }
 
 void DecalsPart::begin(gpu::Recorder& recorder, const FramePlan& plan) {
   recorder.change(shown_) = {!plan.input.decals.empty(), nullptr};
-  if (plan.decals.empty()) forget(recorder, plan.input.view.number);
+  if (plan.decals.empty()) forget(recorder, plan.input.view.index);
 }
 
 void DecalsPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                         const SlicesPart& slices, bool smooths) {
-  passes::DecalPass& pass = *passes_[plan.input.view.number];
+  passes::DecalPass& pass = *passes_[plan.input.view.index];
   if (plan.decals.empty()) pass.upload(recorder, {});
   pass.record(recorder, in.frame, plan.camera, plan.size_px, in.targets.gbuffer, in.blue_noise,
               slices.image(), plan.input.view.continues && smooths);
   recorder.change(shown_) = {true, &pass.occlusion()};
-  if (plan.decals.empty()) forget(recorder, plan.input.view.number);
+  if (plan.decals.empty()) forget(recorder, plan.input.view.index);
 }
 
 }  // namespace brume::render

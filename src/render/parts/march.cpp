@@ -38,7 +38,7 @@ MarchPart::MarchPart(gpu::Context& context, gpu::CommandStream& stream, glm::uve
       detail_(passes::make_detail_tile(context)),
       march_pass_(context,
                   {options.count_samples, false, options.brute_force_holes, options.record_entries, 0}) {
-  if (options.temporal) reserve_film(0);
+  if (options.temporal) reserve_accumulation(0);
   resize(size_px);
   set_march_scale(options.march_scale);
   if (options.prepare_all) prepare();
@@ -65,8 +65,8 @@ void MarchPart::make_noise() {
 void MarchPart::resize(glm::uvec2 size_px) {
   size_px_ = size_px;
   counters_ = make_counters(context_, options_.record_entries ? std::size_t{size_px.x} * size_px.y : 0);
-  for (auto& film : films_)
-    if (film) film.emplace(context_, size_px);
+  for (auto& accumulation : accumulations_)
+    if (accumulation) accumulation.emplace(context_, size_px);
   if (options_.raycast) raycast_pass_.emplace(context_, *options_.raycast, size_px);
   set_march_scale(march_scale_);
 }
@@ -78,14 +78,14 @@ void MarchPart::set_march_scale(std::uint32_t scale) {
   if ((scale > 1 || options_.prepare_all) && !resolve_pass_) resolve_pass_.emplace(context_);
 }
 
-void MarchPart::reserve_film(std::uint32_t view) {
+void MarchPart::reserve_accumulation(std::uint32_t view) {
   // Images of the frame's size are never refused.
   const gpu::Memory::Unlimited always(context_.memory());
-  if (!films_[view]) films_[view].emplace(context_, size_px_);
+  if (!accumulations_[view]) accumulations_[view].emplace(context_, size_px_);
 }
 
 void MarchPart::reserve(const FramePlan& plan) {
-  if (is_accumulated()) reserve_film(plan.input.view.number);
+  if (is_accumulated()) reserve_accumulation(plan.input.view.index);
   const std::uint32_t media = plan.media.media;
   if (plan.media.needs_noise) make_noise();
 
@@ -159,11 +159,11 @@ void MarchPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fra
 
 void MarchPart::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!is_accumulated()) return;
-  const std::uint32_t view = plan.input.view.number;
-  recorder.change(shown_film_) = view;
+  const std::uint32_t view = plan.input.view.index;
+  recorder.change(shown_view_) = view;
   scope(recorder, "accumulate", [&] {
-    films_[view]->record(recorder, in.frame, plan.camera, plan.size_px, in.surfaces, in.targets.media,
-                         plan.input.view.continues);
+    accumulations_[view]->record(recorder, in.frame, plan.camera, plan.size_px, in.surfaces, in.targets.media,
+                                 plan.input.view.continues);
   });
 }
 

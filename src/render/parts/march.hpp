@@ -33,7 +33,7 @@ class MarchPart {
 
   /// Premultiplied radiance and transmittance of each pixel.
   const gpu::Image& result(const Targets& targets) const {
-    return is_accumulated() ? films_[shown_film_.get(context_)]->gathered() : targets.media;
+    return is_accumulated() ? accumulations_[shown_view_.get(context_)]->gathered() : targets.media;
   }
   std::uint32_t march_scale() const { return march_scale_; }
   bool is_accumulated() const { return options_.temporal; }
@@ -51,7 +51,7 @@ class MarchPart {
     const passes::MarchPass& pass;
     const gpu::Buffer& counters;
   };
-  void reserve_film(std::uint32_t view);
+  void reserve_accumulation(std::uint32_t view);
   March march_of(const FrameResources& in) const;
   void prepare();
   void make_noise();
@@ -69,11 +69,11 @@ class MarchPart {
   std::optional<passes::MarchTiles> tiles_;          ///< Where march_scale_ is above 1.
   std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.
   passes::MarchPass march_pass_;
-  std::optional<passes::MarchPass> counting_march_;        ///< For the view of steps.
-  std::optional<passes::ResolvePass> resolve_pass_;        ///< Where there are tiles_, or may be.
+  std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
+  std::optional<passes::ResolvePass> resolve_pass_;  ///< Where there are tiles_, or may be.
   /// Where media are accumulated over frames: of each view, from its first frame on.
-  std::array<std::optional<passes::AccumulatePass>, planning::kMaxViews> films_;
-  gpu::Recorded<std::uint32_t> shown_film_;  ///< The view of the last frame.
+  std::array<std::optional<passes::AccumulatePass>, planning::kMaxViews> accumulations_;
+  gpu::Recorded<std::uint32_t> shown_view_;  ///< The view of the last frame.
 };
 
 }  // namespace brume::render

@@ -12,7 +12,7 @@ void MotionPart::resize(glm::uvec2 size_px) {
 void MotionPart::record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
                         const gpu::Buffer& entries) {
   const planning::View& view = plan.input.view;
-  std::optional<glm::mat4>& past = recorder.change(pasts_)[view.number];
+  std::optional<glm::mat4>& past = recorder.change(pasts_)[view.index];
   if (!view.continues) past.reset();
   scope(recorder, "motion", [&] {
     pass_->record(recorder, {in.frame, in.surfaces, in.targets.media, entries, plan.size_px}, past,
