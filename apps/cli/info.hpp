@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "apps/command_line/outputs.hpp"
 #include "apps/cli/summary.hpp"
+#include "apps/command_line/outputs.hpp"
 
 namespace brume::cli {
 

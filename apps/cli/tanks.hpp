@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/command_line/outputs.hpp"
 #include "apps/cli/summary.hpp"
+#include "apps/command_line/outputs.hpp"
 #include "core/box.hpp"
 #include "spheres/tank.hpp"
 

@@ -57,7 +57,8 @@ class [[nodiscard]] Result {
   const T* operator->() const { return &const_cast<Result*>(this)->value(); }
   /// The failure. Must only be called when there is no value.
   const Failure& failure() const {
-    if (state_.index() != 1) assertion_failed("failure() of a Result with a value", __FILE_NAME__, __LINE__, "");
+    if (state_.index() != 1)
+      assertion_failed("failure() of a Result with a value", __FILE_NAME__, __LINE__, "");
     return *std::get_if<1>(&state_);
   }
   /// The value; throws the failure as `Error` if there is none.
@@ -96,7 +97,7 @@ class [[nodiscard]] Result<void> {
 
 /// Aborts the program, printing the expression and the values (a std::string), when an invariant does not
 /// hold. Checked in every build.
-#define BRUME_ASSERT(condition, values)                                                  \
-  do {                                                                                   \
+#define BRUME_ASSERT(condition, values)                                                       \
+  do {                                                                                        \
     if (!(condition)) ::brume::assertion_failed(#condition, __FILE_NAME__, __LINE__, values); \
   } while (false)

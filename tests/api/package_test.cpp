@@ -150,11 +150,12 @@ class Package : public testing::Test {
 
 TEST_F(Package, SaysWhichComponentIsMissing) {
   fs::create_directories(example_);
-  std::ofstream(example_ / "CMakeLists.txt") << "cmake_minimum_required(VERSION 3.25)\nproject(a LANGUAGES C)\n"
-                                                "find_package(brume CONFIG REQUIRED COMPONENTS render)\n";
-  const ShellRun run = run_shell("cmake -S '" + example_.string() + "' -B '" +
-                                 (folder_.path() / "missing").string() + "' -D CMAKE_PREFIX_PATH='" +
-                                 prefix_.string() + "' 2>&1");
+  std::ofstream(example_ / "CMakeLists.txt")
+      << "cmake_minimum_required(VERSION 3.25)\nproject(a LANGUAGES C)\n"
+         "find_package(brume CONFIG REQUIRED COMPONENTS render)\n";
+  const ShellRun run =
+      run_shell("cmake -S '" + example_.string() + "' -B '" + (folder_.path() / "missing").string() +
+                "' -D CMAKE_PREFIX_PATH='" + prefix_.string() + "' 2>&1");
   EXPECT_NE(run.status, 0);
   EXPECT_NE(run.output.find("component 'render'"), run.output.npos) << run.output;
 }

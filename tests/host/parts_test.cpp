@@ -23,7 +23,9 @@ brume_frustum frustum_of(const brume_rectangle& part) {
 
 class PartsTest : public YardTest {
  protected:
-  explicit PartsTest(bool is_temporal = false) : YardTest(gpu::kUsualHost, kWhole) { is_temporal_ = is_temporal; }
+  explicit PartsTest(bool is_temporal = false) : YardTest(gpu::kUsualHost, kWhole) {
+    is_temporal_ = is_temporal;
+  }
   void SetUp() override {
     make({40, 16, 28}, 0.25f, 1);
     smoke(1, {6, 1, 3.5f}, 3000, 2000);

@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "grids/check.hpp"
 #include "core/box.hpp"
+#include "grids/check.hpp"
 #include "sim/world.hpp"
 #include "smoke/noise_look.hpp"
 #include "smoke/smoke_volume.hpp"

@@ -26,10 +26,10 @@ TEST(Installed, WithoutAComponentIsEverythingThatDoesNotNeedMpi) {
   ASSERT_EQ(run("cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > /dev/null"), 0);
   std::set<std::string> names;
   for (const auto& file : fs::recursive_directory_iterator(prefix)) names.insert(file.path().filename());
-  for (const char* name :
-       {"brume", "brume-vdb", "demo.toml", "brume.1", "brume-vdb.1", "libbrume-sim.so", "libbrume-sim.so.0",
-        "libbrume.so", "libbrume.so.0", "brume-config.cmake", "brume-config-version.cmake",
-        "brume-sim-targets.cmake", "brume-host-targets.cmake", "brume-sim.pc", "brume.pc", "LICENSE", "NOTICES.txt"})
+  for (const char* name : {"brume", "brume-vdb", "demo.toml", "brume.1", "brume-vdb.1", "libbrume-sim.so",
+                           "libbrume-sim.so.0", "libbrume.so", "libbrume.so.0", "brume-config.cmake",
+                           "brume-config-version.cmake", "brume-sim-targets.cmake",
+                           "brume-host-targets.cmake", "brume-sim.pc", "brume.pc", "LICENSE", "NOTICES.txt"})
     EXPECT_TRUE(names.contains(name)) << name;
   for (const auto& header : fs::directory_iterator(BRUME_SOURCE_DIR "/include/brume"))
     EXPECT_TRUE(fs::is_regular_file(prefix / "include/brume" / header.path().filename())) << header.path();

@@ -4,8 +4,8 @@
 
 #include "image/decode.hpp"
 #include "scene/files/timeline_reader.hpp"
-#include "scene/timeline.hpp"
 #include "scene/files/timeline_writer.hpp"
+#include "scene/timeline.hpp"
 #include "tests/viewer/small_tank.hpp"
 
 namespace brume::viewer {
