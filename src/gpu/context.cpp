@@ -86,10 +86,10 @@ Context::Context(const HostDevice& host, Context* pipelines_of)
   if (!info_.unsupported.empty())
     throw Error(ErrorCode::no_device, "the device " + info_.name + " cannot be used: " + info_.unsupported);
   check_queue_family(vk_, host);
-  const OptionalFeatures optional = enabled_features(vk_, host);
-  vk_.load_device(device_, optional);
+  enabled_ = pipelines_of ? pipelines_of->enabled_ : enabled_features(vk_, host);
+  vk_.load_device(device_, enabled_);
   read_properties();
-  if (!optional.sampler_anisotropy) tuning_.surface_anisotropy = 1;
+  if (!enabled_.sampler_anisotropy) tuning_.surface_anisotropy = 1;
   // What a host is short of comes and goes in smaller blocks.
   memory_ = std::make_unique<Memory>(
       vk_, info_.handle, device_,

@@ -40,8 +40,8 @@ struct HostDevice {
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;  ///< With graphics and compute. The queue itself remains the host's.
   MemoryCallbacks memory{};
-  /// The chain with which the device was created, read by the constructor; null: of all features() that the
-  /// physical device supports, not checked.
+  /// The chain with which the device was created, read by the constructor; null: one of all features() that
+  /// the physical device supports, not checked.
   const void* enabled_features = nullptr;
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< For the driver's compilations; null: none.
 };
@@ -134,6 +134,7 @@ class Context {
 
   std::unique_ptr<Instance> instance_;  // null: the device is the host's
   Functions vk_;
+  OptionalFeatures enabled_;
   DeviceInfo info_;
   Tuning tuning_;
   VkDevice device_ = VK_NULL_HANDLE;
