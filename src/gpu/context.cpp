@@ -47,7 +47,7 @@ void check_queue_family(const Functions& vk, const HostDevice& host) {
   throw Error(ErrorCode::usage, family + " lacks " + lacks + "; choose one with graphics and compute");
 }
 
-/// Throws when the host created its device without a feature that it needs.
+/// The optional features of the host's device. Throws when it was created without one that is required.
 OptionalFeatures enabled_features(const Functions& vk, const HostDevice& host) {
   if (!host.enabled_features) {
     DeviceFeatures supported(VK_FALSE);

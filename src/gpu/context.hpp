@@ -134,7 +134,7 @@ class Context {
 
   std::unique_ptr<Instance> instance_;  // null: the device is the host's
   Functions vk_;
-  OptionalFeatures enabled_;
+  OptionalFeatures enabled_;  // features of a host's device
   DeviceInfo info_;
   Tuning tuning_;
   VkDevice device_ = VK_NULL_HANDLE;

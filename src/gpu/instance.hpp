@@ -12,8 +12,8 @@ namespace brume::gpu {
 class Instance {
  public:
   /// With `validation`, enables the Khronos layer with synchronization checks and stores its messages.
-  /// `extensions` are those required by the window system. Throws no_device when the loader, a driver, or a
-  /// requested layer or extension is missing.
+  /// `extensions`: what the window system requires. `api_version`: the highest version of Vulkan in use.
+  /// Throws no_device when the loader, a driver, or a requested layer or extension is missing.
   explicit Instance(bool validation, const std::vector<const char*>& extensions = {},
                     std::uint32_t api_version = VK_API_VERSION_1_3);
   ~Instance();

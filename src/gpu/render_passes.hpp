@@ -12,7 +12,7 @@ namespace brume::gpu {
 
 inline constexpr std::size_t kMostColours = 4;
 
-/// Attachments of a render pass of one subpass, which leaves their layouts as they are: that of attachments.
+/// Attachments of a render pass of one subpass. They are in the layouts of attachments before and after it.
 /// Passes whose formats are equal are compatible.
 struct RenderPassInfo {
   std::array<VkFormat, kMostColours> colours{};  ///< VK_FORMAT_UNDEFINED after the last one.

@@ -35,14 +35,14 @@ struct FieldComparison {
 
   void operator()(const sim::PositionField& field, const sim::Position&) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_EQ(defaults.u.reserved[header.of(field).word + axis], 0u) << field.key;
+      EXPECT_EQ(defaults.u.reserved[header.member(field).word + axis], 0u) << field.key;
   }
   void operator()(const sim::ChoiceField& field, auto initial) {
-    EXPECT_EQ(defaults.u.reserved[header.of(field).word], static_cast<std::uint32_t>(initial))
+    EXPECT_EQ(defaults.u.reserved[header.member(field).word], static_cast<std::uint32_t>(initial))
         << field.c_name;
   }
   void operator()(const sim::NumberField& field, std::uint32_t initial) {
-    const EventStruct::Member& member = header.of(field);
+    const EventStruct::Member& member = header.member(field);
     EXPECT_EQ(defaults.u.reserved[member.word], initial) << field.c_name;
     static const std::regex range("\\[([^, \\]]+), ([^, \\]]+)\\]");
     std::smatch match;

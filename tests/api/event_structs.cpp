@@ -44,10 +44,10 @@ struct FieldReader {
 
   void operator()(const sim::PositionField& field, sim::Position& position) const {
     for (int axis = 0; axis < 3; ++axis)
-      position[axis] = static_cast<int>(words[layout.of(field).word + static_cast<std::size_t>(axis)]);
+      position[axis] = static_cast<int>(words[layout.member(field).word + static_cast<std::size_t>(axis)]);
   }
   void operator()(const auto& field, auto& member) const {
-    member = static_cast<std::remove_reference_t<decltype(member)>>(words[layout.of(field).word]);
+    member = static_cast<std::remove_reference_t<decltype(member)>>(words[layout.member(field).word]);
   }
 };
 /// The reverse.
@@ -57,11 +57,11 @@ struct FieldWriter {
 
   void operator()(const sim::PositionField& field, const sim::Position& position) const {
     for (int axis = 0; axis < 3; ++axis)
-      words[layout.of(field).word + static_cast<std::size_t>(axis)] =
+      words[layout.member(field).word + static_cast<std::size_t>(axis)] =
           static_cast<std::uint32_t>(position[axis]);
   }
   void operator()(const auto& field, const auto& member) const {
-    words[layout.of(field).word] = static_cast<std::uint32_t>(member);
+    words[layout.member(field).word] = static_cast<std::uint32_t>(member);
   }
 };
 
@@ -114,7 +114,7 @@ const EventStruct::Member& EventStruct::at(const std::string& name) const {
   return found == members_.end() ? none : found->second;
 }
 
-const EventStruct::Member& EventStruct::of(const sim::NumberField& field) const {
+const EventStruct::Member& EventStruct::member(const sim::NumberField& field) const {
   return at(std::string(field.c_name) + suffix_of(field.unit));
 }
 

@@ -25,11 +25,11 @@ class EventStruct {
   };
   /// Fails the test where there is none of this name.
   const Member& at(const std::string& name) const;
-  const Member& of(const sim::NumberField& field) const;
-  const Member& of(const sim::PositionField& field) const {
+  const Member& member(const sim::NumberField& field) const;
+  const Member& member(const sim::PositionField& field) const {
     return at(field.c_name ? field.c_name : field.key);
   }
-  const Member& of(const sim::ChoiceField& field) const { return at(field.c_name); }
+  const Member& member(const sim::ChoiceField& field) const { return at(field.c_name); }
 
   std::uint32_t kind() const { return kind_; }
 

@@ -121,7 +121,7 @@ TEST_F(WorldTest, TakesEventsOfEveryKind) {
   sim::World expected = match_.sim_world(grid);
   World world = played();
   for (const sim::Event& event : sim::random_events(1, match_.grid_layout(), 12, Match::kTicks)) {
-    if (std::holds_alternative<sim::LevelEdit>(event)) continue;  // those of the match
+    if (std::holds_alternative<sim::LevelEdit>(event)) continue;  // only the match has edits
     expected.append(event).value_or_throw();
     world.append(c_event(event));
   }

@@ -1,4 +1,4 @@
-// Barriers of Vulkan 1.0 in the place of those of synchronization2.
+// Barriers of synchronization2 in the terms of Vulkan 1.0.
 #include "gpu/barriers.hpp"
 
 #include <gtest/gtest.h>

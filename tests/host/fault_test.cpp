@@ -44,7 +44,7 @@ const std::vector<gpu::Replacement> kFaulty{
     X(AllocateMemory) X(MapMemory) X(CreateBuffer) X(BindBufferMemory) X(CreateImage) X(BindImageMemory)
     X(CreateImageView) X(CreateSampler) X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)
     X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool) X(ResetDescriptorPool)
-    X(AllocateDescriptorSets) X(CreateQueryPool)
+    X(AllocateDescriptorSets) X(CreateQueryPool) X(CreateRenderPass) X(CreateFramebuffer)
 #undef X
 #define X(function) BRUME_INTERPOSED(Commands, function),
     X(CmdDispatch) X(CmdPipelineBarrier2) X(CmdUpdateBuffer) X(CmdResetQueryPool) X(CmdWriteTimestamp)
