@@ -46,7 +46,7 @@ string(CONCAT about "Brume floods rooms with smoke that walls stop, doors let th
                     "shots punch holes into, the same on every machine, and renders it with\nVulkan.")
 brume_package(program graphics "real-time volumetric smoke, clouds and sparse volumes"
   "${about}\nThis package holds the program with its viewer, and scenes.")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libvulkan1, fonts-dejavu-core")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libembree3-3, libvulkan1, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ffmpeg, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "brume-doc, brume-blender, python3-brume")
 
@@ -54,6 +54,7 @@ brume_package(sim_library libs "simulation of volumetric smoke (library)"
   "${about}\nThis package holds the library of the simulation, without graphics.")
 brume_package(library libs "volumetric smoke in the frames of a Vulkan renderer (library)"
   "${about}\nThis package holds the library that draws smoke into the frames of other\nrenderers.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libembree3-3)
 foreach(pair IN ITEMS "SIM_LIBRARY brume-sim" "LIBRARY brume")
   string(REPLACE " " ";" pair ${pair})
   list(GET pair 0 key)
@@ -76,7 +77,7 @@ if(BRUME_PYTHON_BUILT)
   brume_package(python python "volumetric smoke as NumPy arrays"
     "${about}\nThis package holds the Python module brume.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= 3.${BRUME_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, libvulkan1, \
+      "python3 (>= 3.${BRUME_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, libembree3-3, libvulkan1, \
 fonts-dejavu-core")
   # brume-vdb, which reads and writes the files of OpenVDB; and something to draw with.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "brume ${exact}, mesa-vulkan-drivers | vulkan-icd")

@@ -69,7 +69,7 @@ double RayTracedOcclusion::at(glm::dvec3 p_world, glm::dvec3 normal, std::uint32
       packet.mask[lane] = ~0u;
       packet.id[lane] = packet.flags[lane] = 0;
     }
-    rtcOccluded8(active.data(), tree_.scene(), &context, &packet);
+    trace::embree().Occluded8(active.data(), tree_.scene(), &context, &packet);
     for (std::size_t lane = 0; lane < kLanes; ++lane) hidden += active[lane] && packet.tfar[lane] < 0;
   }
   return static_cast<double>(hidden) / static_cast<double>(directions_.size());

@@ -167,7 +167,7 @@ std::uint32_t Occluders::count_hidden(const RaySets& sets, std::uint32_t set, gl
       rays.tfar[lane] = std::numeric_limits<float>::infinity();
       active[lane] = begin + lane < sets.rays() ? -1 : 0;
     }
-    rtcOccluded16(active.data(), tree_.scene(), &context, &rays);
+    trace::embree().Occluded16(active.data(), tree_.scene(), &context, &rays);
     for (std::size_t lane = 0; lane < kLanes; ++lane) hidden += rays.tfar[lane] < 0;  // -infinity: a hit
   }
   return hidden;

@@ -122,7 +122,7 @@ void Surfaces::build(Tree& tree, bool of_panes) {
     for (std::size_t step = 1; step < part.corners_world.size(); ++step)
       mesh.moved.emplace_back(part.corners_world[step]);
   }
-  tree.triangles.build("reference", meshes).value_or_throw();
+  tree.triangles.build("surfaces", meshes).value_or_throw();
 }
 
 void Surfaces::add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh) {
@@ -191,7 +191,7 @@ std::optional<RTCRayHit> Surfaces::intersect(const Tree& tree, const Ray& ray) {
   query.ray = embree_ray(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(tree.triangles.scene(), &context, &query);
+  trace::embree().Intersect1(tree.triangles.scene(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return query;
 }
@@ -256,7 +256,7 @@ bool Surfaces::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = embree_ray(ray);
-  rtcOccluded1(opaque_.triangles.scene(), &context, &query);
+  trace::embree().Occluded1(opaque_.triangles.scene(), &context, &query);
   return query.tfar < 0;
 }
 

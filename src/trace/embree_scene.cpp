@@ -8,7 +8,7 @@ void EmbreeScene::note_error(void* self, RTCError error, const char*) {
 
 Failure EmbreeScene::failure() const {
   // Embree itself keeps the error of a device that was not made.
-  switch (const RTCError error = device_ ? error_.load() : rtcGetDeviceError(nullptr)) {
+  switch (const RTCError error = device_ ? error_.load() : embree().GetDeviceError(nullptr)) {
     case RTC_ERROR_OUT_OF_MEMORY:
       return {ErrorCode::resource_limit, job_ + ": not enough memory for " + large_};
     case RTC_ERROR_CANCELLED:
@@ -29,16 +29,18 @@ Result<void> EmbreeScene::begin(const std::string& job, const std::string& large
                                 const std::atomic<bool>* stopped) {
   job_ = job;
   large_ = large;
+  if (const auto& found = find_embree(); !found)
+    return Failure{found.failure().code, job + ": " + found.failure().message};
   // A device without threads of its own: sanitizers cannot see into them, and trees may depend on them.
-  device_.reset(rtcNewDevice("threads=1,set_affinity=0"));
+  device_.reset(embree().NewDevice("threads=1,set_affinity=0"));
   if (!device_) return failure();
-  rtcSetDeviceErrorFunction(device_.get(), note_error, this);
-  scene_.reset(rtcNewScene(device_.get()));
+  embree().SetDeviceErrorFunction(device_.get(), note_error, this);
+  scene_.reset(embree().NewScene(device_.get()));
   if (!scene_) return failure();
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+  embree().SetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  embree().SetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
   if (stopped)
-    rtcSetSceneProgressMonitorFunction(
+    embree().SetSceneProgressMonitorFunction(
         scene_.get(),
         [](void* flag, double) {
           return !static_cast<const std::atomic<bool>*>(flag)->load(std::memory_order_relaxed);
@@ -48,13 +50,13 @@ Result<void> EmbreeScene::begin(const std::string& job, const std::string& large
 }
 
 Result<void> EmbreeScene::attach(const Geometry& geometry) {
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene_.get(), geometry.get());
+  embree().CommitGeometry(geometry.get());
+  embree().AttachGeometry(scene_.get(), geometry.get());
   return check();
 }
 
 Result<void> EmbreeScene::commit() {
-  rtcCommitScene(scene_.get());
+  embree().CommitScene(scene_.get());
   return check();
 }
 

@@ -1,18 +1,17 @@
 // A scene of Embree. The only place that makes Embree's devices and scenes.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <atomic>
 #include <memory>
 #include <string>
 
 #include "core/error.hpp"
+#include "trace/embree.hpp"
 
 namespace brume::trace {
 
 struct GeometryRelease {
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+  void operator()(RTCGeometry geometry) const { embree().ReleaseGeometry(geometry); }
 };
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryRelease>;
 
@@ -29,7 +28,7 @@ class EmbreeScene {
   Result<void> begin(const std::string& job, const std::string& large,
                      const std::atomic<bool>* stopped = nullptr);
   /// A geometry of this scene to fill; null where there is not enough memory.
-  Geometry make(RTCGeometryType type) const { return Geometry(rtcNewGeometry(device_.get(), type)); }
+  Geometry make(RTCGeometryType type) const { return Geometry(embree().NewGeometry(device_.get(), type)); }
   /// Adds a geometry that is filled; they are numbered from 0 on.
   Result<void> attach(const Geometry& geometry);
   /// Builds the tree of all geometries.
@@ -43,10 +42,10 @@ class EmbreeScene {
 
  private:
   struct DeviceRelease {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCDevice device) const { embree().ReleaseDevice(device); }
   };
   struct SceneRelease {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCScene scene) const { embree().ReleaseScene(scene); }
   };
   static void note_error(void* self, RTCError error, const char* text);
 

@@ -25,11 +25,11 @@ Result<void> SphereTree::build(const std::string& job, std::span<const spheres::
   if (spheres.empty()) return scene_.commit();
   const Geometry geometry = scene_.make(RTC_GEOMETRY_TYPE_SPHERE_POINT);
   if (!geometry) return scene_.failure();
-  void* const points = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                               sizeof(spheres::Sphere), spheres.size());
+  void* const points = embree().SetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof(spheres::Sphere), spheres.size());
   if (!points) return scene_.failure();
   std::ranges::copy(spheres, static_cast<spheres::Sphere*>(points));
-  rtcSetGeometryIntersectFilterFunction(geometry.get(), reject_skipped);
+  embree().SetGeometryIntersectFilterFunction(geometry.get(), reject_skipped);
   if (const auto attached = scene_.attach(geometry); !attached) return attached;
   return scene_.commit();
 }
@@ -50,7 +50,7 @@ SphereTree::Hit SphereTree::next(const glm::vec3& origin, const glm::vec3& direc
   ray.ray.tfar = to;
   ray.ray.mask = UINT32_MAX;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &query.context, &ray);
+  embree().Intersect1(scene_.get(), &query.context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {ray.hit.primID, ray.ray.tfar};
 }

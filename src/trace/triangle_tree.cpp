@@ -9,21 +9,23 @@ Result<void> TriangleTree::add(const TriangleMesh& mesh) {
   if (!geometry) return scene_.failure();
   std::vector<std::span<const glm::vec3>> steps{mesh.corners};
   steps.insert(steps.end(), mesh.moved.begin(), mesh.moved.end());
-  rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned int>(steps.size()));
+  embree().SetGeometryTimeStepCount(geometry.get(), static_cast<unsigned int>(steps.size()));
   for (unsigned int step = 0; step < steps.size(); ++step) {
-    void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, step,
-                                                   RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.corners.size());
+    void* const vertices =
+        embree().SetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                      sizeof(glm::vec3), mesh.corners.size());
     if (!vertices) return scene_.failure();
     std::ranges::copy(steps[step], static_cast<glm::vec3*>(vertices));
   }
-  void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
+  void* const indices =
+      embree().SetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
   if (!indices) return scene_.failure();
   std::ranges::copy(mesh.indices, static_cast<std::uint32_t*>(indices));
   if (mesh.filter) {
-    rtcSetGeometryUserData(geometry.get(), mesh.filter_data);
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), mesh.filter);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), mesh.filter);
+    embree().SetGeometryUserData(geometry.get(), mesh.filter_data);
+    embree().SetGeometryIntersectFilterFunction(geometry.get(), mesh.filter);
+    embree().SetGeometryOccludedFilterFunction(geometry.get(), mesh.filter);
   }
   return scene_.attach(geometry);
 }

@@ -58,7 +58,6 @@ TEST(Links, TheLibrariesNeedTheseAndNoOthers) {
   EXPECT_EQ(names_of(needed_by(folder.path(), "libbrume-sim.so.0")), names_of(kSystem));
   Libraries expected = kSystem;
   expected.emplace("libzstd.so.1", "bricks of .brv files are compressed");
-  expected.emplace("libembree3.so.3", "rays of indirect light meet the triangles of the level");
   EXPECT_EQ(names_of(needed_by(folder.path(), "libbrume.so.0")), names_of(expected))
       << "docs/OVERVIEW.md says how libbrume stays free of others";
 }
