@@ -160,6 +160,14 @@ typedef struct brume_field brume_field;
 /// from such a thread it must call no function. `line` is valid during the callback, which must not throw.
 typedef void (*brume_log_callback)(void* user, brume_result result, const char* line);
 
+/// Runs the loops of a call in threads of yours: it calls job(job_data) `count` times, which is at most
+/// thread_count, in any threads and at best at once, and returns when all of these calls have returned.
+/// Fewer calls are right, too: what no job does, the call does. A job neither waits for others nor calls a
+/// callback. It is called within functions that may take many threads, by several threads at once where you
+/// call several at once, and by threads that load volumes. It must not call Brume or throw.
+typedef void (*brume_run_jobs_callback)(void* user, void (*job)(void* job_data), void* job_data,
+                                        uint32_t count);
+
 /// The settings of a new context.
 typedef struct brume_context_params {
   uint32_t struct_size;
@@ -167,9 +175,13 @@ typedef struct brume_context_params {
   uint32_t thread_count;   ///< Threads of one call, the caller's included: [1, 1024]; 0: one per core.
   brume_log_callback log;  ///< Null: no callback.
   void* log_user;          ///< Passed to `log`.
+  /// Null: calls start threads, which end before they return. One thread for each volume file that changes
+  /// over time is started in any case.
+  brume_run_jobs_callback run_jobs;
+  void* jobs_user;  ///< Passed to `run_jobs`.
 } brume_context_params;
 
-/// Returns the defaults: one thread per core, no callback.
+/// Returns the defaults: one thread per core, no callbacks.
 static inline brume_context_params brume_context_defaults(void) {
   brume_context_params params = BRUME_ZERO;
   params.struct_size = sizeof(brume_context_params);
@@ -179,8 +191,8 @@ static inline brume_context_params brume_context_defaults(void) {
 /// Creates a context, from which all other objects are created. `params` may be null: the defaults.
 BRUME_API brume_result brume_context_create(const brume_context_params* params,
                                             brume_context** context) BRUME_NOEXCEPT;
-/// Destroys a context; null is ignored. Objects of the context live on, without its log callback: the
-/// callback is not called again, unless a call in another thread is already about to call it.
+/// Destroys a context; null is ignored. Objects of the context live on, without its callbacks: they are
+/// not called again, unless a call in another thread is already about to call them.
 BRUME_API brume_result brume_context_destroy(brume_context* context) BRUME_NOEXCEPT;
 
 // ---- Levels ----

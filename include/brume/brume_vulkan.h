@@ -120,6 +120,9 @@ typedef struct brume_device_params {
   /// compile, also in their threads, so create it without
   /// VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT.
   VkPipelineCache pipeline_cache;
+  /// Memory of the CPU for what the driver creates for Brume, which must outlive the brume_device; null: the
+  /// driver's own. Calls use it in their threads.
+  const VkAllocationCallbacks* allocation_callbacks;
 } brume_device_params;
 
 /// Returns the defaults: queue family 0, no memory functions. Set the other members.
@@ -189,7 +192,8 @@ typedef struct brume_renderer_params {
   /// Lights that stay until brume_renderer_set_lights, with shadow maps. At most 1024.
   const brume_light* lights;
   size_t light_count;  ///< Number of `lights`.
-  /// Triangles that cast shadows into the smoke, as in brume_triangles_params. None: nothing casts shadows.
+  /// Triangles that cast shadows into the smoke, as in brume_triangles_params, until
+  /// brume_renderer_set_triangles. None: nothing casts shadows.
   const brume_point* points;
   size_t point_count;        ///< Number of `points`, below 2^28.
   const uint32_t* indices;   ///< Three indices into `points` for each triangle.
@@ -234,6 +238,12 @@ BRUME_API brume_result brume_renderer_set_march_scale(brume_renderer* renderer,
 /// array is copied.
 BRUME_API brume_result brume_renderer_set_lights(brume_renderer* renderer, const brume_light* lights,
                                                  size_t light_count) BRUME_NOEXCEPT;
+
+/// Replaces the triangles of brume_renderer_params from the next frame on, which draws all shadow maps and
+/// finds all light in the smoke again: for another level, and for walls that fall. The arrays are copied.
+BRUME_API brume_result brume_renderer_set_triangles(brume_renderer* renderer, const brume_point* points,
+                                                    size_t point_count, const uint32_t* indices,
+                                                    size_t index_count) BRUME_NOEXCEPT;
 
 // ---- Frames ----
 
@@ -380,7 +390,8 @@ typedef struct brume_frame_params {
   float ambient[3];
   float ambient_indoors;  ///< Fraction of `ambient` that arrives where no sky is visible, [0, 1].
   /// Number of times that smoke and the level's surfaces, which count as white, pass light on to each other,
-  /// [0, 16]. 0: never; a formula then approximates light that is scattered more than once.
+  /// [0, 16]. 0: never; a formula then approximates light that is scattered more than once. More than 0 needs
+  /// Embree 3 (libembree3.so.3) at run time: BRUME_ERROR_DEVICE without it.
   uint32_t bounces;
   uint32_t shadow_light_count;  ///< Number of `shadow_lights`, [0, BRUME_MAX_SHADOW_LIGHTS].
   /// The lights of brume_renderer_shadows, as indices into the renderer's lights followed by the frame's.

@@ -120,6 +120,10 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   void set_lights(const std::vector<brume_light>& lights) {
     check(brume_renderer_set_lights(get(), lights.data(), lights.size()));
   }
+  /// brume_renderer_set_triangles.
+  void set_triangles(const std::vector<brume_point>& points, const std::vector<std::uint32_t>& indices) {
+    check(brume_renderer_set_triangles(get(), points.data(), points.size(), indices.data(), indices.size()));
+  }
   /// brume_renderer_record. `field` may be null: no smoke, and no level.
   void record(const Field* field, const brume_frame_params& params) {
     check(brume_renderer_record(get(), field ? field->get() : nullptr, &params));

@@ -78,6 +78,23 @@ void Settings::write(LogLevel level, const std::string& line) {
   if (level == LogLevel::warning && callback) callback(log_user, BRUME_OK, line.c_str());
 }
 
+bool Settings::run(void (*job)(void*), void* data, unsigned count) {
+  const brume_run_jobs_callback callback = run_jobs.load();
+  if (!callback) return false;
+  struct Job {
+    void (*call)(void*);
+    void* data;
+  } wrapped{job, data};
+  // The host's threads may have another floating-point environment.
+  const auto run_job = [](void* each) {
+    const DefaultFloatingPoint floating_point;
+    const Job& own = *static_cast<const Job*>(each);
+    own.call(own.data);
+  };
+  callback(jobs_user, run_job, &wrapped, count);
+  return true;
+}
+
 void CallWarnings::write(LogLevel level, const std::string& line) {
   if (level == LogLevel::warning) lines_.push_back(line);
 }
@@ -131,7 +148,7 @@ void Call::check_whole(const Handle& object) {
 void Call::adopt(const std::shared_ptr<Settings>& settings) {
   if (settings_) return;
   settings_ = settings;
-  threads_.emplace(settings->thread_count);
+  tasks_.emplace(settings->thread_count, settings.get());
   warnings_.emplace(settings);
 }
 
@@ -142,7 +159,7 @@ void Call::log_warnings() noexcept {
   const brume_log_callback log = settings_->log.load();
   warnings_.reset();
   if (lines.empty() || !log) return;
-  threads_.reset();
+  tasks_.reset();
   floating_point_.reset();
   char error[kMaxLine];
   std::memcpy(error, t_last_error, kMaxLine);
@@ -176,7 +193,7 @@ brume_result Call::report(brume_result result, const char* message) noexcept {
   append(length, ": ");
   append(length, message);
   log_warnings();
-  threads_.reset();
+  tasks_.reset();
   const brume_log_callback log = settings_ ? settings_->log.load() : nullptr;
   if (!log) return result;
 

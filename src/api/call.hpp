@@ -26,14 +26,20 @@
 namespace brume::api {
 
 /// Settings of a context; objects created from it hold them.
-struct Settings : std::enable_shared_from_this<Settings>, LogSink {
+struct Settings : std::enable_shared_from_this<Settings>, LogSink, TaskRunner {
   unsigned thread_count = 0;
   std::atomic<brume_log_callback> log = nullptr;
   void* log_user = nullptr;
+  std::atomic<brume_run_jobs_callback> run_jobs = nullptr;
+  void* jobs_user = nullptr;
 
   /// Warnings of threads that calls have started.
   void write(LogLevel level, const std::string& line) override;
   std::shared_ptr<LogSink> of_threads() override { return shared_from_this(); }
+
+  /// Runs jobs of calls, and of the threads that they have started.
+  bool run(void (*job)(void*), void* data, unsigned count) override;
+  std::shared_ptr<TaskRunner> share() override { return shared_from_this(); }
 };
 
 /// The warnings of a call, which are logged at its end: the callback may call functions.
@@ -217,7 +223,7 @@ class Call {
   const char* function_;
   std::optional<DefaultFloatingPoint> floating_point_;
   std::shared_ptr<Settings> settings_;
-  std::optional<ThreadCountScope> threads_;
+  std::optional<TaskScope> tasks_;
   std::optional<CallWarnings> warnings_;
 };
 

@@ -1,6 +1,12 @@
 #include "api/objects.hpp"
 
 namespace brume::api {
+
+// The size of 0.2.
+template <>
+inline constexpr std::array kEarlierSizes<brume_context_params>{
+    std::uint32_t{offsetof(brume_context_params, run_jobs)}};
+
 namespace {
 
 constexpr std::uint32_t kMaxThreads = 1024;
@@ -13,6 +19,8 @@ void create_context(const brume_context_params* given, brume_context** context) 
   settings->thread_count = params.thread_count;
   settings->log = params.log;
   settings->log_user = params.log_user;
+  settings->run_jobs = params.run_jobs;
+  settings->jobs_user = params.jobs_user;
   create(context, std::move(settings));
 }
 
@@ -58,6 +66,7 @@ brume_result brume_context_destroy(brume_context* context) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     brume_context& held = call.handle(context);
     held.settings->log = nullptr;
+    held.settings->run_jobs = nullptr;
     delete &held;
   });
 }

@@ -6,18 +6,19 @@ CommandRunner::CommandRunner(Context& context) : context_(context), slot_(contex
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   pool.queueFamilyIndex = context.queue_family();
-  check(context.vk().CreateCommandPool(context.device(), &pool, nullptr, &pool_), "vkCreateCommandPool");
+  check(context.vk().CreateCommandPool(context.device(), &pool, context.vk().allocator, &pool_),
+        "vkCreateCommandPool");
   VkCommandBufferAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   info.commandPool = pool_;
   info.commandBufferCount = 1;
   const VkResult result = context.vk().AllocateCommandBuffers(context.device(), &info, &commands_);
-  if (result != VK_SUCCESS) context.vk().DestroyCommandPool(context.device(), pool_, nullptr);
+  if (result != VK_SUCCESS) context.vk().DestroyCommandPool(context.device(), pool_, context.vk().allocator);
   check(result, "vkAllocateCommandBuffers");
 }
 
 CommandRunner::~CommandRunner() {
-  context_.vk().DestroyCommandPool(context_.device(), pool_, nullptr);
+  context_.vk().DestroyCommandPool(context_.device(), pool_, context_.vk().allocator);
 }
 
 void CommandRunner::run(const std::function<void(Recorder&)>& record) {

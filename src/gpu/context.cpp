@@ -77,6 +77,7 @@ Context::Context(const ContextOptions& options)
 
 Context::Context(const HostDevice& host, Context* pipelines_of)
     : device_(host.device), queue_family_(host.queue_family) {
+  vk_.allocator = host.allocator;
   vk_.load_instance(host.get_instance_proc_addr, host.instance);
   for (const DeviceInfo& device : list_devices(vk_, host.instance, host_needs())) {
     if (device.handle == host.physical_device) info_ = device;
@@ -129,7 +130,7 @@ void Context::create_device(const Presentation& presentation) {
   const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
                                        VK_SEMAPHORE_TYPE_TIMELINE, 0};
   const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-  const VkResult result = vk_.CreateSemaphore(device_, &semaphore, nullptr, &done_);
+  const VkResult result = vk_.CreateSemaphore(device_, &semaphore, vk_.allocator, &done_);
   if (result != VK_SUCCESS) vk_.DestroyDevice(device_, nullptr);
   check(result, "vkCreateSemaphore");
 }
@@ -152,20 +153,20 @@ Context::~Context() {
   for (const RetiredFrame& retired : retired_) destroy(retired.handles);
   if (!owns_device()) return;
   vk_.DeviceWaitIdle(device_);  // Fails for a lost device, which is destroyed all the same.
-  vk_.DestroySemaphore(device_, done_, nullptr);
+  vk_.DestroySemaphore(device_, done_, vk_.allocator);
   memory_.reset();
   pipelines_.reset();
   vk_.DestroyDevice(device_, nullptr);
 }
 
 void Context::destroy(const Retired& handles) noexcept {
-  vk_.DestroyFramebuffer(device_, handles.framebuffer, nullptr);
-  vk_.DestroyDescriptorPool(device_, handles.descriptors, nullptr);
-  vk_.DestroyQueryPool(device_, handles.queries, nullptr);
-  vk_.DestroySampler(device_, handles.sampler, nullptr);
-  vk_.DestroyImageView(device_, handles.view, nullptr);
-  vk_.DestroyImage(device_, handles.image, nullptr);
-  vk_.DestroyBuffer(device_, handles.buffer, nullptr);
+  vk_.DestroyFramebuffer(device_, handles.framebuffer, vk_.allocator);
+  vk_.DestroyDescriptorPool(device_, handles.descriptors, vk_.allocator);
+  vk_.DestroyQueryPool(device_, handles.queries, vk_.allocator);
+  vk_.DestroySampler(device_, handles.sampler, vk_.allocator);
+  vk_.DestroyImageView(device_, handles.view, vk_.allocator);
+  vk_.DestroyImage(device_, handles.image, vk_.allocator);
+  vk_.DestroyBuffer(device_, handles.buffer, vk_.allocator);
   memory_->free(handles.range);
 }
 

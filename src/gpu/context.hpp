@@ -44,6 +44,8 @@ struct HostDevice {
   /// the physical device supports, not checked.
   const void* enabled_features = nullptr;
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< For the driver's compilations; null: none.
+  /// Memory of the CPU for the driver; null: its own.
+  const VkAllocationCallbacks* allocator = nullptr;
 };
 
 /// Additional semaphores of a submission: null, or one to wait for before writing a window's image, and one

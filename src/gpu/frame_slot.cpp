@@ -18,7 +18,8 @@ VkDescriptorPool make_descriptor_pool(Context& context) {
   info.poolSizeCount = 4;
   info.pPoolSizes = sizes;
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(context.vk().CreateDescriptorPool(context.device(), &info, nullptr, &pool), "vkCreateDescriptorPool");
+  check(context.vk().CreateDescriptorPool(context.device(), &info, context.vk().allocator, &pool),
+        "vkCreateDescriptorPool");
   return pool;
 }
 

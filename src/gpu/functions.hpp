@@ -60,6 +60,8 @@ struct Functions {
   BRUME_VK_SURFACE_FUNCTIONS(X)
   BRUME_VK_SWAPCHAIN_FUNCTIONS(X)
 #undef X
+  /// The last argument of functions that create, and of those that destroy; null: the driver's own.
+  const VkAllocationCallbacks* allocator = nullptr;
 
   /// Throws no_device when a function is missing.
   void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);

@@ -78,7 +78,7 @@ Memory::~Memory() {
 VkResult Memory::allocate_block(const VkMemoryAllocateInfo& info, VkDeviceMemory& memory) const {
   const MemoryCallbacks& host = options_.callbacks;
   return host.allocate ? host.allocate(host.user, &info, &memory)
-                       : vk_.AllocateMemory(device_, &info, nullptr, &memory);
+                       : vk_.AllocateMemory(device_, &info, vk_.allocator, &memory);
 }
 
 void Memory::free_block(const MemoryBlock& block) const noexcept {
@@ -86,7 +86,7 @@ void Memory::free_block(const MemoryBlock& block) const noexcept {
   if (host.free)
     host.free(host.user, block.memory, block.size);
   else
-    vk_.FreeMemory(device_, block.memory, nullptr);
+    vk_.FreeMemory(device_, block.memory, vk_.allocator);
 }
 
 std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {

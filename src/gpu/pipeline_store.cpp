@@ -18,9 +18,9 @@ class Module {
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = code.words.size_bytes();
     info.pCode = code.words.data();
-    check(vk.CreateShaderModule(device, &info, nullptr, &handle_), code.name);
+    check(vk.CreateShaderModule(device, &info, vk.allocator, &handle_), code.name);
   }
-  ~Module() { vk_.DestroyShaderModule(device_, handle_, nullptr); }
+  ~Module() { vk_.DestroyShaderModule(device_, handle_, vk_.allocator); }
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
 
@@ -139,7 +139,8 @@ class ComputeMade : public Pipeline {
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization.info);
     info.layout = layout();
-    return maker().vk.CreateComputePipelines(maker().device, maker().cache, 1, &info, nullptr, made);
+    return maker().vk.CreateComputePipelines(maker().device, maker().cache, 1, &info, maker().vk.allocator,
+                                             made);
   }
   const std::vector<std::uint32_t> constants_;
 };
@@ -155,6 +156,8 @@ class GraphicsMade : public Pipeline {
   VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;
   const GraphicsInfo info_;
 };
+
+constexpr VkDynamicState kDynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
 
 VkResult GraphicsMade::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
   // Shader stages.
@@ -187,9 +190,8 @@ VkResult GraphicsMade::make(std::span<const ShaderCode> shaders, VkPipeline* mad
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
   blend.pAttachments = attachments.data();
-  const VkDynamicState dynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   const VkPipelineDynamicStateCreateInfo dynamics{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                  nullptr, 0, 2, dynamic};
+                                                  nullptr, 0, 2, kDynamicStates};
   VkPipelineRenderingCreateInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
   rendering.colorAttachmentCount = static_cast<std::uint32_t>(info_.colours.size());
@@ -213,7 +215,8 @@ VkResult GraphicsMade::make(std::span<const ShaderCode> shaders, VkPipeline* mad
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamics;
   info.layout = layout();
-  return maker().vk.CreateGraphicsPipelines(maker().device, maker().cache, 1, &info, nullptr, made);
+  return maker().vk.CreateGraphicsPipelines(maker().device, maker().cache, 1, &info, maker().vk.allocator,
+                                            made);
 }
 
 /// Appends a shader or a list, with its length.
@@ -246,7 +249,7 @@ Pipeline::Pipeline(const Maker& maker, VkPipelineBindPoint bind_point, VkShaderS
   set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   set.bindingCount = static_cast<std::uint32_t>(entries.size());
   set.pBindings = entries.data();
-  check(maker.vk.CreateDescriptorSetLayout(maker.device, &set, nullptr, &set_layout_),
+  check(maker.vk.CreateDescriptorSetLayout(maker.device, &set, maker.vk.allocator, &set_layout_),
         "vkCreateDescriptorSetLayout");
 
   const VkPushConstantRange push{stages, 0, push_bytes};
@@ -256,15 +259,16 @@ Pipeline::Pipeline(const Maker& maker, VkPipelineBindPoint bind_point, VkShaderS
   layout.pSetLayouts = &set_layout_;
   layout.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
   layout.pPushConstantRanges = &push;
-  const VkResult result = maker.vk.CreatePipelineLayout(maker.device, &layout, nullptr, &layout_);
-  if (result != VK_SUCCESS) maker.vk.DestroyDescriptorSetLayout(maker.device, set_layout_, nullptr);
+  const VkResult result = maker.vk.CreatePipelineLayout(maker.device, &layout, maker.vk.allocator, &layout_);
+  if (result != VK_SUCCESS)
+    maker.vk.DestroyDescriptorSetLayout(maker.device, set_layout_, maker.vk.allocator);
   check(result, "vkCreatePipelineLayout");
 }
 
 Pipeline::~Pipeline() {
-  maker_.vk.DestroyPipeline(maker_.device, handle_, nullptr);
-  maker_.vk.DestroyPipelineLayout(maker_.device, layout_, nullptr);
-  maker_.vk.DestroyDescriptorSetLayout(maker_.device, set_layout_, nullptr);
+  maker_.vk.DestroyPipeline(maker_.device, handle_, maker_.vk.allocator);
+  maker_.vk.DestroyPipelineLayout(maker_.device, layout_, maker_.vk.allocator);
+  maker_.vk.DestroyDescriptorSetLayout(maker_.device, set_layout_, maker_.vk.allocator);
 }
 
 VkPipeline Pipeline::handle() const {
@@ -295,7 +299,7 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
     return Failure{ErrorCode::bad_input,
                    std::string(code.name) + ": the driver rejects it with " + result_name(result)};
   const std::scoped_lock lock(mutex_);
-  maker_.vk.DestroyPipeline(maker_.device, std::exchange(handle_, made), nullptr);
+  maker_.vk.DestroyPipeline(maker_.device, std::exchange(handle_, made), maker_.vk.allocator);
   shaders_ = std::move(shaders);
   return {};
 }

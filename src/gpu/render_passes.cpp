@@ -41,14 +41,14 @@ VkRenderPass make(const Functions& vk, VkDevice device, const RenderPassInfo& wa
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
   VkRenderPass pass = VK_NULL_HANDLE;
-  check(vk.CreateRenderPass(device, &info, nullptr, &pass), "vkCreateRenderPass");
+  check(vk.CreateRenderPass(device, &info, vk.allocator, &pass), "vkCreateRenderPass");
   return pass;
 }
 
 }  // namespace
 
 RenderPasses::~RenderPasses() {
-  for (const auto& [info, pass] : passes_) vk_.DestroyRenderPass(device_, pass, nullptr);
+  for (const auto& [info, pass] : passes_) vk_.DestroyRenderPass(device_, pass, vk_.allocator);
 }
 
 VkRenderPass RenderPasses::find_or_make(const RenderPassInfo& info) {

@@ -45,7 +45,7 @@ VkFramebuffer make_framebuffer(Context& context, const RenderingInfo& rendering,
   info.layers = 1;
   context.expect_retirement();
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  check(context.vk().CreateFramebuffer(context.device(), &info, nullptr, &framebuffer),
+  check(context.vk().CreateFramebuffer(context.device(), &info, context.vk().allocator, &framebuffer),
         "vkCreateFramebuffer");
   context.retire({.framebuffer = framebuffer});
   return framebuffer;

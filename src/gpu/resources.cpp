@@ -18,7 +18,7 @@ Buffer::Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, M
   info.size = bytes;
   info.usage = usage;
   const Functions& vk = context.vk();
-  check(vk.CreateBuffer(context.device(), &info, nullptr, &handle_), "vkCreateBuffer");
+  check(vk.CreateBuffer(context.device(), &info, vk.allocator, &handle_), "vkCreateBuffer");
   try {
     VkMemoryRequirements needs{};
     vk.GetBufferMemoryRequirements(context.device(), handle_, &needs);
@@ -26,7 +26,7 @@ Buffer::Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, M
     check(vk.BindBufferMemory(context.device(), handle_, range_.memory, range_.offset), "vkBindBufferMemory");
   } catch (...) {
     context.memory().free(range_);
-    vk.DestroyBuffer(context.device(), handle_, nullptr);
+    vk.DestroyBuffer(context.device(), handle_, vk.allocator);
     throw;
   }
 }
@@ -128,7 +128,7 @@ Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), in
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = wanted.usage;
   const Functions& vk = context.vk();
-  check(vk.CreateImage(context.device(), &info, nullptr, &handle_), "vkCreateImage");
+  check(vk.CreateImage(context.device(), &info, vk.allocator, &handle_), "vkCreateImage");
   // Its memory and view.
   try {
     VkMemoryRequirements needs{};
@@ -139,10 +139,10 @@ Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), in
                                  : wanted.layers > 1      ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                                                           : VK_IMAGE_VIEW_TYPE_2D;
     const auto view = view_info(*this, type, 0, wanted.layers);
-    check(vk.CreateImageView(context.device(), &view, nullptr, &view_), "vkCreateImageView");
+    check(vk.CreateImageView(context.device(), &view, vk.allocator, &view_), "vkCreateImageView");
   } catch (...) {
     context.memory().free(range_);
-    vk.DestroyImage(context.device(), handle_, nullptr);
+    vk.DestroyImage(context.device(), handle_, vk.allocator);
     throw;
   }
 }
@@ -182,7 +182,8 @@ VkImageAspectFlags Image::aspect() const {
 LayerView::LayerView(Context& context, const Image& image, std::uint32_t layer) : context_(&context) {
   context.expect_retirement();
   const auto info = view_info(image, VK_IMAGE_VIEW_TYPE_2D, layer, 1);
-  check(context.vk().CreateImageView(context.device(), &info, nullptr, &handle_), "vkCreateImageView");
+  check(context.vk().CreateImageView(context.device(), &info, context.vk().allocator, &handle_),
+        "vkCreateImageView");
 }
 
 LayerView::LayerView(LayerView&& other) noexcept
@@ -205,7 +206,8 @@ Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context
   info.anisotropyEnable = info.maxAnisotropy > 1 ? VK_TRUE : VK_FALSE;
   info.compareEnable = wanted.compare ? VK_TRUE : VK_FALSE;
   info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  check(context.vk().CreateSampler(context.device(), &info, nullptr, &handle_), "vkCreateSampler");
+  check(context.vk().CreateSampler(context.device(), &info, context.vk().allocator, &handle_),
+        "vkCreateSampler");
 }
 
 Sampler::~Sampler() {

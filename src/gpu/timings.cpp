@@ -12,7 +12,8 @@ Timings::Timings(Context& context, bool enabled) : context_(context) {
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
   info.queryCount = 2 * kMaxScopes;
-  check(context.vk().CreateQueryPool(context.device(), &info, nullptr, &pool_), "vkCreateQueryPool");
+  check(context.vk().CreateQueryPool(context.device(), &info, context.vk().allocator, &pool_),
+        "vkCreateQueryPool");
 }
 
 Timings::~Timings() {

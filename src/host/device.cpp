@@ -32,7 +32,8 @@ HostDevice host_device(const brume_device_params& params) {
           .queue_family = params.queue_family,
           .memory = {params.memory_user, params.allocate_memory, params.free_memory},
           .enabled_features = params.enabled_features,
-          .pipeline_cache = params.pipeline_cache};
+          .pipeline_cache = params.pipeline_cache,
+          .allocator = params.allocation_callbacks};
 }
 
 /// Makes what a renderer of smoke has, without a frame, in a context of its own: the device's other contexts

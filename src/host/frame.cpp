@@ -81,20 +81,19 @@ void add_lights(const brume_frame_params& params, std::vector<shared::Light>& li
   }
 }
 
-void add_triangles(const brume_renderer_params& params, scene::Mesh& mesh) {
-  require(params.index_count % 3 == 0, "`index_count` must be a multiple of 3");
-  require(params.point_count < 1u << 28 && params.index_count < 1u << 30,
-          "at most 2^28 points and 2^30 indices");
-  if (params.index_count == 0) return;
-  api::required(params.points, "points");
-  api::required(params.indices, "indices");
-  mesh.vertices.resize(params.point_count);
-  for (std::size_t i = 0; i < params.point_count; ++i)
-    mesh.vertices[i].position = position(params.points[i], "points");
-  mesh.indices.assign(params.indices, params.indices + params.index_count);
+void add_triangles(const HostArray<brume_point>& points, const HostArray<std::uint32_t>& indices,
+                   scene::Mesh& mesh) {
+  require(indices.count % 3 == 0, "`index_count` must be a multiple of 3");
+  require(points.count < 1u << 28 && indices.count < 1u << 30, "at most 2^28 points and 2^30 indices");
+  if (indices.count == 0) return;
+  api::required(points.elements, "points");
+  api::required(indices.elements, "indices");
+  mesh.vertices.resize(points.count);
+  for (std::size_t i = 0; i < points.count; ++i)
+    mesh.vertices[i].position = position(points.elements[i], "points");
+  mesh.indices.assign(indices.elements, indices.elements + indices.count);
   for (const std::uint32_t index : mesh.indices)
-    if (index >= params.point_count)
-      refuse("an index is " + std::to_string(index) + ", beyond the last point");
+    if (index >= points.count) refuse("an index is " + std::to_string(index) + ", beyond the last point");
 }
 
 bool can_be_sampled(VkImageLayout layout) {
@@ -202,13 +201,20 @@ std::vector<scene::Light> scene_lights(const brume_light* lights, std::size_t co
   return made;
 }
 
-scene::Scene to_scene(const brume_renderer_params& params) {
+scene::Scene scene_of_triangles(const HostArray<brume_point>& points,
+                                const HostArray<std::uint32_t>& indices) {
   scene::Scene scene;
-  scene.lights = scene_lights(params.lights, params.light_count);
   scene.meshes.resize(1);
-  add_triangles(params, scene.meshes[0]);
+  add_triangles(points, indices, scene.meshes[0]);
   scene.materials.resize(1);
   if (!scene.meshes[0].indices.empty()) scene.objects.push_back({"level", 0, 0, glm::mat4(1)});
+  return scene;
+}
+
+scene::Scene to_scene(const brume_renderer_params& params) {
+  scene::Scene scene =
+      scene_of_triangles({params.points, params.point_count}, {params.indices, params.index_count});
+  scene.lights = scene_lights(params.lights, params.light_count);
   return scene;
 }
 

@@ -44,6 +44,16 @@ bool spans_space(const glm::dvec3& x_axis, const glm::dvec3& y_axis, const glm::
 glm::vec3 position(const brume_point& p, const char* name);
 scene::Light scene_light(const brume_light& light, std::size_t number);
 std::vector<scene::Light> scene_lights(const brume_light* lights, std::size_t count);
+
+/// An array of a caller.
+template <typename T>
+struct HostArray {
+  const T* elements;
+  std::size_t count;
+};
+/// A scene of triangles, without lights.
+scene::Scene scene_of_triangles(const HostArray<brume_point>& points,
+                                const HostArray<std::uint32_t>& indices);
 scene::Scene to_scene(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_depth& depth);
 /// Normals for decals; the caller sets the image, where there is a view.

@@ -99,7 +99,8 @@ struct brume_renderer : brume::api::Handle {
 
   std::shared_ptr<brume::host::DeviceData> device;
   brume::scene::Scene scene;
-  bool has_other_lights = false;  ///< `scene` has other lights than `renderer`.
+  /// What `scene` has and `renderer` has not yet.
+  enum class Change { none, lights, triangles } change = Change::none;
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::render::RendererOptions options;
   brume::gpu::HostRecording recording;

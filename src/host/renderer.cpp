@@ -97,14 +97,17 @@ void check_frame(const brume_renderer& renderer, const brume_field* field, const
 void reserve(brume_renderer& renderer, const brume_frame_params& params) {
   const gpu::Memory::Unlimited always(renderer.device->context.memory());
   try {
-    if (renderer.renderer && renderer.has_other_lights) renderer.renderer->set_lights(renderer.scene.lights);
+    if (renderer.renderer && renderer.change == brume_renderer::Change::lights)
+      renderer.renderer->set_lights(renderer.scene.lights);
+    if (renderer.renderer && renderer.change == brume_renderer::Change::triangles)
+      renderer.renderer->set_scene(renderer.scene);
   } catch (...) {
-    renderer.renderer.reset();  // some of it has the lights before
+    renderer.renderer.reset();  // some of it has the lights and triangles before
     throw;
   }
   if (!renderer.renderer)
     renderer.renderer.emplace(renderer.device->context, renderer.recording, renderer.scene, renderer.options);
-  renderer.has_other_lights = false;
+  renderer.change = brume_renderer::Change::none;
   renderer.renderer->reserve_over(
       {.view = params.view,
        .decals = params.decal_count > 0,
@@ -261,7 +264,21 @@ brume_result brume_renderer_set_lights(brume_renderer* renderer, const brume_lig
     std::vector<brume::scene::Light> changed = brume::host::scene_lights(lights, light_count);
     const std::scoped_lock lock(object.mutex, object.device->mutex);
     object.scene.lights = std::move(changed);
-    object.has_other_lights = true;
+    object.change = std::max(object.change, brume_renderer::Change::lights);
+  });
+}
+
+brume_result brume_renderer_set_triangles(brume_renderer* renderer, const brume_point* points,
+                                          size_t point_count, const uint32_t* indices,
+                                          size_t index_count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_renderer& object = call.handle(renderer);
+    brume::scene::Scene changed =
+        brume::host::scene_of_triangles({points, point_count}, {indices, index_count});
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    std::swap(changed.lights, object.scene.lights);
+    object.scene = std::move(changed);
+    object.change = brume_renderer::Change::triangles;
   });
 }
 

@@ -72,6 +72,16 @@ void Renderer::set_masks(const smoke::MaskAtlas& masks) {
 void Renderer::set_lights(const std::vector<scene::Light>& lights) {
   commit_recorded();
   level_.set_lights(lights);
+  forget_light();
+}
+
+void Renderer::set_scene(const scene::Scene& scene) {
+  commit_recorded();
+  level_.set_scene(scene);
+  forget_light();
+}
+
+void Renderer::forget_light() {
   smoke_.set_most_lights(most_lights(level_), targets_.size_px);
   history_.invalidate_light();
 }

@@ -59,6 +59,8 @@ class Renderer {
   /// Replaces the scene's lights from the next frame on, which computes all light again. Call when the device
   /// has finished all recorded frames. Throws resource_limit.
   void set_lights(const std::vector<scene::Light>& lights);
+  /// The same where objects, too, are others than the scene had.
+  void set_scene(const scene::Scene& scene);
 
   /// Makes the next frame compute all light again, whatever is cached: call it when the next frame's smoke is
   /// another SmokeVolume than before.
@@ -145,6 +147,7 @@ class Renderer {
   const MarchPart& march() const { return march_; }
 
  private:
+  void forget_light();
   bool holds_all_smoke() const { return !memory_follows_view_ && smoke_budget_.is_unlimited(); }
   glm::uvec2 size_of(const FrameInput& input) const;
   planning::PlanTarget plan_target(const FrameInput& input) const;

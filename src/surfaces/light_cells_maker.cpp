@@ -25,14 +25,14 @@ LightCells make_cells(const scene::Scene& scene, const std::vector<std::uint32_t
 struct LightCellsMaker::Expected {
   Expected(const scene::Scene& scene, std::shared_ptr<const planning::NextLevel> expected_level)
       : level(std::move(expected_level)),
-        thread([this, &scene, log = log_of_threads(), threads = thread_count()] {
-          run(scene, log.get(), threads);
+        thread([this, &scene, log = log_of_threads(), tasks = task_settings()] {
+          run(scene, log.get(), tasks);
         }) {}
   ~Expected() { thread.join(); }
 
-  void run(const scene::Scene& scene, LogSink* log, unsigned threads) noexcept {
+  void run(const scene::Scene& scene, LogSink* log, const TaskSettings& tasks) noexcept {
     const LogScope log_scope(log);
-    const ThreadCountScope count(threads);
+    const TaskScope task_scope(tasks);
     try {
       cells = make_cells(scene, level->hidden_objects, level->opaque);
     } catch (...) {
@@ -66,6 +66,10 @@ LightCells LightCellsMaker::make(const planning::LevelState& level) {
     if (was_expected_) return std::move(*expected->cells);
   }
   return make_cells(scene_, level.hidden_objects, *level.voxels.light_grid());
+}
+
+void LightCellsMaker::invalidate() {
+  expected_.reset();
 }
 
 void LightCellsMaker::expect(const std::shared_ptr<const planning::NextLevel>& level) {

@@ -21,6 +21,8 @@ class LightCellsMaker {
   LightCells make(const planning::LevelState& level);
   /// Begins to make the cells of a level in a thread of its own, unless it is making others. null: none.
   void expect(const std::shared_ptr<const planning::NextLevel>& level);
+  /// The scene changes: waits for what `expect` began, and drops it.
+  void invalidate();
   /// Whether the cells of the last `make` had been expected.
   bool was_expected() const { return was_expected_; }
 

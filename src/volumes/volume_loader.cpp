@@ -49,7 +49,7 @@ VolumeLoader::Results VolumeLoader::want(std::vector<Key> keys) {
   }
   changed_.notify_all();
   if (!thread_.joinable())
-    thread_ = std::thread([this, log = log_of_threads(), threads = thread_count()] { run(log, threads); });
+    thread_ = std::thread([this, log = log_of_threads(), tasks = task_settings()] { run(log, tasks); });
   return others;
 }
 
@@ -79,9 +79,9 @@ std::optional<VolumeLoader::Key> VolumeLoader::next() const {
   return std::nullopt;
 }
 
-void VolumeLoader::run(std::shared_ptr<LogSink> log, unsigned threads) {
+void VolumeLoader::run(std::shared_ptr<LogSink> log, const TaskSettings& tasks) {
   const LogScope logged(log.get());
-  const ThreadCountScope counted(threads);
+  const TaskScope task_scope(tasks);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return ends_ || next(); });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/log.hpp"
+#include "core/tasks.hpp"
 #include "volumes/volume_frame.hpp"
 
 namespace brume::volumes {
@@ -53,7 +54,7 @@ class VolumeLoader {
   Result<LoadedVolume> wait(const Key& key);
 
  private:
-  void run(std::shared_ptr<LogSink> log, unsigned threads);
+  void run(std::shared_ptr<LogSink> log, const TaskSettings& tasks);
   std::optional<Key> next() const;
 
   Load load_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cfenv>
 #include <cmath>
 #include <limits>
@@ -219,6 +220,43 @@ TEST_F(FieldTest, ThreadsDoNotMatter) {
     if (first.empty()) first = depths;
     EXPECT_EQ(depths, first);
   }
+}
+
+/// A host's job system, whose threads round upwards.
+struct JobSystem {
+  static void run(void* self, void (*job)(void*), void* job_data, std::uint32_t count) {
+    JobSystem& jobs = *static_cast<JobSystem*>(self);
+    ++jobs.calls;
+    std::vector<std::jthread> threads;
+    for (std::uint32_t i = 0; i < count; ++i)
+      threads.emplace_back([=] {
+        std::fesetround(FE_UPWARD);
+        job(job_data);
+        EXPECT_EQ(std::fegetround(), FE_UPWARD) << "the thread has its own settings again";
+      });
+  }
+  std::atomic<int> calls = 0;
+};
+
+TEST_F(FieldTest, JobsOfTheHostGiveTheSameResults) {
+  const auto segments = match_.segments(5000, 4);
+  World world = this->world();
+  const auto expected = field_at(world, 260).optical_depths(segments);
+  JobSystem jobs;
+  brume_context_params params = brume_context_defaults();
+  params.thread_count = 4;
+  params.run_jobs = JobSystem::run;
+  params.jobs_user = &jobs;
+  std::optional<Context> context(params);
+  const Level level = match_.level(*context);
+  Field field(level, params_);
+  field.update(world.state());
+  EXPECT_EQ(field.optical_depths(segments), expected);
+  const int calls = jobs.calls;
+  EXPECT_GT(calls, 0);
+  context.reset();
+  EXPECT_EQ(field.optical_depths(segments), expected);
+  EXPECT_EQ(jobs.calls, calls) << "not called after the context's end";
 }
 
 TEST_F(FieldTest, FloatingPointSettingsOfTheCallerDoNotMatter) {

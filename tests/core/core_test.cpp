@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <barrier>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -89,14 +91,77 @@ TEST(Tasks, RunsEveryIndexOnce) {
 TEST(Tasks, ScopesSetTheNumberOfThreadsOfTheirThreadAndItsHelpers) {
   const unsigned before = thread_count();
   {
-    const ThreadCountScope scope(3);
+    const TaskScope scope(3, nullptr);
     EXPECT_EQ(thread_count(), 3u);
     std::jthread([&] { EXPECT_EQ(thread_count(), before); });
     parallel_for(20, 1, [&](std::size_t, std::size_t) { EXPECT_EQ(thread_count(), 3u); });
-    const ThreadCountScope inner(0);
+    const TaskScope inner(0, nullptr);
     EXPECT_EQ(thread_count(), 3u);
   }
   EXPECT_EQ(thread_count(), before);
+}
+
+/// Runs jobs in threads that it starts, or none.
+class TestRunner : public TaskRunner, public std::enable_shared_from_this<TestRunner> {
+ public:
+  explicit TestRunner(bool refuses = false) : refuses_(refuses) {}
+  bool run(void (*job)(void*), void* data, unsigned count) override {
+    if (refuses_) return false;
+    ++runs;
+    most = std::max(most, count);
+    std::vector<std::jthread> threads;
+    for (unsigned i = 0; i < count; ++i) threads.emplace_back(job, data);
+    return true;
+  }
+  std::shared_ptr<TaskRunner> share() override { return shared_from_this(); }
+
+  int runs = 0;
+  unsigned most = 0;
+
+ private:
+  bool refuses_;
+};
+
+TEST(Tasks, ARunnerRunsLoopsAndInItsJobsTheyRunAlone) {
+  const auto runner = std::make_shared<TestRunner>();
+  const TaskScope scope({4, runner});
+  std::array<std::atomic<int>, 100> visits{};
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> by_jobs = 0;
+  parallel_for(10, 1, [&](std::size_t begin, std::size_t) {
+    if (std::this_thread::get_id() != caller) {
+      ++by_jobs;
+      EXPECT_EQ(thread_count(), 1u);
+    }
+    parallel_for(10, 1, [&](std::size_t inner, std::size_t) { ++visits[10 * begin + inner]; });
+  });
+  for (const std::atomic<int>& each : visits) EXPECT_EQ(each, 1);
+  EXPECT_EQ(by_jobs, 10) << "all ranges are done when the runner returns";
+  EXPECT_EQ(runner->runs, 1);
+  EXPECT_EQ(runner->most, 4u);
+  EXPECT_EQ(task_settings().runner, runner);
+  EXPECT_EQ(task_settings().thread_count, 4u);
+}
+
+TEST(Tasks, WhatARunnerLeavesIsDoneByTheCaller) {
+  class Idle : public TestRunner {
+    bool run(void (*)(void*), void*, unsigned) override { return true; }
+  };
+  std::atomic<int> sum = 0;
+  const auto count = [&](const std::shared_ptr<TaskRunner>& runner) {
+    const TaskScope scope({4, runner});
+    parallel_for(100, 1, [&](std::size_t begin, std::size_t) { sum += static_cast<int>(begin); });
+    return sum.exchange(0);
+  };
+  EXPECT_EQ(count(std::make_shared<Idle>()), 4950);
+  EXPECT_EQ(count(std::make_shared<TestRunner>(true)), 4950);
+}
+
+TEST(Tasks, AFailureInAJobIsRethrown) {
+  const auto runner = std::make_shared<TestRunner>();
+  const TaskScope scope({3, runner});
+  EXPECT_THROW(parallel_for(100, 1, [](std::size_t, std::size_t) { throw std::runtime_error("each"); }),
+               std::runtime_error);
 }
 
 TEST(Tasks, PropagatesExceptions) {
@@ -110,7 +175,7 @@ TEST(Tasks, PropagatesExceptions) {
 // Under the thread sanitizer this fails unless threads store their failure under a lock.
 TEST(Tasks, OneOfSeveralFailuresAtOnceIsPropagated) {
   constexpr std::ptrdiff_t kThreads = 4;
-  const ThreadCountScope scope(kThreads);
+  const TaskScope scope(kThreads, nullptr);
   std::barrier all_run(kThreads);
   EXPECT_THROW(parallel_for(kThreads, 1,
                             [&](std::size_t, std::size_t) {

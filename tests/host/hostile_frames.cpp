@@ -175,6 +175,12 @@ void HostileFrames::renderer_change() {
   checked("brume_renderer_set_lights",
           brume_renderer_set_lights(handle(renderers_), chance(0.1) ? nullptr : lights.data(), lights.size()),
           true);
+  const std::vector<brume_point> points(below(5), {1, 2, 3});
+  const std::vector<std::uint32_t> indices(below(9), number(5));
+  checked("brume_renderer_set_triangles",
+          brume_renderer_set_triangles(handle(renderers_), chance(0.1) ? nullptr : points.data(),
+                                       points.size(), chance(0.1) ? nullptr : indices.data(), indices.size()),
+          true);
   checked("brume_renderer_destroy", brume_renderer_destroy(wrong_handle<brume_renderer>()), true);
 }
 

@@ -1,4 +1,7 @@
-// A renderer whose lights are replaced draws what one with these lights from the start draws.
+// A renderer whose lights or triangles are replaced draws what one that had them from the start draws.
+#include <array>
+#include <numeric>
+
 #include "gpu/read_back.hpp"
 #include "tests/host/yard.hpp"
 
@@ -15,22 +18,27 @@ class LightsTest : public YardTest {
     smoke(1, {3, 0.6f, 3}, 500, 100);
     advance(40);
   }
-  /// A renderer with lights and a wall that shadows them.
-  brume_renderer* renderer_of(const std::vector<brume_light>& lights) {
-    const std::vector<brume_point> wall{{2, 0, 4}, {4, 0, 4}, {3, 4, 4}};
-    const std::vector<std::uint32_t> indices{0, 1, 2};
+  /// A renderer with lights and walls that shadow them: a triangle of each three points.
+  brume_renderer* renderer_of(const std::vector<brume_light>& lights,
+                              const std::vector<brume_point>& walls = {{2, 0, 4}, {4, 0, 4}, {3, 4, 4}}) {
+    const std::vector<std::uint32_t> indices = indices_of(walls);
     brume_renderer_params params = brume_renderer_defaults();
     params.width = kPicture.x;
     params.height = kPicture.y;
     params.lights = lights.data();
     params.light_count = lights.size();
-    params.points = wall.data();
-    params.point_count = wall.size();
+    params.points = walls.data();
+    params.point_count = walls.size();
     params.indices = indices.data();
     params.index_count = indices.size();
     brume_renderer* renderer = nullptr;
     EXPECT_OK(brume_renderer_create(device_, &params, &renderer));
     return renderer;
+  }
+  static std::vector<std::uint32_t> indices_of(const std::vector<brume_point>& walls) {
+    std::vector<std::uint32_t> indices(walls.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    return indices;
   }
   /// The smoke of a frame, half floats.
   std::vector<std::uint64_t> picture_of(brume_renderer* renderer) {
@@ -68,6 +76,42 @@ TEST_F(LightsTest, AreReplaced) {
     before = after;
   }
   EXPECT_OK(brume_renderer_destroy(changed));
+}
+
+TEST_F(LightsTest, TheirTrianglesAreReplaced) {
+  make_yard();
+  const std::vector<brume_light> lights{{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {3, 3, 2}, 0, 1},
+                                        {BRUME_LIGHT_SUN, {0, 0, 0}, {0.3f, -1, -0.4f}, {2, 2, 2}, 0, 1}};
+  const std::vector<brume_point> one{{2, 0, 4}, {4, 0, 4}, {3, 4, 4}}, none,
+      roof{{0, 3, 0}, {8, 3, 0}, {8, 3, 8}, {0, 3, 0}, {8, 3, 8}, {0, 3, 8}};
+  brume_renderer* const changed = renderer_of(lights, one);
+  std::vector<std::uint64_t> before = picture_of(changed);
+  for (const std::vector<brume_point>* walls : {&roof, &none, &one}) {
+    const std::vector<std::uint32_t> indices = indices_of(*walls);
+    ASSERT_OK(
+        brume_renderer_set_triangles(changed, walls->data(), walls->size(), indices.data(), indices.size()));
+    // The lights that are given at the same time count, too, in any order.
+    ASSERT_OK(brume_renderer_set_lights(changed, lights.data(), lights.size()));
+    const std::vector<std::uint64_t> after = picture_of(changed);
+    brume_renderer* const made = renderer_of(lights, *walls);
+    EXPECT_EQ(after, picture_of(made)) << walls->size() << " points";
+    EXPECT_NE(after, before);
+    EXPECT_OK(brume_renderer_destroy(made));
+    before = after;
+  }
+  EXPECT_OK(brume_renderer_destroy(changed));
+}
+
+TEST_F(LightsTest, TrianglesAreRefusedAsThoseOfANewRenderer) {
+  make_yard();
+  const std::array<brume_point, 2> points{{{0, 0, 0}, {1, 1, 1}}};
+  const std::array<std::uint32_t, 3> indices{0, 1, 2};
+  const auto set = [&](const brume_point* from, std::size_t index_count) {
+    return brume_renderer_set_triangles(renderer_, from, points.size(), indices.data(), index_count);
+  };
+  expect_refused(set(points.data(), 2), BRUME_ERROR_ARGUMENT, "multiple of 3");
+  expect_refused(set(nullptr, 3), BRUME_ERROR_ARGUMENT, "`points` is null");
+  expect_refused(set(points.data(), 3), BRUME_ERROR_ARGUMENT, "an index is 2, beyond the last point");
 }
 
 TEST_F(LightsTest, AreRefusedAsThoseOfANewRenderer) {

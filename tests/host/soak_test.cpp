@@ -15,7 +15,9 @@ class SoakTest : public YardTest {
  protected:
   static constexpr std::size_t kDecals = 3;
   ~SoakTest() override {
+    host_.wait();
     for (brume_decal* decal : decals_) EXPECT_OK(brume_decal_destroy(decal));
+    leave();
   }
   /// What smoke takes depends on where it is, not on the number of pixels.
   void make_small(brume_voxel size, float voxel_size) {
@@ -31,7 +33,54 @@ class SoakTest : public YardTest {
     EXPECT_OK(brume_decal_destroy(decals_[i]));
     ASSERT_OK(brume_decal_create(context_.get(), &params, &decals_[i]));
   }
+  /// Another level, which lies at `origin`, full of smoke; its walls shadow the renderer's lights.
+  void enter(glm::vec3 origin) {
+    leave();
+    const std::vector<std::uint8_t> empty(std::size_t{32} * 16 * 24 / 8);
+    brume_voxels_params params = brume_voxels_defaults();
+    params.layout = {{32, 16, 24}, 0.2f, point_of(origin)};
+    params.bits = empty.data();
+    params.byte_count = empty.size();
+    ASSERT_OK(brume_level_create_from_voxels(context_.get(), &params, &other_.level));
+    ASSERT_OK(brume_world_create(other_.level, nullptr, &other_.world));
+    ASSERT_OK(brume_field_create(other_.level, nullptr, &other_.field));
+    brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, 0);
+    event.u.smoke.from = event.u.smoke.at =
+        position_of(sim::position_from_metres(glm::dvec3(origin + glm::vec3(3, 1, 2))));
+    event.u.smoke.voxels = 2000;
+    ASSERT_OK(brume_world_append(other_.world, &event, 1));
+    const std::array<brume_point, 3> wall{point_of(origin + glm::vec3(0, 1, 0)),
+                                          point_of(origin + glm::vec3(4, 1, 0)),
+                                          point_of(origin + glm::vec3(0, 1, 4))};
+    set_triangles(wall);
+  }
+  void leave() {
+    brume_state_destroy(other_.state);
+    brume_field_destroy(other_.field);
+    brume_world_destroy(other_.world);
+    brume_level_destroy(other_.level);
+    if (other_.level) set_triangles({});
+    other_ = {};
+  }
+  void set_triangles(std::span<const brume_point> points) {
+    const std::array<std::uint32_t, 3> indices{0, 1, 2};
+    EXPECT_OK(brume_renderer_set_triangles(renderer_, points.data(), points.size(), indices.data(),
+                                           points.empty() ? 0 : indices.size()));
+  }
+  void advance_other() {
+    ASSERT_OK(brume_world_step(other_.world));
+    brume_state_destroy(other_.state);
+    ASSERT_OK(brume_world_state(other_.world, &other_.state));
+    ASSERT_OK(brume_field_update(other_.field, other_.state));
+  }
+
   std::array<brume_decal*, kDecals> decals_{};
+  struct {
+    brume_level* level;
+    brume_world* world;
+    brume_state* state;
+    brume_field* field;
+  } other_{};
 };
 
 TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
@@ -54,17 +103,30 @@ TEST_F(SoakTest, ManyFramesTakeNoMoreMemoryThanSome) {
     if (i % 40 == 38) limit(UINT64_MAX);
     if (i % 10 == 0) make_decal(static_cast<std::size_t>(i / 10) % kDecals, 8 + number(24));
     advance(tick);
+    // Another level for a while, each time elsewhere.
+    glm::vec3 origin(0);
+    if (i % 20 >= 6 && i % 20 < 14) {
+      origin = glm::vec3(static_cast<float>(i / 20 % 50) * 100.0f - 3000, 0, 50);
+      if (!other_.level) enter(origin);
+      advance_other();
+    } else if (other_.level) {
+      leave();
+    }
     const float turn = 0.01f * static_cast<float>(i);
     const std::size_t first_decal = i / 5 % 4;  // none at 3
-    draw({6 + 3 * std::cos(turn), 1.5f, 4}, {std::sin(3 * turn), 0, std::cos(3 * turn)}, tick / 64.0,
-         [&](brume_frame_params& params) {
+    const auto views = static_cast<std::uint32_t>(1 + i % BRUME_MAX_VIEWS);
+    draw(origin + glm::vec3(6 + 3 * std::cos(turn), 1.5f, 4), {std::sin(3 * turn), 0, std::cos(3 * turn)},
+         tick / 64.0, [&](brume_frame_params& params) {
            std::vector<brume_shown_decal> shown;
            for (std::size_t decal = first_decal; decal < kDecals; ++decal)
              if (decals_[decal]) shown.push_back(brume_shown_decal_defaults(decals_[decal]));
-           for (brume_shown_decal& decal : shown) decal.position = {6, 1, 4};
+           for (brume_shown_decal& decal : shown) decal.position = point_of(origin + glm::vec3(6, 1, 4));
            params.decals = shown.data();
            params.decal_count = shown.size();
-           ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
+           for (params.view = 0; params.view < views; ++params.view) {
+             ASSERT_OK(brume_renderer_record(renderer_, other_.field ? other_.field : field_, &params));
+             params.camera.position.x += 0.1f;
+           }
          });
     std::uint64_t& most = i < kFrames / 2 ? first_half : second_half;
     most = std::max<std::uint64_t>(most, memory_.bytes);

@@ -113,8 +113,11 @@ class YardTest : public testing::Test {
     ASSERT_OK(brume_field_create(level_, &field, &field_));
 
     brume_device_params on = params_of(host_.device());
+    // Pipelines of several tests have no callbacks.
+    if (allocation_callbacks_) on.get_instance_proc_addr = gpu::system_loader();
     on.get_instance_proc_addr = gpu::Interposer::over(on.get_instance_proc_addr, replacements_);
     on.pipeline_cache = cache_;
+    on.allocation_callbacks = allocation_callbacks_;
     on.memory_user = &memory_;
     on.allocate_memory = HostMemory::allocate;
     on.free_memory = HostMemory::free;
@@ -197,6 +200,7 @@ class YardTest : public testing::Test {
   glm::uvec2 first_;
   bool is_temporal_ = true, is_timed_ = false, prepares_all_ = false, has_motion_ = false;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
+  const VkAllocationCallbacks* allocation_callbacks_ = nullptr;
   std::vector<gpu::Replacement> replacements_ = kWaiting;
   gpu::HostApplication host_;
   gpu::Context gpu_;

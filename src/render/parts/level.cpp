@@ -46,6 +46,17 @@ LevelPart::LevelPart(gpu::Context& context, gpu::CommandStream& stream, const sc
 
 void LevelPart::set_lights(const std::vector<scene::Light>& lights) {
   passes::upload_lights(context_, stream_, lights, scene_);
+  forget_shadows();
+}
+
+void LevelPart::set_scene(const scene::Scene& scene) {
+  light_cells_maker_.invalidate();
+  scene_ = passes::upload_scene(context_, stream_, scene);
+  if (scene_.has_panes && !pane_pass_) pane_pass_.emplace(context_);
+  forget_shadows();
+}
+
+void LevelPart::forget_shadows() {
   shadows_ = shadow_pass_.make_maps(context_, scene_);
   without_shadow_.reset();
 }

@@ -20,6 +20,8 @@ class LevelPart {
   /// Other lights in the place of the scene's; the next `reserve` draws their shadows. Outside of a
   /// recording, when the device is done with the frame before. Throws resource_limit.
   void set_lights(const std::vector<scene::Light>& lights);
+  /// The scene, whose objects and lights are others now: the same in that respect.
+  void set_scene(const scene::Scene& scene);
   /// Compiles what frames of indirect light in smoke need.
   void prepare();
   /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
@@ -51,6 +53,7 @@ class LevelPart {
   passes::LevelLight light() const { return {solid_, sky_light_, indirect_light_.cube()}; }
 
  private:
+  void forget_shadows();
   void reserve_indirect_light(const FramePlan& plan);
   void redraw_shadows(const std::vector<std::uint32_t>& hidden_objects);
 
