@@ -419,6 +419,16 @@ typedef struct brume_frame_params {
   /// screen. Record each view of a frame by a call of its own. Views share all light and differ in what
   /// accumulates over frames.
   uint32_t view;
+  /// 1: `previous_camera` and `previous_frustum` are set. 0: the previous camera is the one of the view's
+  /// last recorded frame.
+  uint32_t has_previous;
+  /// The camera, with its jitter, with which you drew this view's previous frame, in the coordinates of this
+  /// frame: where your origin has moved since, or positions continue elsewhere, the camera as if it had been
+  /// there. Motion leads there, also where that frame was not recorded or `continues_previous` is 0. With
+  /// `continues_previous` that frame must be the view's last recorded one: accumulation goes on from its
+  /// smoke, as seen by this camera.
+  brume_camera previous_camera;
+  brume_frustum previous_frustum;  ///< Its `frustum`.
 } brume_frame_params;
 
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of
@@ -487,12 +497,13 @@ BRUME_API brume_result brume_renderer_shadows(const brume_renderer* renderer, Vk
 
 /// Writes the image of the motion of the last frame's smoke and volumes, for upscalers and temporal
 /// anti-aliasing: half floats. R and G lead from where the smoke of a pixel is to where it was in the view's
-/// previous frame [px], to the right and down, without jitter; 0 where the frame does not continue. B is the
-/// distance along the view axis at which the transmittance falls to 0.99 [m], A the mean distance of the
-/// smoke's light [m], which R and G follow; both are 65504, the largest half float, where there is none. In
-/// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders; frames, also of other views, share one image, which
-/// is another one after brume_renderer_resize. Either pointer may be null. Errors: BRUME_ERROR_ORDER before
-/// the first frame, after a frame that failed, and unless brume_renderer_params::motion was 1.
+/// previous frame [px], to the right and down, without jitter; 0 where the frame does not continue and has no
+/// previous camera. B is the distance along the view axis at which the transmittance falls to 0.99 [m], A the
+/// mean distance of the smoke's light [m], which R and G follow; both are 65504, the largest half float,
+/// where there is none. In VK_IMAGE_LAYOUT_GENERAL, written by compute shaders; frames, also of other views,
+/// share one image, which is another one after brume_renderer_resize. Either pointer may be null. Errors:
+/// BRUME_ERROR_ORDER before the first frame, after a frame that failed, and unless
+/// brume_renderer_params::motion was 1.
 BRUME_API brume_result brume_renderer_motion(const brume_renderer* renderer, VkImage* image,
                                              VkImageView* view) BRUME_NOEXCEPT;
 

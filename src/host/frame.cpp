@@ -32,6 +32,12 @@ std::optional<scene::Frustum> to_frustum(const brume_frustum& given) {
   return scene::Frustum{given.left, given.right, given.down, given.up};
 }
 
+planning::ViewSample to_sample(const brume_camera& camera) {
+  require(is_within(camera.jitter_x, -1, 1) && is_within(camera.jitter_y, -1, 1),
+          "`camera.jitter_x` and `jitter_y` must be from -1 to 1");
+  return {{camera.jitter_x, camera.jitter_y}};
+}
+
 scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum) {
   scene::Camera made;
   made.position_world = position(camera.position, "camera.position");
@@ -46,9 +52,15 @@ scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum
   require(made.frustum || (camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f),
           "`camera.vertical_fov` must be above 0 and below pi");
   made.vertical_fov = camera.vertical_fov;
-  require(is_within(camera.jitter_x, -1, 1) && is_within(camera.jitter_y, -1, 1),
-          "`camera.jitter_x` and `jitter_y` must be from -1 to 1");
   return made;
+}
+
+planning::View::Previous to_previous(const brume_frame_params& params) {
+  try {
+    return {to_camera(params.previous_camera, params.previous_frustum), to_sample(params.previous_camera)};
+  } catch (const api::CallFailure& failure) {
+    api::fail(failure.result, "of the previous view, " + failure.message);
+  }
 }
 
 scene::SmokeOptions to_options(const brume_smoke_look& look, float extinction) {
@@ -246,9 +258,10 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.view.size_px = {params.part.width, params.part.height};
   require(params.view < BRUME_MAX_VIEWS, "`view` must be below 4");
   input.view.index = params.view;
-  input.view.sample.pixel = {params.camera.jitter_x, params.camera.jitter_y};
+  input.view.sample = to_sample(params.camera);
   input.view.frame_index = params.jitter_index;
   input.view.continues = params.continues_previous != 0;
+  if (params.has_previous) input.view.previous = to_previous(params);
   require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
 
   // Light.

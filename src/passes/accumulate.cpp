@@ -20,16 +20,17 @@ AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
   }
 }
 
-void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-                            glm::uvec2 size_px, const gpu::Image& depth, const gpu::Image& smoke,
-                            bool continues) {
-  Past& past = recorder.change(past_);
+void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, glm::uvec2 size_px,
+                            const gpu::Image& depth, const gpu::Image& smoke,
+                            const std::optional<planning::PastView>& past) {
+  Stored& stored = recorder.change(stored_);
   // Filters read beside a frame, with weights of 0.
-  if (!past.is_clear)
+  if (!stored.is_clear)
     for (const gpu::Image& image : smoke_) recorder.clear(image, {});
-  const std::size_t before = past.current, now = 1 - before;
-  const shared::AccumulateParams params{past.clip_from_world, past.size_px,
-                                        continues && past.is_valid ? 1u : 0u};
+  const std::size_t before = stored.current, now = 1 - before;
+  const planning::PastView from = past.value_or(planning::PastView());
+  const shared::AccumulateParams params{from.clip_from_world, from.size_px,
+                                        past && stored.is_valid ? 1u : 0u};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -42,7 +43,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
                 },
                 params);
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
-  past = {now, true, camera.clip_from_world, size_px, true};
+  stored = {now, true, true};
 }
 
 }  // namespace brume::passes

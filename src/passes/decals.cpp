@@ -23,15 +23,16 @@ void DecalPass::upload(gpu::Recorder& recorder, std::span<const shared::Decal> d
   if (!decals.empty()) recorder.upload(decals_, 0, std::as_bytes(decals));
 }
 
-void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-                       glm::uvec2 size_px, const GBuffer& gbuffer, const gpu::Image& blue_noise,
-                       const gpu::Image& slices, bool continues) {
-  Past& past = recorder.change(past_);
+void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, glm::uvec2 size_px,
+                       const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
+                       const std::optional<planning::PastView>& past) {
+  Stored& stored = recorder.change(stored_);
   // Filters read beside a frame, with weights of 0.
-  if (!past.is_clear)
+  if (!stored.is_clear)
     for (const gpu::Image& image : occlusion_) recorder.clear(image, {});
-  const std::size_t before = past.current, now = 1 - before;
-  const shared::DecalParams params{past.clip_from_world, past.size_px, continues ? past.frames : 0,
+  const std::size_t before = stored.current, now = 1 - before;
+  const planning::PastView from = past.value_or(planning::PastView());
+  const shared::DecalParams params{from.clip_from_world, from.size_px, past ? stored.frames : 0,
                                    decal_count_};
   recorder.bind(pipeline_,
                 {
@@ -46,7 +47,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                 },
                 params);
   recorder.dispatch_threads(pipeline_, size_px.x, size_px.y);
-  past = {now, params.past_frames + 1, camera.clip_from_world, size_px, true};
+  stored = {now, params.past_frames + 1, true};
 }
 
 }  // namespace brume::passes

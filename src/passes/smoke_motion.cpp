@@ -13,8 +13,8 @@ SmokeMotionPass::SmokeMotionPass(gpu::Context& context, glm::uvec2 size_px)
       motion_(context, gpu::storage_image(size_px, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
 
 void SmokeMotionPass::record(gpu::Recorder& recorder, const Inputs& in,
-                             const std::optional<glm::mat4>& past_clip_from_world,
-                             glm::vec2 jitter_px) const {
+                             const std::optional<planning::PastView>& past, glm::vec2 jitter_px) const {
+  const planning::PastView to = past.value_or(planning::PastView());
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -23,8 +23,7 @@ void SmokeMotionPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindMotionEntries, gpu::read(in.entries)},
                     {shared::kBindSmokeMotion, gpu::stored(motion_)},
                 },
-                shared::SmokeMotionParams{past_clip_from_world.value_or(glm::mat4(0)), jitter_px,
-                                          past_clip_from_world ? 1u : 0u});
+                shared::SmokeMotionParams{to.unjittered_from_world, jitter_px, past ? 1u : 0u});
   recorder.dispatch_threads(pipeline_, in.size_px.x, in.size_px.y);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gpu/recorder.hpp"
+#include "planning/device_camera.hpp"
 #include "shared/smoke_motion.h"
 
 namespace brume::passes {
@@ -20,10 +21,10 @@ class SmokeMotionPass {
     const gpu::Buffer& entries;  ///< As MarchPass::Options::record_entries writes them.
     glm::uvec2 size_px;          ///< The frame's size.
   };
-  /// Writes motion(). `past_clip_from_world`: of the view's previous frame, without jitter; null: motions
-  /// are 0. `jitter_px`: from the middle of each pixel to the point that it shows, y down.
-  void record(gpu::Recorder& recorder, const Inputs& inputs,
-              const std::optional<glm::mat4>& past_clip_from_world, glm::vec2 jitter_px) const;
+  /// Writes motion(). `past`: where motions lead; empty: they are 0. `jitter_px`: from the middle of each
+  /// pixel to the point that it shows, y down.
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const std::optional<planning::PastView>& past,
+              glm::vec2 jitter_px) const;
   /// Half floats: in red and green from where the media of a pixel are to where they were [px], right and
   /// down; in blue the distance along the view axis at which their transmittance falls to
   /// shared::kEntryTransmittance, in alpha the mean distance of their light [m]. Infinite without media.

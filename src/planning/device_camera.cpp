@@ -52,6 +52,11 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up, shift};
 }
 
+PastView past_view(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample) {
+  return {device_camera(camera, size_px, sample).clip_from_world,
+          device_camera(camera, size_px).clip_from_world, size_px};
+}
+
 ViewSample film_sample(std::uint32_t frame_index) {
   constexpr glm::ivec2 kSixteenths[kFilmSamples] = {{1, -3}, {-1, 3},  {5, 1}, {-3, -5},
                                                     {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};

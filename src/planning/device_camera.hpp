@@ -13,6 +13,14 @@ constexpr float kNearPlane = 0.05f;  // [m]
 /// the lens: all of them see the plane that is sharp alike.
 shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample = {});
 
+/// What the picture before a view's frame showed, in coordinates of the frame.
+struct PastView {
+  glm::mat4 clip_from_world{1};        ///< Camera::clip_from_world, with jitter.
+  glm::mat4 unjittered_from_world{1};  ///< The same without jitter.
+  glm::uvec2 size_px{1};
+};
+PastView past_view(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample);
+
 /// The sample of a frame of a film that is antialiased over its frames: one of eight points of the pixel,
 /// the places of multisampling with eight samples (Vulkan, "Standard sample locations"), in turn. Their mean
 /// is the middle of the pixel.

@@ -62,6 +62,13 @@ struct View {
   /// The next frame of the view's film: a renderer that accumulates smoke over frames goes on from the frames
   /// before.
   bool continues = false;
+  /// The camera of the picture before, in coordinates of this frame; empty: of the view's last frame, if the
+  /// film continues. Motion leads there, and a frame that continues takes it for the last frame's camera.
+  struct Previous {
+    scene::Camera camera;
+    ViewSample sample = {};
+  };
+  std::optional<Previous> previous = {};
 };
 
 struct Environment {

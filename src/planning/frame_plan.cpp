@@ -88,6 +88,15 @@ void plan_visible_media(FramePlan& plan, const PlanTarget& target, PlanHistory& 
   plan.indirect_light = history.indirect_light.plan(plan.input, plan.lit_media, plan.holes, lights, memory);
 }
 
+void plan_past(FramePlan& plan, PlanHistory& history) {
+  const View& view = plan.input.view;
+  std::optional<PastView>& last = history.views.propose()[view.index];
+  if (view.continues) plan.past = last;
+  if (view.previous)
+    plan.past = past_view(view.previous->camera, last ? last->size_px : plan.size_px, view.previous->sample);
+  last = past_view(view.camera, plan.size_px, view.sample);
+}
+
 void plan_level(FramePlan& plan, PlanHistory& history) {
   const LevelState& level = plan.input.level;
   PlanHistory::Level& next = history.level.propose();
@@ -189,6 +198,7 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   history.memory->reset();
   FramePlan plan(input, target.size_px, history.memory.get());
   plan.number = ++history.plans;
+  plan_past(plan, history);
   const SmokeInput& smoke = plan.input.smoke;
 
   // What is visible.
@@ -220,6 +230,7 @@ void PlanHistory::commit() {
   indirect_light.commit();
   volume_streaming.commit();
   level.commit();
+  views.commit();
 }
 
 void PlanHistory::invalidate_light() {

@@ -2,10 +2,13 @@
 // once a frame; passes make room by it and record it.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "planning/decal_plan.hpp"
+#include "planning/device_camera.hpp"
 #include "planning/fine_light_plan.hpp"
 #include "planning/frame_input.hpp"
 #include "planning/hole_plan.hpp"
@@ -55,6 +58,11 @@ struct FramePlan {
   const FrameInput& input;   ///< Outlives the plan.
   std::uint64_t number = 0;  ///< PlanHistory::plans, by which a renderer knows the plan that is valid.
   glm::uvec2 size_px{1};
+
+  /// The picture before this frame; empty: none is known.
+  std::optional<PastView> past;
+  /// The same, where smoke and decals accumulate from the frame before on.
+  std::optional<PastView> history() const { return input.view.continues ? past : std::nullopt; }
 
   // What is visible.
   shared::Camera camera;
@@ -107,6 +115,8 @@ struct PlanHistory {
     std::vector<std::uint32_t> hidden_objects;
   };
   Proposed<Level> level;
+  /// The last frame of each view.
+  Proposed<std::array<std::optional<PastView>, kMaxViews>> views;
   std::uint64_t plans = 0;
 
   /// The frame of the last plan was recorded: later ones rely on what it did.

@@ -394,7 +394,10 @@ void HostileFrames::spoil(brume_frame_params& params) {
                        &params.quality.light_update_fraction,
                        &params.quality.bounce_update_fraction})
     spoil(*value, kRarely);
-  for (float* side : {&params.frustum.left, &params.frustum.right, &params.frustum.down, &params.frustum.up})
+  for (float* side : {&params.frustum.left, &params.frustum.right, &params.frustum.down, &params.frustum.up,
+                      &params.previous_camera.position.y, &params.previous_camera.up.z,
+                      &params.previous_camera.vertical_fov, &params.previous_camera.jitter_y,
+                      &params.previous_frustum.left, &params.previous_frustum.up})
     spoil(*side, kRarely);
   for (std::uint32_t* length : {&params.part.width, &params.part.height, &params.view})
     spoil(*length, kRarely);
@@ -450,6 +453,9 @@ void HostileFrames::record() {
   params.shadow_light_count = lights_.empty() ? 0 : below(3);
   params.continues_previous = below(2);
   params.view = below(BRUME_MAX_VIEWS);
+  params.has_previous = below(2);
+  params.previous_camera = params.camera;
+  params.previous_camera.position.x += within(0, 1);
   if (chance(0.3)) params.part = {below(8), below(4), 1 + below(8), 1 + below(5)};
   if (chance(0.3)) params.frustum = {-within(0, 2), within(0.01f, 3), -within(0, 2), within(0.01f, 3)};
   params.seconds = within(0, 9);

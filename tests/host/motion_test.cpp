@@ -38,13 +38,19 @@ class MotionTest : public YardTest {
     smoke(1, {6, 1, 3.5f}, 3000, 2000);
     advance(160);
   }
-  /// The motion image of a frame.
-  Pixels motion(const MotionCamera& camera, bool continues) {
+  /// The motion image of a frame, by a previous camera of the host's own.
+  Pixels motion(const MotionCamera& camera, bool continues, const MotionCamera* previous = nullptr) {
     const gpu::Buffer copy = readback_buffer(gpu_);
     draw(glm::vec3(camera.eye), glm::vec3(camera.forward), 2.5, [&](brume_frame_params& params) {
       params.camera.jitter_x = static_cast<float>(camera.jitter.x);
       params.camera.jitter_y = static_cast<float>(camera.jitter.y);
       params.continues_previous = continues;
+      if (previous) {
+        params.has_previous = 1;
+        params.previous_camera = params.camera;
+        params.previous_camera.position = point_of(glm::vec3(previous->eye));
+        params.previous_camera.forward = point_of(glm::vec3(previous->forward));
+      }
       ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
       VkImage image = VK_NULL_HANDLE;
       ASSERT_OK(brume_renderer_motion(renderer_, &image, nullptr));
@@ -53,20 +59,8 @@ class MotionTest : public YardTest {
     host_.wait();
     return pixels_of(copy);
   }
-  const MotionCamera first_{{1.5, 1.6, 3}, {1, -0.1, 0.1}, {0.3, -0.2}},
-      second_{{1.3, 1.7, 3.1}, {1, -0.08, 0.05}, {-0.4, 0.1}};
-};
-
-// The motion of a pixel follows from its distance, which halves round by 2^-11 of itself.
-TEST_F(MotionTest, LeadsToThePlaceInTheFrameBefore) {
-  for (const std::uint32_t scale : {1u, 2u}) {
-    if (renderer_) {
-      ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
-    } else {
-      begin(scale);
-    }
-    (void)motion(first_, false);
-    const Pixels drawn = motion(second_, true);
+  /// The motion of a pixel follows from its distance, which halves round by 2^-11 of itself.
+  static void expect_leads(const Pixels& drawn, const MotionCamera& from, const MotionCamera& to) {
     int compared = 0, moved = 0;
     for (std::uint32_t i = 0; i < drawn.size(); ++i) {
       const double entry = drawn[i].z, mean = drawn[i].w;
@@ -77,19 +71,45 @@ TEST_F(MotionTest, LeadsToThePlaceInTheFrameBefore) {
       }
       EXPECT_GT(entry, 0);
       EXPECT_LT(mean, 12) << "the far end of the yard";
-      const glm::dvec2 here = glm::dvec2(i % kSize.x, i / kSize.x) + 0.5 + second_.jitter;
-      const auto expected = [&](double z) { return first_.pixel(second_.point(i, z)) - here; };
+      const glm::dvec2 here = glm::dvec2(i % kSize.x, i / kSize.x) + 0.5 + from.jitter;
+      const auto expected = [&](double z) { return to.pixel(from.point(i, z)) - here; };
       const glm::dvec2 low = expected(mean * (1 - 1 / 1024.0)), high = expected(mean * (1 + 1 / 1024.0));
       for (int axis = 0; axis < 2; ++axis) {
         const double given = drawn[i][axis], slack = std::abs(given) / 1024 + 1e-3;
-        EXPECT_GE(given, std::min(low[axis], high[axis]) - slack) << i << " at scale " << scale;
-        EXPECT_LE(given, std::max(low[axis], high[axis]) + slack) << i << " at scale " << scale;
+        EXPECT_GE(given, std::min(low[axis], high[axis]) - slack) << i;
+        EXPECT_LE(given, std::max(low[axis], high[axis]) + slack) << i;
       }
       ++compared;
       moved += glm::length(glm::dvec2(drawn[i])) > 0.5;
     }
     EXPECT_GT(compared, 300);
     EXPECT_GT(moved, 300);
+  }
+  const MotionCamera first_{{1.5, 1.6, 3}, {1, -0.1, 0.1}, {0.3, -0.2}},
+      second_{{1.3, 1.7, 3.1}, {1, -0.08, 0.05}, {-0.4, 0.1}};
+};
+
+TEST_F(MotionTest, LeadsToThePlaceInTheFrameBefore) {
+  for (const std::uint32_t scale : {1u, 2u}) {
+    SCOPED_TRACE(scale);
+    if (renderer_) {
+      ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
+    } else {
+      begin(scale);
+    }
+    (void)motion(first_, false);
+    expect_leads(motion(second_, true), second_, first_);
+  }
+}
+
+// A camera of which no frame was recorded, after one of which there was, and whether the frame continues or
+// not.
+TEST_F(MotionTest, LeadsToThePreviousCameraThatTheHostGives) {
+  begin(1);
+  const MotionCamera unseen{{1.8, 1.5, 2.8}, {1, -0.15, 0.2}};
+  for (const bool continues : {false, true}) {
+    (void)motion(first_, false);
+    expect_leads(motion(second_, continues, &unseen), second_, unseen);
   }
 }
 

@@ -69,6 +69,7 @@ struct HostMemory {
 /// A yard of a floor and a wall with a door, and as many smokes as a test throws.
 class YardTest : public testing::Test {
  protected:
+  static constexpr brume_light kLight{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
   static constexpr glm::uvec2 kSizes[] = {{64, 36}, {33, 17}, {80, 45}, {1, 7}};
 
   /// `first`: the size of frames until resize().
@@ -79,10 +80,7 @@ class YardTest : public testing::Test {
   }
   ~YardTest() override {
     host_.wait();
-    if (field_) brume_field_destroy(field_);
-    if (state_) brume_state_destroy(state_);
-    if (world_) brume_world_destroy(world_);
-    if (level_) brume_level_destroy(level_);
+    destroy_world();
     EXPECT_OK(brume_renderer_destroy(renderer_));
     EXPECT_OK(brume_device_destroy(device_));
     EXPECT_EQ(memory_.bytes, 0u) << memory_.blocks.size() << " blocks";
@@ -91,27 +89,7 @@ class YardTest : public testing::Test {
   }
 
   void make(brume_voxel size, float voxel_size, std::uint32_t march_scale = 1) {
-    std::vector<std::uint8_t> solid((static_cast<std::size_t>(size.x) * size.y * size.z + 7) / 8);
-    const auto set = [&](int x, int y, int z) {
-      const std::size_t i = static_cast<std::size_t>(x) +
-                            static_cast<std::size_t>(size.x) *
-                                (static_cast<std::size_t>(y) + static_cast<std::size_t>(size.y) * z);
-      solid[i / 8] = static_cast<std::uint8_t>(solid[i / 8] | 1 << i % 8);
-    };
-    for (int z = 0; z < size.z; ++z)
-      for (int x = 0; x < size.x; ++x) set(x, 0, z);
-    for (int z = 0; z < size.z; ++z)
-      for (int y = 1; y < 12; ++y)
-        if (z < 10 || z > 16) set(size.x / 2, y, z);
-    brume_voxels_params params = brume_voxels_defaults();
-    params.layout = {size, voxel_size, {0, 0, 0}};
-    params.bits = solid.data();
-    params.byte_count = solid.size();
-    ASSERT_OK(brume_level_create_from_voxels(context_.get(), &params, &level_));
-    ASSERT_OK(brume_world_create(level_, nullptr, &world_));
-    brume_field_params field = brume_field_defaults();
-    ASSERT_OK(brume_field_create(level_, &field, &field_));
-
+    ASSERT_NO_FATAL_FAILURE(make_world(size, voxel_size, {0, 0, 0}));
     brume_device_params on = params_of(host_.device());
     // Pipelines of several tests have no callbacks.
     if (allocation_callbacks_) on.get_instance_proc_addr = gpu::system_loader();
@@ -125,12 +103,45 @@ class YardTest : public testing::Test {
     ASSERT_OK(create_renderer(march_scale));
     resize(first_);
   }
+  /// The yard with its low corner anywhere, and a field of it.
+  void make_world(brume_voxel size, float voxel_size, brume_point origin) {
+    destroy_world();
+    std::vector<std::uint8_t> solid((static_cast<std::size_t>(size.x) * size.y * size.z + 7) / 8);
+    const auto set = [&](int x, int y, int z) {
+      const std::size_t i = static_cast<std::size_t>(x) +
+                            static_cast<std::size_t>(size.x) *
+                                (static_cast<std::size_t>(y) + static_cast<std::size_t>(size.y) * z);
+      solid[i / 8] = static_cast<std::uint8_t>(solid[i / 8] | 1 << i % 8);
+    };
+    for (int z = 0; z < size.z; ++z)
+      for (int x = 0; x < size.x; ++x) set(x, 0, z);
+    for (int z = 0; z < size.z; ++z)
+      for (int y = 1; y < 12; ++y)
+        if (z < 10 || z > 16) set(size.x / 2, y, z);
+    brume_voxels_params params = brume_voxels_defaults();
+    params.layout = {size, voxel_size, origin};
+    params.bits = solid.data();
+    params.byte_count = solid.size();
+    ASSERT_OK(brume_level_create_from_voxels(context_.get(), &params, &level_));
+    ASSERT_OK(brume_world_create(level_, nullptr, &world_));
+    brume_field_params field = brume_field_defaults();
+    ASSERT_OK(brume_field_create(level_, &field, &field_));
+  }
+  void destroy_world() {
+    if (field_) brume_field_destroy(field_);
+    if (state_) brume_state_destroy(state_);
+    if (world_) brume_world_destroy(world_);
+    if (level_) brume_level_destroy(level_);
+    field_ = nullptr;
+    state_ = nullptr;
+    world_ = nullptr;
+    level_ = nullptr;
+  }
   brume_result create_renderer(std::uint32_t march_scale) {
     brume_renderer_params params = brume_renderer_defaults();
-    const brume_light light{BRUME_LIGHT_POINT, {4, 3, 3}, {0, -1, 0}, {0.2f, 0.18f, 0.12f}, 0, 1};
     params.width = first_.x;
     params.height = first_.y;
-    params.lights = &light;
+    params.lights = &kLight;
     params.light_count = 1;
     params.temporal = is_temporal_ ? 1 : 0;
     params.timings = is_timed_ ? 1 : 0;

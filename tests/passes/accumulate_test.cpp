@@ -30,8 +30,9 @@ class AccumulateTest : public gpu::GpuTest {
     frame.media = planning::smoke_media(frame.smoke, frame.look);
     const auto buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& r) {
-      pass_.record(r, buffer, frame.camera, frame.size_px, depth, image, continues);
+      pass_.record(r, buffer, frame.size_px, depth, image, continues ? past_ : std::nullopt);
     });
+    past_ = {frame.camera.clip_from_world, frame.camera.clip_from_world, frame.size_px};
     Texels shown;
     shown = from_half(read_back<Half4>(pass_.gathered()));
     return shown;
@@ -41,6 +42,7 @@ class AccumulateTest : public gpu::GpuTest {
   }
 
   AccumulatePass pass_;
+  std::optional<planning::PastView> past_;
 };
 
 TEST_F(AccumulateTest, AFrameWithoutHistoryIsItself) {

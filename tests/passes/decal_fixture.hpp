@@ -141,9 +141,10 @@ class DecalFixture : public gpu::GpuTest {
     // Draw.
     runner().run([&](gpu::Recorder& recorder) {
       pass_->upload(recorder, decals);
-      pass_->record(recorder, frame_buffer, camera_, glm::uvec2(gbuffer_.depth.info().size), gbuffer_, noise_,
-                    slices_->image(), continues);
+      pass_->record(recorder, frame_buffer, frame.size_px, gbuffer_, noise_, slices_->image(),
+                    continues ? past_ : std::nullopt);
     });
+    past_ = {camera_.clip_from_world, camera_.clip_from_world, size_};
     return from_half(read_back<Half4>(pass_->occlusion()));
   }
 
@@ -235,6 +236,7 @@ class DecalFixture : public gpu::GpuTest {
   gpu::Image noise_;
   std::optional<SliceTextures> slices_;
   std::optional<DecalPass> pass_;
+  std::optional<planning::PastView> past_;
 };
 
 }  // namespace brume::passes

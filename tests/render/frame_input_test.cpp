@@ -190,8 +190,8 @@ class FrameInputTest : public VolumeFixture {
 // The bindings below name every field of a struct: one that is added fails to compile here, and needs a row.
 
 TEST_F(FrameInputTest, TheView) {
-  [[maybe_unused]] const auto& [camera, number, size, sample, exposure, tone, frame_index, continues] =
-      input_.view;
+  [[maybe_unused]] const auto& [camera, number, size, sample, exposure, tone, frame_index, continues,
+                                previous] = input_.view;
   [[maybe_unused]] const auto& [position, target, fov, up, lens, shutter, frustum] = camera;
   [[maybe_unused]] const auto& [aperture, focus, blades, opening] = lens;
   [[maybe_unused]] const auto& [pixel, on_lens, index, count] = sample;
@@ -220,11 +220,6 @@ TEST_F(FrameInputTest, TheView) {
        [](FrameInput& input) {
          input.view.camera.frustum = {-0.5f, 0.7f, -0.4f, 0.4f};
        }},
-      {"index", [](FrameInput& input) { input.view.index = 2; }, {}, "nothing is accumulated"},
-      {"size_px",
-       [](FrameInput& input) { input.view.size_px = kSize; },
-       {},
-       "only pictures of a host may be smaller"},
       {"sample.pixel",
        [](FrameInput& input) {
          input.view.sample.pixel = {0.4f, -0.3f};
@@ -241,10 +236,21 @@ TEST_F(FrameInputTest, TheView) {
       {"exposure", [](FrameInput& input) { input.view.exposure = 2; }},
       {"tone", [](FrameInput& input) { input.view.tone = scene::ToneCurve::standard; }},
       {"frame_index", [](FrameInput& input) { input.view.frame_index = 1; }},
+  });
+}
+
+TEST_F(FrameInputTest, TheViewOfAFilmOrAHost) {
+  expect_rows({
+      {"index", [](FrameInput& input) { input.view.index = 2; }, {}, "nothing is accumulated"},
+      {"size_px",
+       [](FrameInput& input) { input.view.size_px = kSize; },
+       {},
+       "only pictures of a host may be smaller"},
       {"continues",
        [](FrameInput& input) { input.view.continues = true; },
        {},
        "nothing is accumulated (RendererOptions::antialias, MediaOptions::temporal)"},
+      {"previous", [](FrameInput& input) { input.view.previous = {input.view.camera}; }, {}, "likewise"},
   });
 }
 

@@ -41,8 +41,8 @@ void DecalsPart::record(gpu::Recorder& recorder, const FramePlan& plan, const Fr
                         const SlicesPart& slices, bool smooths) {
   passes::DecalPass& pass = *passes_[plan.input.view.index];
   if (plan.decals.empty()) pass.upload(recorder, {});
-  pass.record(recorder, in.frame, plan.camera, plan.size_px, in.targets.gbuffer, in.blue_noise,
-              slices.image(), plan.input.view.continues && smooths);
+  pass.record(recorder, in.frame, plan.size_px, in.targets.gbuffer, in.blue_noise, slices.image(),
+              smooths ? plan.history() : std::nullopt);
   recorder.change(shown_) = {true, &pass.occlusion()};
   if (plan.decals.empty()) forget(recorder, plan.input.view.index);
 }

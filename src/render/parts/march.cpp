@@ -162,8 +162,8 @@ void MarchPart::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan
   const std::uint32_t view = plan.input.view.index;
   recorder.change(shown_view_) = view;
   scope(recorder, "accumulate", [&] {
-    accumulations_[view]->record(recorder, in.frame, plan.camera, plan.size_px, in.surfaces, in.targets.media,
-                                 plan.input.view.continues);
+    accumulations_[view]->record(recorder, in.frame, plan.size_px, in.surfaces, in.targets.media,
+                                 plan.history());
   });
 }
 

@@ -1,7 +1,7 @@
 // The motion of the media from frame to frame, for hosts with an upscaler.
 #pragma once
 
-#include <array>
+#include <optional>
 
 #include "passes/smoke_motion.hpp"
 #include "render/parts/frame_part.hpp"
@@ -15,22 +15,18 @@ class MotionPart {
     pass_.emplace(context, size_px);
   }
 
-  /// Frames of another size; none continues. When the device is done with what was recorded before.
-  void resize(glm::uvec2 size_px);
+  /// Frames of another size. When the device is done with what was recorded before.
+  void resize(glm::uvec2 size_px) { pass_.emplace(context_, size_px); }
   /// After the march. `entries`: MarchPart::counters, with MediaOptions::record_entries.
   void record(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in,
-              const gpu::Buffer& entries);
+              const gpu::Buffer& entries) const;
 
   /// As SmokeMotionPass writes it.
   const gpu::Image& motion() const { return pass_->motion(); }
 
  private:
-  /// The last camera of each view, without jitter.
-  using Pasts = std::array<std::optional<glm::mat4>, planning::kMaxViews>;
-
   gpu::Context& context_;
   std::optional<passes::SmokeMotionPass> pass_;
-  gpu::Recorded<Pasts> pasts_;
 };
 
 }  // namespace brume::render
