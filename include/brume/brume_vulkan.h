@@ -278,8 +278,8 @@ typedef struct brume_rectangle {
 
 /// The depth of the surfaces that you drew with the same camera.
 typedef struct brume_depth {
-  /// The depth aspect alone of a 2D image with one sample per pixel and VK_IMAGE_USAGE_SAMPLED_BIT: of a
-  /// layer of an array, a view of that layer; of a multisampled image, what you have resolved.
+  /// The depth aspect alone of a 2D image with VK_IMAGE_USAGE_SAMPLED_BIT: of a layer of an array, a view of
+  /// that layer. It has one sample per pixel, or several with brume_frame_params::depth_has_samples.
   VkImageView view;
   VkImageLayout layout;  ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
   float near_plane;      ///< Near plane [m], (0, 16384). The depth is a perspective projection onto [0, 1].
@@ -429,6 +429,9 @@ typedef struct brume_frame_params {
   /// smoke, as seen by this camera.
   brume_camera previous_camera;
   brume_frustum previous_frustum;  ///< Its `frustum`.
+  /// 1: `depth.view` has several samples per pixel. Smoke then ends at the farthest surface of a pixel, so
+  /// that it hides all that it hides of any sample. Resolve colour before, and normals.
+  uint32_t depth_has_samples;
 } brume_frame_params;
 
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of

@@ -51,7 +51,7 @@ void compile(DeviceData& device, VkFormat picture_format) {
   options.smoke.prepare_all = true;
   options.smoke.temporal = true;
   render::Renderer renderer(context, commands, nothing, options);
-  renderer.reserve_over({.decals = true, .shadows = true, .picture = picture_format});
+  renderer.reserve_over({.decals = true, .shadows = true, .samples = true, .picture = picture_format});
 }
 
 static_assert(sizeof(brume_feature_storage) == sizeof(gpu::FeatureStructs) &&

@@ -230,13 +230,14 @@ scene::Scene to_scene(const brume_renderer_params& params) {
   return scene;
 }
 
-passes::HostDepthRange depth_range(const brume_depth& depth) {
+passes::HostDepthRange depth_range(const brume_frame_params& params) {
+  const brume_depth& depth = params.depth;
   require(depth.view != VK_NULL_HANDLE, "`depth.view` is null");
   require(depth_can_be_sampled(depth.layout), "`depth.layout` must be one in which depth can be sampled");
   require(depth.near_plane > 0 && depth.near_plane < kMostMetres,
           "`depth.near_plane` must be above 0 and below 16384");
   require(depth.far_plane > depth.near_plane, "`depth.far_plane` must be above near_plane");
-  return {depth.near_plane, depth.far_plane, depth.reversed != 0};
+  return {depth.near_plane, depth.far_plane, depth.reversed != 0, params.depth_has_samples != 0};
 }
 
 passes::HostNormals host_normals(const brume_normals& normals) {

@@ -55,7 +55,7 @@ struct HostArray {
 scene::Scene scene_of_triangles(const HostArray<brume_point>& points,
                                 const HostArray<std::uint32_t>& indices);
 scene::Scene to_scene(const brume_renderer_params& params);
-passes::HostDepthRange depth_range(const brume_depth& depth);
+passes::HostDepthRange depth_range(const brume_frame_params& params);
 /// Normals for decals; the caller sets the image, where there is a view.
 passes::HostNormals host_normals(const brume_normals& normals);
 /// Sets all of `input`, without volumes and decals; its lists keep their memory, and `slices` remain. What it

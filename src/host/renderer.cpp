@@ -113,6 +113,7 @@ void reserve(brume_renderer& renderer, const brume_frame_params& params) {
        .decals = params.decal_count > 0,
        .shadows = params.shadow_light_count > 0,
        .tanks = params.tank_count > 0,
+       .samples = params.depth_has_samples != 0,
        .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});
 }
 
@@ -155,7 +156,7 @@ void check_shadow_lights(const brume_renderer& renderer, const brume_frame_param
 void record(Call& call, brume_renderer& renderer, const brume_field* field,
             const brume_frame_params& params) {
   check_frame(renderer, field, params);
-  const passes::HostDepthRange range = depth_range(params.depth);
+  const passes::HostDepthRange range = depth_range(params);
   const passes::HostNormals normals = host_normals(params.normals);
   planning::FrameInput& input = renderer.input;
   set_frame_input(params, field ? &*field->field : nullptr, input);

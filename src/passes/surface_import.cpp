@@ -22,27 +22,35 @@ shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z,
 }  // namespace
 
 SurfaceImport::SurfaceImport(gpu::Context& context)
-    : pipeline_(context, shaders::surface_import_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
+    : context_(context),
+      pipeline_(context, shaders::surface_import_comp),
+      nearest_(context, {VK_FILTER_NEAREST}) {}
+
+void SurfaceImport::reserve_samples() {
+  if (!samples_pipeline_) samples_pipeline_.emplace(context_, shaders::surface_import_samples_comp);
+}
 
 void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostPart& part,
                            const HostDepthRange& range, float near_z, const GBuffer& target) const {
-  record(recorder, host_depth, params_of(range, near_z, part), target.depth);
+  const gpu::ComputePipeline& pipeline = range.has_samples ? *samples_pipeline_ : pipeline_;
+  record(recorder, pipeline, host_depth, params_of(range, near_z, part), target.depth);
 }
 
 void SurfaceImport::record_copy(gpu::Recorder& recorder, const gpu::Image& depth,
                                 const gpu::Image& copy) const {
-  record(recorder, depth, {glm::uvec2(copy.info().size), {0, 0}, 0, 1, 0}, copy);
+  record(recorder, pipeline_, depth, {glm::uvec2(copy.info().size), {0, 0}, 0, 1, 0}, copy);
 }
 
-void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& from,
-                           const shared::SurfaceImportParams& params, const gpu::Image& to) const {
-  recorder.bind(pipeline_,
+void SurfaceImport::record(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline,
+                           const gpu::Image& from, const shared::SurfaceImportParams& params,
+                           const gpu::Image& to) const {
+  recorder.bind(pipeline,
                 {
                     {shared::kBindHostDepth, gpu::sampled(from, nearest_)},
                     {shared::kBindImportedDepth, gpu::stored(to)},
                 },
                 params);
-  recorder.dispatch_threads(pipeline_, params.size_px.x, params.size_px.y);
+  recorder.dispatch_threads(pipeline, params.size_px.x, params.size_px.y);
 }
 
 SurfaceNormalPass::SurfaceNormalPass(gpu::Context& context)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "gpu/recorder.hpp"
 #include "passes/gbuffer.hpp"
@@ -12,9 +13,10 @@ namespace brume::passes {
 
 /// How a host's depth follows from the distance along the view axis.
 struct HostDepthRange {
-  float near_plane = 0.1f;  ///< [m], > 0.
-  float far_plane = 1000;   ///< [m], above near_plane; may be infinite.
-  bool reversed = false;    ///< 1 at near_plane, 0 at far_plane, instead of the other way around.
+  float near_plane = 0.1f;   ///< [m], > 0.
+  float far_plane = 1000;    ///< [m], above near_plane; may be infinite.
+  bool reversed = false;     ///< 1 at near_plane, 0 at far_plane, instead of the other way around.
+  bool has_samples = false;  ///< The image has several samples per pixel; the farthest one counts.
 };
 
 /// The part of a host's images that a frame covers.
@@ -26,6 +28,8 @@ class SurfaceImport {
  public:
   explicit SurfaceImport(gpu::Context& context);
 
+  /// Makes the pipeline for depths with samples, outside of a recording.
+  void reserve_samples();
   /// Writes the depth of GBuffer::imported, near_z / distance, from a part of a host's depth into the top
   /// left corner; `near_z`: of the frame's camera. There is no surface where the host's depth is far_plane's.
   void record(gpu::Recorder& recorder, const gpu::Image& host_depth, const HostPart& part,
@@ -34,10 +38,12 @@ class SurfaceImport {
   void record_copy(gpu::Recorder& recorder, const gpu::Image& depth, const gpu::Image& copy) const;
 
  private:
-  void record(gpu::Recorder& recorder, const gpu::Image& from, const shared::SurfaceImportParams& params,
-              const gpu::Image& to) const;
+  void record(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const gpu::Image& from,
+              const shared::SurfaceImportParams& params, const gpu::Image& to) const;
 
+  gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
+  std::optional<gpu::ComputePipeline> samples_pipeline_;
   gpu::Sampler nearest_;
 };
 

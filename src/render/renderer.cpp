@@ -176,6 +176,7 @@ void Renderer::reserve_over(const HostNeeds& needs) {
     decals_.reserve(needs.view, targets_.size_px);
     host_->reserve_normals(targets_);
   }
+  if (needs.samples) host_->reserve_samples();
   if (needs.shadows) host_->reserve_shadows(targets_.size_px);
   if (needs.picture != VK_FORMAT_UNDEFINED) host_->reserve_layer(needs.picture);
   if (needs.tanks && !tanks_) tanks_.emplace(context_, stream_, targets_.size_px, TanksPart::Over::host);

@@ -99,6 +99,7 @@ class Renderer {
   struct HostNeeds {
     std::uint32_t view = 0;  ///< View::index.
     bool decals = false, shadows = false, tanks = false;
+    bool samples = false;                    ///< passes::HostDepthRange::has_samples.
     VkFormat picture = VK_FORMAT_UNDEFINED;  ///< The format of HostFrame::picture.
   };
   /// Makes room for `needs`, as `plan` does for the rest. Call without a limit of memory

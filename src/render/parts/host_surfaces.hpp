@@ -28,6 +28,7 @@ class HostSurfacesPart {
     has_no_emission_.change(context_) = false;
   }
   // Make room, outside of a recording; throw resource_limit.
+  void reserve_samples() { import_pass_.reserve_samples(); }
   void reserve_normals(Targets& targets);
   void reserve_shadows(glm::uvec2 size_px);
   /// For pictures of a format that can be blended.
