@@ -27,14 +27,14 @@ struct History {
 
 History history_of(vec3 p_smoke, vec3 p_surface) {
   History history = History(vec4(0.0), 0.0);
-  const vec4 clip = params.past_clip_from_world * vec4(p_smoke, 1.0);
-  if (params.has_past == 0u || clip.w <= frame.camera.near_z) return history;
-  const vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
+  const vec4 seen = params.past_from_world * vec4(p_smoke, 1.0);
+  if (params.has_past == 0u || seen.w <= frame.camera.near_z) return history;
+  const vec2 uv = seen.xy / seen.z * 0.5 + 0.5;
   if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return history;
   const uvec2 size_px = params.past_size_px, px = min(uvec2(uv * vec2(size_px)), size_px - 1u);
   const AccumulatedPixel before = past[px.x + size_px.x * px.y];
   // The surface behind the smoke must have been as far away, since it ends the ray.
-  const vec4 surface = params.past_clip_from_world * vec4(p_surface, 1.0);
+  const vec4 surface = params.past_from_world * vec4(p_surface, 1.0);
   const float off = abs(surface.w - before.distance_in_smoke) * frame.media.extinction;
   history.smoke = textureLod(past_smoke, uv_of_part(uv, size_px, textureSize(past_smoke, 0)), 0.0);
   history.frames = before.frames / (1.0 + 16.0 * off * off);
@@ -55,10 +55,11 @@ void main() {
   }
   const vec4 deviation = sqrt(max(square - mean * mean, vec4(0.0)));
 
+  const vec3 origin = camera_origin(frame.camera, vec2(px) + 0.5, frame.size_px);
   const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
   const float z = distance_in_smoke(frame, texelFetch(depth, px, 0).r);
-  const vec3 p_smoke = frame.camera.eye_world + smoke_distance(ray, z, here.a) * ray;
-  const History history = history_of(p_smoke, frame.camera.eye_world + z * ray);
+  const vec3 p_smoke = origin + smoke_distance(origin, ray, z, here.a) * ray;
+  const History history = history_of(p_smoke, origin + z * ray);
 
   // Clamps the past to plausible values, so that a closed hole disappears (variance clipping, Salvi 2016, "An Excursion
   // in Temporal Supersampling"). The further the clamp moves it, the less it counts.

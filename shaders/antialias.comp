@@ -84,9 +84,11 @@ vec4 past_at(vec2 uv) {
 vec2 past_uv(ivec2 px, float nearest_depth) {
   const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5 - params.jitter, frame.size_px);
   const float transmittance = texelFetch(smoke, px, 0).a;
-  const float z = transmittance < 0.5 ? smoke_distance(ray, distance_in_smoke(frame, nearest_depth), transmittance)
-                                      : view_distance(frame.camera, nearest_depth);
-  const vec4 clip = params.past_clip_from_world * vec4(frame.camera.eye_world + z * ray, 1.0);
+  const vec3 eye = frame.camera.eye_world;
+  const float z = transmittance < 0.5
+                      ? smoke_distance(eye, ray, distance_in_smoke(frame, nearest_depth), transmittance)
+                      : view_distance(frame.camera, nearest_depth);
+  const vec4 clip = params.past_clip_from_world * vec4(eye + z * ray, 1.0);
   return params.has_past != 0u && clip.w > frame.camera.near_z ? clip.xy / clip.w * 0.5 + 0.5 : vec2(-1.0);
 }
 

@@ -121,14 +121,14 @@ struct Past {
 Past past_at(vec3 p_world) {
   const Past nothing = Past(0.0, 0.0, 0.0);
   if (params.past_frames == 0u) return nothing;
-  const vec4 clip = params.past_clip_from_world * vec4(p_world, 1.0);
-  if (clip.w <= frame.camera.near_z) return nothing;
-  const vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
+  const vec4 seen = params.past_from_world * vec4(p_world, 1.0);
+  if (seen.w <= frame.camera.near_z) return nothing;
+  const vec2 uv = seen.xy / seen.z * 0.5 + 0.5;
   if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return nothing;
   const vec4 past =
       textureLod(past_occlusion, uv_of_part(uv, params.past_size_px, textureSize(past_occlusion, 0)), 0.0);
   // Another surface was there.
-  if (abs(past.b - clip.w) > 0.01 * clip.w) return nothing;
+  if (abs(past.b - seen.w) > 0.01 * seen.w) return nothing;
   return Past(past.r, past.g, past.a);
 }
 
@@ -141,7 +141,7 @@ void main() {
   const bool inside = all(lessThan(uvec2(px), frame.size_px));
   const float d = inside ? texelFetch(depth, px, 0).r : 0.0;
   const float z = view_distance(frame.camera, d);
-  const vec3 p_world = frame.camera.eye_world + z * camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
+  const vec3 p_world = camera_point(frame.camera, vec2(px) + 0.5, frame.size_px, z);
   // What moves is what decals are baked of.
   const vec4 n = inside ? texelFetch(normal_metallic, px, 0) : vec4(0.0);
   const bool receives = d > 0.0 && !moves_of(n.a);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
+#include "lib/camera.glsl"
 #include "lib/lights.glsl"
 #include "shared/light_side.h"
 #include "shared/scattering.h"
@@ -101,7 +102,7 @@ vec4 light_side_at(vec3 p_voxel, vec3 side, vec3 all) {
 void light_texel(LightGather brick, uint local) {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
-  const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
+  const vec3 to_eye = normalize(to_camera(frame.camera, p_world));
   const SkyThroughSmoke sky = sky_through_smoke(brick.sky_page, local, p_world);
   const float density = max(texelFetch(filtered_density_atlas, at, 0).r, 0.0);
   const float texel_depth = density * frame.look.extinction * frame.smoke.voxel_size;

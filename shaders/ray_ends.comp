@@ -12,9 +12,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kBindDepth) uniform sampler2D depth;
 layout(scalar, binding = kBindRayEnds) writeonly buffer Ends { RayEnds ends[]; };
 
-/// Whether 4 x 4 values of depth lie on one plane. Reverse depth is linear over the image on every plane, so the
-/// residual of a least-squares plane is small.
+/// Whether 4 x 4 values of depth lie on one plane: what is linear over the image on every plane has a small residual of
+/// a least-squares plane. Reverse depth is, in a parallel view distance.
 bool is_flat(vec4 rows[4]) {
+  for (int j = 0; j < 4 && frame.camera.parallel != 0.0; ++j)
+    for (int i = 0; i < 4; ++i) rows[j][i] = view_distance(frame.camera, rows[j][i]);
   const vec4 x = vec4(-1.5, -0.5, 0.5, 1.5);
   float mean = 0.0, slope_x = 0.0, slope_y = 0.0;
   for (int j = 0; j < 4; ++j) {

@@ -25,12 +25,13 @@ void main() {
   const float transmittance = texelFetch(smoke, px, 0).a;
   vec4 found = vec4(0.0, 0.0, kNoSmoke, kNoSmoke);
   if (transmittance < 1.0) {
+    const vec3 origin = camera_origin(frame.camera, vec2(px) + 0.5, frame.size_px);
     const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
     const float z_surface = view_distance(frame.camera, texelFetch(depth, px, 0).r);
-    const float z = smoke_distance(ray, z_surface, transmittance);
-    const vec4 past = params.past_clip_from_world * vec4(frame.camera.eye_world + z * ray, 1.0);
+    const float z = smoke_distance(origin, ray, z_surface, transmittance);
+    const vec4 past = params.past_from_world * vec4(origin + z * ray, 1.0);
     if (params.has_past != 0u && past.w > frame.camera.near_z)
-      found.xy = (past.xy / past.w * 0.5 + 0.5) * vec2(frame.size_px) - (vec2(px) + 0.5 + params.jitter_px);
+      found.xy = (past.xy / past.z * 0.5 + 0.5) * vec2(frame.size_px) - (vec2(px) + 0.5 + params.jitter_px);
     // Thin smoke has no entry.
     const float entry = entries[uint(px.x) + frame.size_px.x * uint(px.y)] / length(ray);
     found.zw = min(vec2(min(entry, z), z), kNoSmoke);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
+#include "lib/camera.glsl"
 #include "shared/gbuffer.h"
 #include "shared/surface_import.h"
 
@@ -13,8 +14,11 @@ layout(binding = kBindHostNormals) uniform sampler2D host_normals;
 layout(binding = kBindImportedNormals, rgba16f) uniform writeonly image2D normal_image;
 layout(scalar, push_constant) uniform Push { SurfaceNormalParams params; };
 
-/// near_z / distance; 0: no surface.
-float depth_at(ivec2 px) { return all(lessThan(uvec2(px), frame.size_px)) ? texelFetch(depth, px, 0).r : 0.0; }
+/// near_z / distance or, in a parallel view, -distance: on a plane affine in the x and y of the image. 0: no surface.
+float depth_at(ivec2 px) {
+  const float d = all(lessThan(uvec2(px), frame.size_px)) ? texelFetch(depth, px, 0).r : 0.0;
+  return frame.camera.parallel != 0.0 && d > 0.0 ? -view_distance(frame.camera, d) : d;
+}
 
 /// How the depth changes from pixel to pixel: on a plane, as much everywhere. Of both sides, the one that this pixel
 /// continues best.
@@ -23,7 +27,7 @@ float slope(ivec2 px, float here, ivec2 along) {
   for (int side = -1; side <= 1; side += 2) {
     const float next = depth_at(px + side * along), second = depth_at(px + 2 * side * along);
     if (next == 0.0) continue;
-    const float bend = second > 0.0 ? abs(here - 2.0 * next + second) : abs(next - here);
+    const float bend = second != 0.0 ? abs(here - 2.0 * next + second) : abs(next - here);
     if (bend >= least_bend) continue;
     least_bend = bend;
     change = float(side) * (next - here);
@@ -31,15 +35,16 @@ float slope(ivec2 px, float here, ivec2 along) {
   return change;
 }
 
-/// Of the plane n (p - eye) = near_z the depth is n (forward + x right + y up), affine in the x and y of the image: its
-/// derivatives are the parts of n along right and up.
+/// Of the plane n (p - eye) = near_z the depth is n (forward + x right + y up): its derivatives are the parts of n
+/// along right and up. In a parallel view so they are of the n whose part along forward is 1.
 vec3 normal_of_depth(ivec2 px, float here) {
   const Camera camera = frame.camera;
   const vec2 half_size = 0.5 * vec2(frame.size_px);
   const vec2 xy = camera.shift + vec2(1.0, -1.0) * ((vec2(px) + 0.5) / half_size - 1.0);
   const vec2 by_xy = half_size * vec2(slope(px, here, ivec2(1, 0)), -slope(px, here, ivec2(0, 1)));
+  const float along = camera.parallel != 0.0 ? 1.0 : here - dot(xy, by_xy);
   const vec3 away = by_xy.x / dot(camera.right, camera.right) * camera.right +
-                    by_xy.y / dot(camera.up, camera.up) * camera.up + (here - dot(xy, by_xy)) * camera.forward;
+                    by_xy.y / dot(camera.up, camera.up) * camera.up + along * camera.forward;
   return -normalize(away);
 }
 
@@ -62,7 +67,7 @@ void main() {
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
   const float here = depth_at(px);
   vec3 normal = vec3(0.0);
-  bool receives = here > 0.0, has_normal = false;
+  bool receives = here != 0.0, has_normal = false;
   if (receives && params.encoding != kNormalsOfDepth) {
     const vec4 given = texelFetch(host_normals, px + ivec2(params.origin_px), 0);
     receives = params.alpha_receives == 0u || given.a != 0.0;

@@ -25,8 +25,8 @@ void main() {
   const float d = texelFetch(depth, px, 0).r;
   vec4 transmittances = vec4(1.0);
   if (d > 0.0) {
-    const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
-    const vec3 position_world = frame.camera.eye_world + view_distance(frame.camera, d) * ray;
+    const vec3 position_world =
+        camera_point(frame.camera, vec2(px) + 0.5, frame.size_px, view_distance(frame.camera, d));
     const vec2 texel_uv = 1.0 / vec2(textureSize(smoke_shadows, 0));
     for (uint i = 0u; i < kMaxSurfaceShadows; ++i) {
       if (params.lights[i] == kNoLight) continue;

@@ -282,9 +282,10 @@ typedef struct brume_depth {
   /// that layer. It has one sample per pixel, or several with brume_frame_params::depth_has_samples.
   VkImageView view;
   VkImageLayout layout;  ///< A layout in which it can be sampled. Stage: compute shaders, sampled reads.
-  float near_plane;      ///< Near plane [m], (0, 16384). The depth is a perspective projection onto [0, 1].
-  float far_plane;       ///< Far plane [m], above near_plane, may be infinite. Its depth means: no surface.
-  uint32_t reversed;     ///< 1: the depth is 1 at near_plane and 0 at far_plane.
+  /// Near plane [m], (0, 16384). The depth is a projection onto [0, 1]: see brume_frame_params::parallel.
+  float near_plane;
+  float far_plane;    ///< Far plane [m], above near_plane, may be infinite. Its depth means: no surface.
+  uint32_t reversed;  ///< 1: the depth is 1 at near_plane and 0 at far_plane.
 } brume_depth;
 
 typedef enum brume_normal_encoding {
@@ -432,6 +433,11 @@ typedef struct brume_frame_params {
   /// 1: `depth.view` has several samples per pixel. Smoke then ends at the farthest surface of a pixel, so
   /// that it hides all that it hides of any sample. Resolve colour before, and normals.
   uint32_t depth_has_samples;
+  /// 1: a parallel projection, also of the previous camera: all rays run along camera.forward, as in views of
+  /// an editor. `frustum`, which must be set, has distances [m] from the axis through camera.position in the
+  /// place of tangents, each in [-16384, 16384]; the depth is linear from depth.near_plane to
+  /// depth.far_plane, which is finite. Smoke behind camera.position is not drawn. Such frames have no tanks.
+  uint32_t parallel;
 } brume_frame_params;
 
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of

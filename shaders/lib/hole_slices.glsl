@@ -9,9 +9,16 @@ struct HoleSlices {
   float per_metre;
 };
 
-/// Distances from the eye to the nearest and the farthest point of the smoke's bounds.
+/// Distances along rays to the nearest and the farthest point of the smoke's bounds.
 vec2 smoke_reach() {
   const VolumeLayout volume = frame.smoke;
+  if (frame.camera.parallel != 0.0) {
+    const vec3 middle = volume.origin_world + 0.5 * (volume.bounds_min + volume.bounds_max) * volume.voxel_size;
+    const vec3 half_size = 0.5 * (volume.bounds_max - volume.bounds_min) * volume.voxel_size;
+    const float along = dot(middle - frame.camera.eye_world, frame.camera.forward);
+    const float reach = dot(half_size, abs(frame.camera.forward));
+    return max(vec2(along - reach, along + reach), vec2(0.0));
+  }
   const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - frame.camera.eye_world;
   const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - frame.camera.eye_world;
   return vec2(length(max(max(low, -high), vec3(0.0))), length(max(abs(low), abs(high))));

@@ -57,7 +57,9 @@ void main() {
 
   // The part of the ray inside the bounds of the media, t in metres; it ends at the surface behind.
   const vec3 along = camera_ray(frame.camera, pixel.position_px, frame.size_px);
-  const WorldRay ray = WorldRay(frame.camera.eye_world, normalize(along));
+  const vec3 origin = kInParallelView ? camera_origin(frame.camera, pixel.position_px, frame.size_px)
+                                      : frame.camera.eye_world;
+  const WorldRay ray = WorldRay(origin, normalize(along));
   const MediaRay media = media_ray(ray, pixel.position_px);
   const float jitter = blue_noise(blue_noise_tile, pixel.texel, frame.frame_index).r;
   const float per_depth = length(along);

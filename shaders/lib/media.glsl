@@ -25,7 +25,7 @@
 #include "lib/medium_smoke.glsl"
 #include "lib/medium_volumes.glsl"
 
-const bool kSmokeAlone = (kMedia & ~kMediaOfSmoke) == kMediumSmoke;
+const bool kSmokeAlone = (kMedia & ~kMediaOfAnySmoke) == kMediumSmoke;
 const bool kVolumesAlone = (kMedia & kMediaPresent) == kMediumVolumes;
 
 /// They neither scatter nor glow.

@@ -6,5 +6,6 @@
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
 const bool kHasVolumes = (kMedia & kMediumVolumes) != 0u;
+const bool kInParallelView = (kMedia & kRaysParallel) != 0u;
 
 #endif

@@ -131,7 +131,7 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, fl
     const vec4 noise = smoke_noise(noise_tile, frame.look, p_noise, frame.time);
     ++texture_samples;
     const vec2 erosion_noise = billows_and_wisps(noise);
-    const float pixel = t * frame.pixel_width;
+    const float pixel = kInParallelView ? frame.pixel_width : t * frame.pixel_width;
     const float weight = kHasDetail ? detail_weight(frame.look, pixel) : 0.0, level = detail_level(frame.look, pixel);
     const float threshold = erosion_threshold(frame.look, density, erosion_noise);
     const bool matters = kHasDetail && detail_matters(frame.look, density, threshold, weight);

@@ -6,8 +6,8 @@
 /// Distance along the view axis to the smoke of a pixel, for reprojection: the mean distance of the light that a
 /// homogeneous medium between the media's bounds and the surface sends to the eye. Smoke moves slowly; its parallax is
 /// that of this point, not of the surface behind.
-float smoke_distance(vec3 ray, float z_surface, float transmittance) {
-  const vec2 inside = clip_to_media(frame.camera.eye_world, ray, z_surface);
+float smoke_distance(vec3 origin, vec3 ray, float z_surface, float transmittance) {
+  const vec2 inside = clip_to_media(origin, ray, z_surface);
   const float enter = inside.x, leave = inside.y;
   if (leave <= enter) return z_surface;
   // Opaque smoke is dense.

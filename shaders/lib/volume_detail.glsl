@@ -13,7 +13,7 @@ float detail_left(uint i, vec3 p_voxel, float density, float t, inout uint textu
   const VolumeDetail detail = volumes[i].detail;
   if (!kHasVolumeDetail || detail.strength <= 0.0 || density <= 0.0) return 1.0;
   const VolumeEffect effect = volume_effects[i];
-  const float pixel = t * frame.pixel_width;
+  const float pixel = kInParallelView ? frame.pixel_width : t * frame.pixel_width;
   const SmokeLook look = look_of_detail(detail);
   const vec3 tile = p_voxel * effect.detail_per_voxel + effect.detail_offset;
   const vec2 noise = billows_and_wisps(textureLod(noise_tile, tile, 0.0));

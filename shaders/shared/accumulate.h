@@ -10,9 +10,9 @@ SHARED_BINDING(kBindMeanSmoke, 40u);
 SHARED_BINDING(kBindMeanPixels, 41u);
 
 struct AccumulateParams {
-  mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame
-  uvec2 past_size_px;         // its size, which may be another one
-  uint has_past;              // 0: there is no previous frame
+  mat4 past_from_world;  // planning::PastView of the previous frame
+  uvec2 past_size_px;    // its size, which may be another one
+  uint has_past;         // 0: there is no previous frame
 };
 SHARED_SIZE(AccumulateParams, 76);
 

@@ -29,9 +29,9 @@ struct Decal {
 SHARED_SIZE(Decal, 168);
 
 struct DecalParams {
-  mat4 past_clip_from_world;  // Camera::clip_from_world of the frame before
-  uvec2 past_size_px;         // its size, which may be another one
-  uint past_frames;           // in a row before this one; 0: none, and a frame takes all samples itself
+  mat4 past_from_world;  // planning::PastView of the frame before
+  uvec2 past_size_px;    // its size, which may be another one
+  uint past_frames;      // in a row before this one; 0: none, and a frame takes all samples itself
   uint decal_count;
 };
 SHARED_SIZE(DecalParams, 80);

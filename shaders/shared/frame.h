@@ -11,18 +11,19 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindFrame, 0u);
 
-/// A pinhole camera. The ray of a pixel points along forward + (x + shift.x) right + (y + shift.y) up, x and
-/// y in [-1, 1].
+/// With s = (x + shift.x) right + (y + shift.y) up, x and y in [-1, 1], the ray of a pixel begins at eye_world +
+/// parallel s and points along forward + (1 - parallel) s. The depth is near_z / distance along forward.
 struct Camera {
-  mat4 clip_from_world;  // reverse depth, infinite far plane: depth = near / distance along forward
+  mat4 clip_from_world;  // infinite far plane; in a parallel view x, y and w alone
   vec3 eye_world;
-  float near_z;  // [m]
-  vec3 forward;  // unit
-  vec3 right;    // scaled by tan(half the horizontal field of view)
-  vec3 up;       // scaled by tan(half the vertical field of view)
+  float near_z;    // [m]
+  vec3 forward;    // unit
+  float parallel;  // 1: a parallel view; 0: a pinhole
+  vec3 right;      // scaled by tan(half the horizontal field of view), or half of the picture's width [m]
+  vec3 up;         // scaled by tan(half the vertical field of view), or half of its height [m]
   vec2 shift;
 };
-SHARED_SIZE(Camera, 124);
+SHARED_SIZE(Camera, 128);
 
 /// Distant light: a gradient from horizon to zenith, and ambient light.
 struct Sky {
@@ -100,7 +101,7 @@ struct FrameConstants {
   HoleClusterLayout holes;
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
-  float pixel_width; // at a distance of 1 m, in the middle of the image [m]
+  float pixel_width; // at a distance of 1 m, in the middle of the image; in a parallel view anywhere [m]
   float exposure;    // multiplies radiance before the tone curve
   uint tone;         // kToneNeutral or kToneStandard
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
@@ -108,7 +109,7 @@ struct FrameConstants {
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
   IndirectLayout indirect;
 };
-SHARED_SIZE(FrameConstants, 680);
+SHARED_SIZE(FrameConstants, 684);
 
 SHARED_END
 #endif

@@ -21,12 +21,16 @@ SHARED_CONST uint kMediumDense = 1024u;     // one is dense (VolumeInstance::is_
 SHARED_CONST uint kMediumFineShadows = 2048u;
 SHARED_CONST uint kMediumDetail = 4096u;  // its noise has detail (shared/erosion.h). Never without kMediumSmoke.
 SHARED_CONST uint kMediumVolumeDetail = 8192u;  // a volume has (shared/volume_detail.h)
+// How rays meet them: in a parallel view.
+SHARED_CONST uint kRaysParallel = 16384u;
 /// The media themselves.
 SHARED_CONST uint kMediaPresent = kMediumSmoke | kMediumVolumes;
 /// What optical depths depend on.
 SHARED_CONST uint kMediaOfDepths = kMediaPresent | kMediumTransfer;
 /// How the smoke is drawn, whatever else there is.
 SHARED_CONST uint kMediaOfSmoke = kMediumFineShadows | kMediumDetail;
+/// What says nothing about the media beside the smoke.
+SHARED_CONST uint kMediaOfAnySmoke = kMediaOfSmoke | kRaysParallel;
 /// Those that holes may be in.
 SHARED_CONST uint kMediaWithHoles = kMediumSmoke;
 /// Those that are drawn with tiles of noise, whatever their look.

@@ -11,9 +11,9 @@ SHARED_BINDING(kBindMotionEntries, 121u);
 SHARED_CONST float kNoSmoke = 65504.0f;
 
 struct SmokeMotionParams {
-  mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame, without jitter
-  vec2 jitter_px;             // from the middle of each pixel to the point that it shows, y down
-  uint has_past;              // 0: there is no previous frame
+  mat4 past_from_world;  // planning::PastView of the previous frame, without jitter
+  vec2 jitter_px;        // from the middle of each pixel to the point that it shows, y down
+  uint has_past;         // 0: there is no previous frame
 };
 SHARED_SIZE(SmokeMotionParams, 76);
 

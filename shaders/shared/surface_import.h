@@ -12,15 +12,16 @@ SHARED_BINDING(kBindHostNormals, 100u);
 SHARED_BINDING(kBindImportedNormals, 101u);
 SHARED_BINDING(kBindLayerOcclusion, 102u);
 
-/// A depth of the host is d = offset + scale / distance along the view axis.
+/// A depth d of the host is affine in near_z / distance along the view axis or, in a parallel view, in its inverse.
 struct SurfaceImportParams {
   uvec2 size_px;
-  uvec2 origin_px;        // of the picture in the host's image
-  float offset;
-  float near_over_scale;  // near_z / scale: to reverse depth, by a multiplication
-  float none;             // the host's depth where nothing was drawn
+  uvec2 origin_px;   // of the picture in the host's image
+  float offset;      // of d
+  float scale;       // (d - offset) scale is near_z / distance or its inverse
+  float none;        // the host's depth where nothing was drawn
+  uint is_parallel;
 };
-SHARED_SIZE(SurfaceImportParams, 28);
+SHARED_SIZE(SurfaceImportParams, 32);
 
 /// How a host stores normals: as they are; n as (n + 1) / 2; the upper half of an octahedron, and its lower half folded
 /// over it, in x and y (Meyer et al. 2010, "On Floating-Point Normal Vectors"); that likewise from 0 to 1.

@@ -22,13 +22,17 @@ glm::vec3 unit(const brume_point& direction, const char* name) {
   return glm::vec3(v / length);
 }
 
-std::optional<scene::Frustum> to_frustum(const brume_frustum& given) {
-  if (given.left == 0 && given.right == 0 && given.down == 0 && given.up == 0) return std::nullopt;
-  constexpr float kMost = 1000;
-  require(given.left >= -kMost && given.left < given.right && given.right <= kMost,
-          "`frustum.left` must be below `frustum.right`, both within 1000");
-  require(given.down >= -kMost && given.down < given.up && given.up <= kMost,
-          "`frustum.down` must be below `frustum.up`, both within 1000");
+std::optional<scene::Frustum> to_frustum(const brume_frustum& given, bool parallel) {
+  const bool is_empty = given.left == 0 && given.right == 0 && given.down == 0 && given.up == 0;
+  require(!(is_empty && parallel), "`frustum` must be set where `parallel` is 1");
+  if (is_empty) return std::nullopt;
+  const float most = parallel ? kMostMetres : 1000;
+  require(given.left >= -most && given.left < given.right && given.right <= most,
+          parallel ? "`frustum.left` must be below `frustum.right`, both within 16384"
+                   : "`frustum.left` must be below `frustum.right`, both within 1000");
+  require(given.down >= -most && given.down < given.up && given.up <= most,
+          parallel ? "`frustum.down` must be below `frustum.up`, both within 16384"
+                   : "`frustum.down` must be below `frustum.up`, both within 1000");
   return scene::Frustum{given.left, given.right, given.down, given.up};
 }
 
@@ -38,7 +42,7 @@ planning::ViewSample to_sample(const brume_camera& camera) {
   return {{camera.jitter_x, camera.jitter_y}};
 }
 
-scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum) {
+scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum, bool parallel) {
   scene::Camera made;
   made.position_world = position(camera.position, "camera.position");
   // Far away, for the direction's precision far from the origin.
@@ -47,7 +51,7 @@ scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum
   made.up_world = unit(camera.up, "camera.up");
   require(glm::length(glm::cross(forward, made.up_world)) > 1e-3f,
           "`camera.up` must not be along `camera.forward`");
-  made.frustum = to_frustum(frustum);
+  made.frustum = to_frustum(frustum, parallel);
   // A wider range than in timelines: the host draws with this angle in any case.
   require(made.frustum || (camera.vertical_fov > 0 && camera.vertical_fov < 3.1415f),
           "`camera.vertical_fov` must be above 0 and below pi");
@@ -57,7 +61,8 @@ scene::Camera to_camera(const brume_camera& camera, const brume_frustum& frustum
 
 planning::View::Previous to_previous(const brume_frame_params& params) {
   try {
-    return {to_camera(params.previous_camera, params.previous_frustum), to_sample(params.previous_camera)};
+    return {to_camera(params.previous_camera, params.previous_frustum, params.parallel != 0),
+            to_sample(params.previous_camera)};
   } catch (const api::CallFailure& failure) {
     api::fail(failure.result, "of the previous view, " + failure.message);
   }
@@ -237,7 +242,10 @@ passes::HostDepthRange depth_range(const brume_frame_params& params) {
   require(depth.near_plane > 0 && depth.near_plane < kMostMetres,
           "`depth.near_plane` must be above 0 and below 16384");
   require(depth.far_plane > depth.near_plane, "`depth.far_plane` must be above near_plane");
-  return {depth.near_plane, depth.far_plane, depth.reversed != 0, params.depth_has_samples != 0};
+  require(params.parallel == 0 || std::isfinite(depth.far_plane),
+          "`depth.far_plane` must be finite where `parallel` is 1");
+  return {depth.near_plane, depth.far_plane, depth.reversed != 0, params.parallel != 0,
+          params.depth_has_samples != 0};
 }
 
 passes::HostNormals host_normals(const brume_normals& normals) {
@@ -255,7 +263,8 @@ void set_frame_input(const brume_frame_params& params, const api::SmokeField* fi
   input.slices = std::move(slices);
 
   // The view and the time.
-  input.view.camera = to_camera(params.camera, params.frustum);
+  if (params.parallel) input.view.projection = planning::Projection::parallel;
+  input.view.camera = to_camera(params.camera, params.frustum, params.parallel != 0);
   input.view.size_px = {params.part.width, params.part.height};
   require(params.view < BRUME_MAX_VIEWS, "`view` must be below 4");
   input.view.index = params.view;

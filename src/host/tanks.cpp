@@ -126,6 +126,8 @@ planning::TankPlacement placement_of(const brume_shown_tank& shown, const std::s
 
 void add_tanks(Call& call, const brume_frame_params& params, planning::FrameInput& frame) {
   require(params.tank_count <= scene::kMostTanks, "at most 4 tanks");
+  require(params.tank_count == 0 || params.parallel == 0,
+          "frames with `tanks` need a perspective camera: `parallel` must be 0");
   if (params.tank_count > 0) required(params.tanks, "tanks");
   for (std::size_t i = 0; i < params.tank_count; ++i) {
     const brume_shown_tank& shown = params.tanks[i];

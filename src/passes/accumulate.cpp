@@ -29,7 +29,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, g
     for (const gpu::Image& image : smoke_) recorder.clear(image, {});
   const std::size_t before = stored.current, now = 1 - before;
   const planning::PastView from = past.value_or(planning::PastView());
-  const shared::AccumulateParams params{from.clip_from_world, from.size_px,
+  const shared::AccumulateParams params{from.seen_from_world, from.size_px,
                                         past && stored.is_valid ? 1u : 0u};
   recorder.bind(pipeline_,
                 {

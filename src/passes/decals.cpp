@@ -32,7 +32,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, glm::u
     for (const gpu::Image& image : occlusion_) recorder.clear(image, {});
   const std::size_t before = stored.current, now = 1 - before;
   const planning::PastView from = past.value_or(planning::PastView());
-  const shared::DecalParams params{from.clip_from_world, from.size_px, past ? stored.frames : 0,
+  const shared::DecalParams params{from.seen_from_world, from.size_px, past ? stored.frames : 0,
                                    decal_count_};
   recorder.bind(pipeline_,
                 {

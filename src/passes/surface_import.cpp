@@ -10,13 +10,30 @@
 namespace brume::passes {
 namespace {
 
+/// The parameters of a parallel view, with d = (distance - n) / (f - n) or 1 minus this quotient.
+shared::SurfaceImportParams params_of_parallel(const HostDepthRange& range, float near_z,
+                                               const HostPart& part) {
+  const double n = range.near_plane, f = range.far_plane, span = range.reversed ? n - f : f - n;
+  return {part.size_px,
+          part.origin_px,
+          static_cast<float>(-(range.reversed ? f : n) / span),
+          static_cast<float>(span / double{near_z}),
+          range.reversed ? 0.0f : 1.0f,
+          1};
+}
+
 shared::SurfaceImportParams params_of(const HostDepthRange& range, float near_z, const HostPart& part) {
+  if (range.parallel) return params_of_parallel(range, near_z, part);
   // d = f / (f - n) - f n / (f - n) / distance, 1 minus that where it is reversed.
   const double n = range.near_plane, f = range.far_plane;
   const double offset = std::isinf(f) ? 1 : f / (f - n), scale = std::isinf(f) ? n : f * n / (f - n);
   const double sign = range.reversed ? 1 : -1;
-  return {part.size_px, part.origin_px, static_cast<float>(range.reversed ? 1 - offset : offset),
-          static_cast<float>(near_z / (sign * scale)), range.reversed ? 0.0f : 1.0f};
+  return {part.size_px,
+          part.origin_px,
+          static_cast<float>(range.reversed ? 1 - offset : offset),
+          static_cast<float>(near_z / (sign * scale)),
+          range.reversed ? 0.0f : 1.0f,
+          0};
 }
 
 }  // namespace
@@ -38,7 +55,7 @@ void SurfaceImport::record(gpu::Recorder& recorder, const gpu::Image& host_depth
 
 void SurfaceImport::record_copy(gpu::Recorder& recorder, const gpu::Image& depth,
                                 const gpu::Image& copy) const {
-  record(recorder, pipeline_, depth, {glm::uvec2(copy.info().size), {0, 0}, 0, 1, 0}, copy);
+  record(recorder, pipeline_, depth, {glm::uvec2(copy.info().size), {0, 0}, 0, 1, 0, 0}, copy);
 }
 
 void SurfaceImport::record(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline,

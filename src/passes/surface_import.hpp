@@ -16,6 +16,7 @@ struct HostDepthRange {
   float near_plane = 0.1f;   ///< [m], > 0.
   float far_plane = 1000;    ///< [m], above near_plane; may be infinite.
   bool reversed = false;     ///< 1 at near_plane, 0 at far_plane, instead of the other way around.
+  bool parallel = false;     ///< Linear between both planes, which are finite.
   bool has_samples = false;  ///< The image has several samples per pixel; the farthest one counts.
 };
 

@@ -5,7 +5,8 @@
 namespace brume::planning {
 namespace {
 
-/// Half of a picture 1 m in front of the eye: its size, and where its middle is, in such halves.
+/// Half of a picture 1 m in front of the eye, or of a parallel one: its size, and where its middle is, in
+/// such halves.
 struct HalfPicture {
   glm::vec2 tangents, middle;
 };
@@ -25,7 +26,8 @@ HalfPicture half_picture(const scene::Camera& camera, glm::uvec2 size_px) {
 
 }  // namespace
 
-shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample) {
+shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample,
+                             Projection projection) {
   // Axes of the view: forward, right, up.
   const glm::vec3 apart = camera.target_world - camera.position_world;
   const glm::vec3 forward = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
@@ -45,16 +47,32 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
 
   // Reverse depth, infinite far plane; Vulkan's y runs down.
   glm::mat4 rows(0);
-  rows[3] = glm::vec4(forward, -glm::dot(forward, p));
+  const bool parallel = projection == Projection::parallel;
+  rows[3] = parallel ? glm::vec4(0, 0, 0, 1) : glm::vec4(forward, -glm::dot(forward, p));
   rows[2] = glm::vec4(0, 0, 0, kNearPlane);
   rows[1] = glm::vec4(-up, glm::dot(up, p)) / tan_y + shift.y * rows[3];
   rows[0] = glm::vec4(right, -glm::dot(right, p)) / tan_x - shift.x * rows[3];
-  return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up, shift};
+  return {glm::transpose(rows), p,          kNearPlane, forward, parallel ? 1.0f : 0.0f,
+          tan_x * right,        tan_y * up, shift};
 }
 
-PastView past_view(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample) {
-  return {device_camera(camera, size_px, sample).clip_from_world,
-          device_camera(camera, size_px).clip_from_world, size_px};
+glm::mat4 seen_from_world(const shared::Camera& camera) {
+  glm::mat4 rows = glm::transpose(camera.clip_from_world);
+  rows[2] = rows[3];
+  if (camera.parallel > 0) rows[3] = glm::vec4(camera.forward, -glm::dot(camera.forward, camera.eye_world));
+  return glm::transpose(rows);
+}
+
+PastView past_view(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample,
+                   Projection projection) {
+  return {seen_from_world(device_camera(camera, size_px, sample, projection)),
+          seen_from_world(device_camera(camera, size_px, {}, projection)), size_px};
+}
+
+glm::vec4 viewpoint(const View& view) {
+  const scene::Camera& camera = view.camera;
+  if (view.projection == Projection::perspective) return {camera.position_world, 1};
+  return {camera.position_world - camera.target_world, 0};
 }
 
 ViewSample film_sample(std::uint32_t frame_index) {

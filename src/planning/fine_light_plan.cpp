@@ -6,7 +6,7 @@
 namespace brume::planning {
 
 FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibility& visibility,
-                              const glm::vec3& eye_world, float pixel_width, Allocator memory) {
+                              const glm::vec3& eye_world, PixelWidth width, Allocator memory) {
   const shared::VolumeLayout& layout = smoke.layout();
   constexpr float kBrick{shared::kBrickVoxels};
   const float texel = layout.voxel_size / float{shared::kFineTexels};
@@ -16,7 +16,7 @@ FineLightPlan plan_fine_light(const smoke::SmokeBricks& smoke, const SmokeVisibi
     const glm::vec3 low = layout.origin_world + layout.voxel_size * kBrick * glm::vec3(smoke.brick_of(slot));
     const glm::vec3 nearest = glm::clamp(eye_world, low, low + layout.voxel_size * kBrick);
     const float distance = glm::distance(eye_world, nearest);
-    if (texel > 2 * pixel_width * distance) near.emplace_back(distance, slot);
+    if (texel > 2 * width.at(distance)) near.emplace_back(distance, slot);
   }
   std::sort(near.begin(), near.end());
   near.resize(std::min<std::size_t>(near.size(), kMostFinePages));

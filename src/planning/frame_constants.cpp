@@ -35,7 +35,7 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.holes = plan.holes.layout();
   frame.frame_index = input.view.frame_index;
   frame.time = input.smoke.time;
-  frame.pixel_width = pixel_width(plan.camera, plan.size_px);
+  frame.pixel_width = pixel_width(plan.camera, plan.size_px).at(1);
   frame.exposure = input.view.exposure;
   frame.tone = static_cast<std::uint32_t>(input.view.tone);
   frame.texture_bias = texture_bias(input.view.sample);

@@ -48,8 +48,13 @@ struct ViewSample {
 /// The most views of one renderer, such as the eyes of a headset or the parts of a split screen.
 constexpr std::uint32_t kMaxViews = 4;
 
+/// Parallel: all rays run along the view axis, and the frustum of the camera, which it must have, has the
+/// distances of its sides from the axis [m]. Only pictures of a host may be parallel.
+enum class Projection { perspective, parallel };
+
 struct View {
   scene::Camera camera;
+  Projection projection = Projection::perspective;  ///< Also of the picture before.
   /// Which of the renderer's views this is, below kMaxViews: each accumulates on its own.
   std::uint32_t index = 0;
   /// Size of the picture [px], at most the renderer's size; the renderer's images hold it in their top left

@@ -93,8 +93,9 @@ void plan_past(FramePlan& plan, PlanHistory& history) {
   std::optional<PastView>& last = history.views.propose()[view.index];
   if (view.continues) plan.past = last;
   if (view.previous)
-    plan.past = past_view(view.previous->camera, last ? last->size_px : plan.size_px, view.previous->sample);
-  last = past_view(view.camera, plan.size_px, view.sample);
+    plan.past = past_view(view.previous->camera, last ? last->size_px : plan.size_px, view.previous->sample,
+                          view.projection);
+  last = past_view(view.camera, plan.size_px, view.sample, view.projection);
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -132,7 +133,8 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const FrameVector<Box<float>> boxes = caster_boxes(plan.media, plan.visibility, plan.smoke, memory);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows(
-          {plan.lights, target.sun_clip_from_world, device_camera(plan.input.view.camera, plan.size_px)},
+          {plan.lights, target.sun_clip_from_world,
+           device_camera(plan.input.view.camera, plan.size_px, {}, plan.input.view.projection)},
           boxes, target.smoke_shadow_atlas, memory),
       {plan.smoke, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
        plan.level_changed || plan.volume_light.update || plan.volume_light.casters_changed ||
@@ -145,7 +147,7 @@ void plan_smoke_light(FramePlan& plan, const PlanTarget& target, PlanHistory& hi
   const FrameInput& input = plan.input;
   plan.smoke_light = &history.smoke_light.plan(
       {plan.smoke, input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
-       input.smoke.look, input.environment.sky, input.view.camera.position_world,
+       input.smoke.look, input.environment.sky, viewpoint(input.view),
        plan.level_changed || plan.volume_light.casters_changed || input.quality.rebuild_light ||
            (plan.smoke == history.resident.get() && history.resident->shows_other_smoke()),
        input.quality.light_update_fraction, plan.noise.catches_up || plan.noise.motion_changed,
@@ -175,7 +177,8 @@ void plan_volume_light(FramePlan& plan, const PlanTarget& target, PlanHistory& h
 FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px, Allocator memory)
     : input(frame_input),
       size_px(frame_size_px),
-      camera(device_camera(frame_input.view.camera, frame_size_px, frame_input.view.sample)),
+      camera(device_camera(frame_input.view.camera, frame_size_px, frame_input.view.sample,
+                           frame_input.view.projection)),
       frustum(camera),
       lights(memory),
       visibility{.slots = FrameVector<std::uint32_t>(memory)},

@@ -63,7 +63,7 @@ bool LightChangeTracker::caster_bounds_changed(const SmokeLightInputs& inputs) c
 }
 
 bool LightChangeTracker::gather_inputs_changed(const SmokeLightInputs& inputs) const {
-  return !last_ || last_->eye_world != inputs.eye_world || !same_bytes(last_->sky, inputs.sky) ||
+  return !last_ || last_->viewpoint != inputs.viewpoint || !same_bytes(last_->sky, inputs.sky) ||
          last_->indirect_version != inputs.indirect_version;
 }
 
@@ -128,7 +128,7 @@ void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
            inputs.time,
            inputs.look,
            inputs.sky,
-           inputs.eye_world,
+           inputs.viewpoint,
            inputs.visibility->caster_bounds,
            inputs.indirect_version};
   layout_ = inputs.volume->layout();

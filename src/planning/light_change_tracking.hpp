@@ -29,8 +29,8 @@ struct SmokeLightInputs {
   float time = 0;  ///< Time of holes and noise [s].
   shared::SmokeLook look{};
   shared::Sky sky{};
-  glm::vec3 eye_world{0};
-  bool rebuild = false;  ///< Something else changed, walls for instance: no cached ray holds.
+  glm::vec4 viewpoint{0};  ///< planning::viewpoint of the camera.
+  bool rebuild = false;    ///< Something else changed, walls for instance: no cached ray holds.
   /// About the fraction of what changed that this frame updates, (0, 1].
   float update_fraction = 1;
   bool noise_changed = false;          ///< The noise changed, though the time may not have.
@@ -78,7 +78,7 @@ class LightChangeTracker {
     float time = 0;
     shared::SmokeLook look{};
     shared::Sky sky{};
-    glm::vec3 eye_world{0};
+    glm::vec4 viewpoint{0};
     Box<float> caster_bounds;
     std::uint64_t indirect_version = 0;
   };

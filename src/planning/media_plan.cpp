@@ -420,6 +420,7 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
   plan.frame.step_length *= input.quality.step_scale;
   // Without any, the pipelines are those of smoke, which later frames probably need.
   if (plan.media == 0) plan.media = shared::kMediumSmoke;
+  if (input.view.projection == Projection::parallel) plan.media |= shared::kRaysParallel;
   if (plan.casters == 0) plan.casters = shared::kMediumSmoke;
   return plan;
 }

@@ -33,7 +33,7 @@ struct PlacedVolume {
 };
 
 struct MediaPlan {
-  std::uint32_t media = 0;    ///< Set of shared::kMedium..., of what may be in view.
+  std::uint32_t media = 0;    ///< Set of shared::kMedium..., of what may be in view, and kRaysParallel.
   std::uint32_t casters = 0;  ///< The same of all that may cast shadows, in view or not.
   /// Those that may be in view, FrameMedia::volume_count, before those that only cast shadows.
   FrameVector<PlacedVolume> volumes;

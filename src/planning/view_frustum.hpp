@@ -14,8 +14,8 @@ struct WorldSphere {
   float radius = 0;
 };
 
-/// The pyramid before a camera, without a far plane. Its tests are conservative: what is visible is never
-/// rejected.
+/// The pyramid before a camera, or the prism before a parallel one, without a far plane. Its tests are
+/// conservative: what is visible is never rejected.
 class ViewFrustum {
  public:
   explicit ViewFrustum(const shared::Camera& camera);
@@ -31,7 +31,8 @@ class ViewFrustum {
 
  private:
   glm::vec3 eye_world_;
-  std::array<glm::vec3, 5> inward_;  // normals of the planes through the eye, unit
+  std::array<glm::vec3, 5> inward_;  // normals of the planes, unit
+  std::array<float, 5> behind_;      // how far the eye is in front of them
 };
 
 }  // namespace brume::planning

@@ -125,6 +125,8 @@ void Renderer::commit_recorded() {
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
+  if (input.view.projection == planning::Projection::parallel && (!host_ || !input.tanks.empty()))
+    throw Error(ErrorCode::bad_input, "a picture of surfaces or tanks of its own needs a perspective camera");
   commit_recorded();
 
   // Smoke gives memory back where its budget shrank.

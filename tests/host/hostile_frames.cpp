@@ -454,10 +454,14 @@ void HostileFrames::record() {
   params.continues_previous = below(2);
   params.view = below(BRUME_MAX_VIEWS);
   params.has_previous = below(2);
+  params.parallel = chance(0.2);
+  if (params.parallel || chance(0.3))
+    params.previous_frustum =
+        params.frustum = {-within(0, 2), within(0.01f, 3), -within(0, 2), within(0.01f, 3)};
+  if (params.parallel) params.depth.far_plane = 50;
   params.previous_camera = params.camera;
   params.previous_camera.position.x += within(0, 1);
   if (chance(0.3)) params.part = {below(8), below(4), 1 + below(8), 1 + below(5)};
-  if (chance(0.3)) params.frustum = {-within(0, 2), within(0.01f, 3), -within(0, 2), within(0.01f, 3)};
   params.seconds = within(0, 9);
   spoil(params);
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);

@@ -32,7 +32,7 @@ class AccumulateTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& r) {
       pass_.record(r, buffer, frame.size_px, depth, image, continues ? past_ : std::nullopt);
     });
-    past_ = {frame.camera.clip_from_world, frame.camera.clip_from_world, frame.size_px};
+    past_ = {planning::seen_from_world(frame.camera), glm::mat4(1), frame.size_px};
     Texels shown;
     shown = from_half(read_back<Half4>(pass_.gathered()));
     return shown;

@@ -144,7 +144,7 @@ class DecalFixture : public gpu::GpuTest {
       pass_->record(recorder, frame_buffer, frame.size_px, gbuffer_, noise_, slices_->image(),
                     continues ? past_ : std::nullopt);
     });
-    past_ = {camera_.clip_from_world, camera_.clip_from_world, size_};
+    past_ = {planning::seen_from_world(camera_), glm::mat4(1), size_};
     return from_half(read_back<Half4>(pass_->occlusion()));
   }
 

@@ -191,6 +191,35 @@ TEST_F(SurfaceNormalTest, OfDepthAreThoseOfPlanes) {
   }
 }
 
+// In a parallel view distances are affine over a plane. They round by two units, divided by the width of a
+// pixel.
+TEST_F(SurfaceNormalTest, OfDepthAreThoseOfPlanesInAParallelView) {
+  scene::Camera view{{1, 2, 3}, {0.4f, 1.5f, -0.3f}};
+  view.frustum = {-3, 4, -2, 1};
+  camera_ = planning::device_camera(view, size_, {}, planning::Projection::parallel);
+  const glm::dvec3 forward(camera_.forward), right(camera_.right), up(camera_.up);
+  for (int planes = 0; planes < 12;) {
+    glm::dvec3 normal = direction();
+    if (glm::dot(normal, forward) > 0) normal = -normal;
+    double nearest = 1e9, farthest = 0;
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+      const glm::dvec3 from_plane = xy(i).x * right + xy(i).y * up - 6.0 * forward;
+      const double z = -glm::dot(normal, from_plane) / glm::dot(normal, forward);
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+      depth_[i] = static_cast<float>(double{camera_.near_z} / z);
+    }
+    if (nearest < 0.2 || farthest > 100) continue;
+    ++planes;
+    const glm::dvec2 pixel = 2.0 * glm::dvec2(glm::length(right), glm::length(up)) / glm::dvec2(size_);
+    const double off = 6 * kUnit * farthest * std::hypot(1 / pixel.x, 1 / pixel.y);
+    const std::vector<glm::vec4> derived = derive();
+    for (std::size_t i = 0; i < depth_.size(); ++i)
+      EXPECT_LT(glm::length(glm::dvec3(derived[i]) - normal), off + 64 * kUnit + kHalfUnit)
+          << planes << ' ' << i;
+  }
+}
+
 // Also in the pixels at an edge: each takes the side of its own plane. Surfaces are three pixels wide or
 // more.
 TEST_F(SurfaceNormalTest, OfDepthKeepToTheirSideOfAnEdge) {

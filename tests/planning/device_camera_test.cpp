@@ -27,6 +27,37 @@ TEST(DeviceCamera, RaysAndProjectionAgree) {
   }
 }
 
+TEST(DeviceCamera, RaysAndProjectionAgreeInAParallelView) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> value(-5, 5), share(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    scene::Camera camera{{value(random), value(random), value(random)},
+                         {value(random), value(random), value(random)}};
+    const glm::vec2 low(value(random), value(random)), size(1 + share(random), 0.5f + share(random));
+    camera.frustum = {low.x, low.x + size.x, low.y, low.y + size.y};
+    const ViewSample jittered{{share(random) - 0.5f, share(random) - 0.5f}};
+    const glm::uvec2 size_px(1 + random() % 100, 1 + random() % 100);
+    const shared::Camera c = device_camera(camera, size_px, jittered, Projection::parallel);
+    EXPECT_NEAR(pixel_width(c, size_px).at(value(random)), size.y / static_cast<float>(size_px.y), 1e-6f);
+
+    // A point of the picture, and its distance in metres from the left and from below.
+    const glm::vec2 ndc(2 * share(random) - 1, 2 * share(random) - 1);
+    const float along = 0.1f + 20 * share(random);
+    const glm::vec3 point =
+        c.eye_world + (c.shift.x + ndc.x) * c.right + (c.shift.y - ndc.y) * c.up + along * c.forward;
+    const glm::vec4 seen = seen_from_world(c) * glm::vec4(point, 1);
+    EXPECT_NEAR(seen.x / seen.z, ndc.x, 1e-4f);
+    EXPECT_NEAR(seen.y / seen.z, ndc.y, 1e-4f);
+    EXPECT_NEAR(seen.w, along, 1e-4f);
+    const glm::vec2 px = (0.5f * ndc + 0.5f) * glm::vec2(size_px) + jittered.pixel,
+                    metres =
+                        glm::vec2(px.x, static_cast<float>(size_px.y) - px.y) / glm::vec2(size_px) * size +
+                        low;
+    EXPECT_NEAR(glm::dot(point - c.eye_world, glm::normalize(c.right)), metres.x, 1e-4f);
+    EXPECT_NEAR(glm::dot(point - c.eye_world, glm::normalize(c.up)), metres.y, 1e-4f);
+  }
+}
+
 // A picture that the view axis meets anywhere, even outside.
 TEST(DeviceCamera, SidesHaveTheTangentsOfTheFrustum) {
   std::mt19937 random(3);

@@ -33,7 +33,7 @@ class FineLightPlanTest : public ::testing::Test {
 
 TEST_F(FineLightPlanTest, TakesTheNearestBricksFirst) {
   for (const glm::vec3 eye : {glm::vec3(0, 8, 10), glm::vec3(200, 15, 2), glm::vec3(500, 8, 10)}) {
-    const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, 1e-4f);
+    const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, {1e-4f});
     ASSERT_GT(visibility_.visible_count, kMostFinePages);
     ASSERT_EQ(plan.slots.size(), kMostFinePages);
     ASSERT_EQ(plan.pages.size(), volume_.slot_count());
@@ -58,7 +58,7 @@ TEST_F(FineLightPlanTest, TakesTheNearestBricksFirst) {
 TEST_F(FineLightPlanTest, LeavesOutWhatTwoPixelsAreWiderThan) {
   const glm::vec3 eye(0, 8, 10);
   // A texel of an eighth of a metre is as wide as two pixels at 30 m.
-  const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, 0.125f / 60);
+  const FineLightPlan plan = plan_fine_light(volume_, visibility_, eye, {0.125f / 60});
   EXPECT_FALSE(plan.slots.empty());
   for (std::uint32_t i = 0; i < visibility_.visible_count; ++i) {
     const std::uint32_t slot = visibility_.slots[i];
@@ -67,7 +67,7 @@ TEST_F(FineLightPlanTest, LeavesOutWhatTwoPixelsAreWiderThan) {
 }
 
 TEST_F(FineLightPlanTest, KeepsTheNearestPages) {
-  FineLightPlan plan = plan_fine_light(volume_, visibility_, glm::vec3(0, 8, 10), 1e-4f);
+  FineLightPlan plan = plan_fine_light(volume_, visibility_, glm::vec3(0, 8, 10), {1e-4f});
   const FineLightPlan all = plan;
   for (const std::uint32_t count : {kMostFinePages + 1, kMostFinePages, 7u, 0u}) {
     keep_pages(plan, count);
@@ -79,7 +79,7 @@ TEST_F(FineLightPlanTest, KeepsTheNearestPages) {
 }
 
 TEST_F(FineLightPlanTest, HasNothingWithoutVisibleSmoke) {
-  const FineLightPlan plan = plan_fine_light(volume_, {}, glm::vec3(0), 1e-3f);
+  const FineLightPlan plan = plan_fine_light(volume_, {}, glm::vec3(0), {1e-3f});
   EXPECT_TRUE(plan.slots.empty());
   EXPECT_EQ(plan.pages.size(), volume_.slot_count());
   EXPECT_EQ(std::count(plan.pages.begin(), plan.pages.end(), 0u), std::ptrdiff_t{volume_.slot_count()});

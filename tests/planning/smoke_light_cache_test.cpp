@@ -217,7 +217,7 @@ TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
     std::uint32_t oldest = 0;
     for (std::uint32_t frame = 1; frame < 100; ++frame) {
       now.time += 0.01f;
-      now.eye_world.x += 0.1f;
+      now.viewpoint.x += 0.1f;
       const double followed = ages.take(planned(cache, now), frame);
       oldest = std::max(oldest, ages.oldest(frame));
       // Every brick was new in the first frame, and is updated four times as fast until all of it was.

@@ -36,15 +36,23 @@ class SmokeVisibilityTest : public ::testing::Test {
     const glm::vec3 size = glm::vec3(kAcross, kHigh, kAcross) * kVoxel - 2 * margin;
     return glm::vec3(margin) + size * glm::vec3(unit(random_), unit(random_), unit(random_));
   }
-  shared::Camera camera() {
+  /// A parallel one has a picture 1 to 40 m wide.
+  shared::Camera camera(bool parallel) {
     shared::Camera camera{};
     camera.eye_world = inside(0);
     const float yaw = 6.2832f * unit(random_), pitch = 1.2f * (unit(random_) - 0.5f);
     camera.forward = {std::cos(pitch) * std::cos(yaw), std::sin(pitch), std::cos(pitch) * std::sin(yaw)};
-    const float wide = 0.05f + 0.7f * unit(random_);
+    camera.parallel = parallel ? 1.0f : 0.0f;
+    const float wide = (0.05f + 0.7f * unit(random_)) * (parallel ? 27 : 1);
     camera.right = wide * glm::normalize(glm::cross(camera.forward, glm::vec3(0, 1, 0)));
     camera.up = 0.6f * wide * glm::normalize(glm::cross(camera.right, camera.forward));
     return camera;
+  }
+  /// Where the ray of a point of the picture begins, and where it is at a distance along the axis.
+  static std::pair<glm::vec3, glm::vec3> ray_of(const shared::Camera& camera, float x, float y, float far) {
+    const glm::vec3 aside = x * camera.right + y * camera.up,
+                    from = camera.eye_world + camera.parallel * aside;
+    return {from, from + far * (camera.forward + (1 - camera.parallel) * aside)};
   }
   SmokeVisibility visible_from(const shared::Camera& camera) const {
     const ViewFrustum view(camera);
@@ -81,11 +89,10 @@ TEST_F(SmokeVisibilityTest, ABoxAroundAPointInViewMayBeInView) {
   const auto any = [&] { return glm::vec3(unit(random_), unit(random_), unit(random_)); };
   int hidden = 0;
   for (int i = 0; i < 20000; ++i) {
-    const shared::Camera camera = this->camera();
+    const shared::Camera camera = this->camera(i % 3 == 0);
     const ViewFrustum view(camera);
-    const float distance = 0.01f + 30 * std::abs(unit(random_));
-    const glm::vec3 point = camera.eye_world + distance * (camera.forward + unit(random_) * camera.right +
-                                                           unit(random_) * camera.up);
+    const float distance = 0.01f + 30 * std::abs(unit(random_)), x = unit(random_), y = unit(random_);
+    const glm::vec3 point = ray_of(camera, x, y, distance).second;
     const glm::vec3 below = 3.0f * glm::abs(any()), above = 3.0f * glm::abs(any());
     EXPECT_TRUE(view.may_intersect(Box<float>{point - below, point + above})) << i;
     const glm::vec3 behind = camera.eye_world - 6.0f * camera.forward;
@@ -103,15 +110,14 @@ TEST_F(SmokeVisibilityTest, NoRayOfAFrameMeetsSmokeThatIsNotRequired) {
     // Every other time there is no sun, which requires much that lights require, too.
     lights_.resize(25);
     if (i % 2 == 0) lights_.push_back(sun);
-    const shared::Camera camera = this->camera();
+    const shared::Camera camera = this->camera(i % 5 == 4);
     const SmokeVisibility visibility = visible_from(camera);
     fewer += visibility.slots.size() < all_smoke_visible(volume_).slots.size();
     for (int k = 0; k < 40; ++k) {
       // A point in view; smoke may be between it and the eye.
       const float x = 2 * unit(random_) - 1, y = 2 * unit(random_) - 1, far = 60 * unit(random_);
-      const glm::vec3 to = far * (camera.forward + x * camera.right + y * camera.up),
-                      p = camera.eye_world + to;
-      EXPECT_TRUE(all_visible(visibility, camera.eye_world, to, true));
+      const auto [from, p] = ray_of(camera, x, y, far);
+      EXPECT_TRUE(all_visible(visibility, from, p - from, true));
       if (glm::any(glm::lessThan(p, scene_.low)) || glm::any(glm::greaterThan(p, scene_.high))) continue;
       // It is lit.
       for (const shared::Light& light : lights_) {

@@ -190,8 +190,8 @@ class FrameInputTest : public VolumeFixture {
 // The bindings below name every field of a struct: one that is added fails to compile here, and needs a row.
 
 TEST_F(FrameInputTest, TheView) {
-  [[maybe_unused]] const auto& [camera, number, size, sample, exposure, tone, frame_index, continues,
-                                previous] = input_.view;
+  [[maybe_unused]] const auto& [camera, projection, number, size, sample, exposure, tone, frame_index,
+                                continues, previous] = input_.view;
   [[maybe_unused]] const auto& [position, target, fov, up, lens, shutter, frustum] = camera;
   [[maybe_unused]] const auto& [aperture, focus, blades, opening] = lens;
   [[maybe_unused]] const auto& [pixel, on_lens, index, count] = sample;
@@ -242,6 +242,10 @@ TEST_F(FrameInputTest, TheView) {
 TEST_F(FrameInputTest, TheViewOfAFilmOrAHost) {
   expect_rows({
       {"index", [](FrameInput& input) { input.view.index = 2; }, {}, "nothing is accumulated"},
+      {"projection",
+       [](FrameInput& input) { input.view.projection = planning::Projection::perspective; },
+       {},
+       "only pictures of a host may be parallel"},
       {"size_px",
        [](FrameInput& input) { input.view.size_px = kSize; },
        {},
