@@ -1,4 +1,5 @@
-# Compiles every entry point under shaders/ to SPIR-V at build time, checks it and embeds it.
+# Compiles every entry point under shaders/ to SPIR-V at build time, checks it and embeds it. Structs must lie where
+# Vulkan 1.2 allows them without features such as scalarBlockLayout (shaders/shared/shim.h).
 include_guard(GLOBAL)
 find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
@@ -20,10 +21,13 @@ function(brume_shaders target)
       # that SPIR-V 1.3 is the last to have.
       list(APPEND flags -fshader-stage=compute -fauto-combined-image-sampler --target-spv=spv1.3)
     endif()
+    # What is refused is compiled again, with names of structs.
+    string(CONCAT check "'${SPIRV_VAL}' --target-env vulkan1.2 '${spv}' || "
+                        "{ '${GLSLC}' \"$@\" && '${SPIRV_VAL}' --target-env vulkan1.2 '${spv}.named'; exit 1; }")
     add_custom_command(
       OUTPUT ${spv}
       COMMAND ${GLSLC} ${flags} -MD -MF ${spv}.d -o ${spv} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
-      COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
+      COMMAND sh -c "${check}" check ${flags} -O0 -g -o ${spv}.named ${CMAKE_CURRENT_SOURCE_DIR}/${file}
       DEPENDS ${file} DEPFILE ${spv}.d VERBATIM)
     add_custom_command(
       OUTPUT ${words}

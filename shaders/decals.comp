@@ -93,7 +93,7 @@ struct Scatter {
 };
 
 void add_decal(Decal decal, vec3 p_world, vec3 normal, Scatter scatter, inout Remaining remaining) {
-  const vec3 uvw = decal.uvw_from_world * vec4(p_world, 1.0);
+  const vec3 uvw = matrix_of(decal.uvw_from_world) * vec4(p_world, 1.0);
   if (any(lessThan(uvw, vec3(0.0))) || any(greaterThan(uvw, vec3(1.0)))) return;
   const Curve curve = curve_at(decal, uvw, weights_of_planes(decal, p_world, normal));
   const float exact = occlusion_at(decal, uvw, curve);

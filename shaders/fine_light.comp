@@ -13,7 +13,7 @@ layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 #include "shared/fine_light.h"
 #include "shared/light_side.h"
 
-layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { PackedIvec3 slot_bricks[]; };
 layout(scalar, binding = kBindFineSlots) readonly buffer Slots { uint slots[]; };
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
@@ -77,7 +77,7 @@ void main() {
   here.local_voxel = fine_texel_position(texel);
   here.corner = atlas_corner(frame.smoke.bricks, slot);
   here.p_world = frame.smoke.origin_world +
-                 (vec3(slot_bricks[slot] * kBrickVoxels) + here.local_voxel) * frame.smoke.voxel_size;
+                 (vec3(unpacked(slot_bricks[slot]) * kBrickVoxels) + here.local_voxel) * frame.smoke.voxel_size;
   const vec4 inscatter =
       textureLod(inscatter_atlas, (here.corner + here.local_voxel) * frame.smoke.bricks.atlas_texel, 0.0);
   // What the interpolation of eight bits of weight may leave of nothing.

@@ -17,13 +17,15 @@ layout(location = 3) out vec4 color_complement;
 
 void main() {
   const Vertex vertex = vertices[gl_VertexIndex];
-  const mat3 linear = transpose(mat3(draw.row0.xyz, draw.row1.xyz, draw.row2.xyz));
-  const vec3 position_world = linear * vertex.position + vec3(draw.row0.w, draw.row1.w, draw.row2.w);
+  const Affine rows = draw.world_from_mesh;
+  const mat3 linear = transpose(mat3(rows.row0.xyz, rows.row1.xyz, rows.row2.xyz));
+  const vec3 position_world = linear * unpacked(vertex.position) + vec3(rows.row0.w, rows.row1.w, rows.row2.w);
   // The cofactor matrix transforms normals correctly under any scale, mirroring included.
   const mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
   const float handedness = determinant(linear) < 0.0 ? -1.0 : 1.0;
-  normal_world = handedness * (cofactor * vertex.normal);
-  tangent_world = vec4(linear * vertex.tangent.xyz, vertex.tangent.w * handedness);
+  normal_world = handedness * (cofactor * unpacked(vertex.normal));
+  const vec4 tangent = unpacked(vertex.tangent);
+  tangent_world = vec4(linear * tangent.xyz, tangent.w * handedness);
   uv = vertex.uv;
   color_complement =
       vec4(unpackUnorm2x16(vertex.color_complement.x), unpackUnorm2x16(vertex.color_complement.y));

@@ -30,14 +30,15 @@ void add_point(uint i, vec3 p_voxel, vec3 half_voxels, inout CellSum sum) {
   sum.extinction += extinction;
   sum.scattering += extinction * matter.albedo;
   sum.emission += extinction * matter.emission;
-  if (kHasHeat && volumes[i].heat.per_value > 0.0)
-    sum.emission += volumes[i].look.extinction * volume_glow(i, volumes[i].world_from_voxel * vec4(p_voxel, 1.0));
-  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks) {
+  if (kHasHeat && volumes[i].heat_per_value > 0.0)
+    sum.emission +=
+        volumes[i].look.extinction * volume_glow(i, matrix_of(volumes[i].world_from_voxel) * vec4(p_voxel, 1.0));
+  if (kHasMasks && volumes[i].color_kind >= kColorsMasks) {
     const BrickAt brick = volume_brick(volumes[i].bricks, p_voxel);
     if (brick.slot == kNoSlot) return;
-    const vec3 corner = atlas_corner(volumes[i].colors.bricks, brick.slot);
-    const vec3 uvw = (corner + p_voxel - brick.low) * volumes[i].colors.bricks.atlas_texel;
-    sum.emission += volume_effects[i].tints * masks_at(i, uvw);
+    const vec3 corner = atlas_corner(volumes[i].color_bricks, brick.slot);
+    const vec3 uvw = (corner + p_voxel - brick.low) * volumes[i].color_bricks.atlas_texel;
+    sum.emission += matrix_of(volume_effects[i].tints) * masks_at(i, uvw);
   }
 }
 

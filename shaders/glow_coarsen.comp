@@ -12,14 +12,15 @@ void main() {
   const uint edge = kGlowEdge >> params.level, fine_edge = 2u * edge;
   const uvec3 cell = gl_GlobalInvocationID;
   if (any(greaterThanEqual(cell, uvec3(edge)))) return;
-  GlowCell sum = GlowCell(vec3(0.0), vec3(0.0), vec3(0.0));
+  vec3 transport = vec3(0.0), absorption = vec3(0.0), source = vec3(0.0);
   for (uint corner = 0u; corner < 8u; ++corner) {
     const uvec3 fine = 2u * cell + uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
     const GlowCell here =
         cells[first_glow_cell(params.level - 1u) + fine.x + fine_edge * (fine.y + fine_edge * fine.z)];
-    sum.transport += here.transport / 8.0;
-    sum.absorption += here.absorption / 8.0;
-    sum.source += here.source / 8.0;
+    transport += unpacked(here.transport) / 8.0;
+    absorption += unpacked(here.absorption) / 8.0;
+    source += unpacked(here.source) / 8.0;
   }
-  cells[first_glow_cell(params.level) + cell.x + edge * (cell.y + edge * cell.z)] = sum;
+  cells[first_glow_cell(params.level) + cell.x + edge * (cell.y + edge * cell.z)] =
+      GlowCell(packed_of(transport), packed_of(absorption), packed_of(source));
 }

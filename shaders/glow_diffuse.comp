@@ -16,7 +16,7 @@
 layout(local_size_x = 4, local_size_y = 8, local_size_z = 8) in;
 layout(scalar, binding = kBindVolumes) uniform Volumes { VolumeInstance volumes[kMaxVolumes]; };
 layout(scalar, binding = kBindGlowCells) readonly buffer Cells { GlowCell cells[]; };
-layout(scalar, binding = kBindGlowState) coherent buffer State { vec3 state[]; };
+layout(scalar, binding = kBindGlowState) coherent buffer State { PackedVec3 state[]; };
 layout(scalar, push_constant) uniform Push { GlowFieldParams params; };
 
 /// Of a cube with N cells an edge the best is 2 / (1 + sin(pi / N)), for light that is not absorbed.
@@ -37,34 +37,34 @@ vec3 conductance(vec3 here, vec3 there, vec3 transport, float h) {
 void solve(ivec3 cell, vec3 lengths) {
   const int edge = int(kGlowEdge >> params.level);
   const GlowCell own = cells[index_of(cell)];
-  const vec3 here = state[index_of(cell)];
-  vec3 flows = own.absorption, arriving = own.source;
+  const vec3 here = unpacked(state[index_of(cell)]), transport = unpacked(own.transport);
+  vec3 flows = unpacked(own.absorption), arriving = unpacked(own.source);
   for (int axis = 0; axis < 3; ++axis) {
     const float h = lengths[axis];
     for (int side = -1; side <= 1; side += 2) {
       ivec3 neighbour = cell;
       neighbour[axis] += side;
       if (neighbour[axis] < 0 || neighbour[axis] >= edge) {
-        flows += 1.0 / (h * (1.5 * own.transport * h + 2.0));
+        flows += 1.0 / (h * (1.5 * transport * h + 2.0));
       } else {
         const uint at = index_of(neighbour);
-        const vec3 there = state[at];
-        const vec3 c = conductance(here, there, 0.5 * (own.transport + cells[at].transport), h);
+        const vec3 there = unpacked(state[at]);
+        const vec3 c = conductance(here, there, 0.5 * (transport + unpacked(cells[at].transport)), h);
         flows += c;
         arriving += c * there;
       }
     }
   }
   const vec3 solved = arriving / max(flows, 1e-12);
-  state[index_of(cell)] = max(here + kRelaxations[params.level] * (solved - here), vec3(0.0));
+  state[index_of(cell)] = packed_of(max(here + kRelaxations[params.level] * (solved - here), vec3(0.0)));
 }
 
 void main() {
   const uvec3 at = gl_GlobalInvocationID;
   const VolumeInstance volume = volumes[params.volume];
   const vec3 cell_voxels = (volume.bounds_max - volume.bounds_min) / float(kGlowEdge >> params.level);
-  const vec3 lengths = cell_voxels * vec3(length(volume.world_from_voxel[0]), length(volume.world_from_voxel[1]),
-                                          length(volume.world_from_voxel[2]));
+  const mat4x3 axes = matrix_of(volume.world_from_voxel);
+  const vec3 lengths = cell_voxels * vec3(length(axes[0]), length(axes[1]), length(axes[2]));
   for (uint step = 0u; step < params.steps; ++step) {
     solve(ivec3(2u * at.x + ((at.y + at.z + params.parity + step) & 1u), at.yz), lengths);
     memoryBarrierBuffer();

@@ -24,6 +24,6 @@ void main() {
   const float extinction = texelFetch(matter, cell, 0).a;
   const vec3 scattering = extinction * texelFetch(albedo, cell, 0).rgb;
   cells[uint(cell.x) + kGlowEdge * (uint(cell.y) + kGlowEdge * uint(cell.z))] =
-      GlowCell(extinction - volumes[params.volume].look.anisotropy * scattering, extinction - scattering,
-               scattering * sum);
+      GlowCell(packed_of(extinction - volumes[params.volume].look.anisotropy * scattering),
+               packed_of(extinction - scattering), packed_of(scattering * sum));
 }

@@ -5,13 +5,13 @@
 #include "shared/glow_field.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, binding = kBindGlowState) buffer State { vec3 state[]; };
+layout(scalar, binding = kBindGlowState) buffer State { PackedVec3 state[]; };
 layout(scalar, push_constant) uniform Push { GlowFieldParams params; };
 
 vec3 coarse_at(ivec3 cell) {
   const int edge = int(kGlowEdge >> (params.level + 1u));
   const ivec3 c = clamp(cell, ivec3(0), ivec3(edge - 1));
-  return state[first_glow_cell(params.level + 1u) + uint(c.x + edge * (c.y + edge * c.z))];
+  return unpacked(state[first_glow_cell(params.level + 1u) + uint(c.x + edge * (c.y + edge * c.z))]);
 }
 
 void main() {
@@ -27,5 +27,5 @@ void main() {
     const vec3 weights = mix(1.0 - part, part, vec3(side));
     sum += weights.x * weights.y * weights.z * coarse_at(first + side);
   }
-  state[first_glow_cell(params.level) + cell.x + edge * (cell.y + edge * cell.z)] = sum;
+  state[first_glow_cell(params.level) + cell.x + edge * (cell.y + edge * cell.z)] = packed_of(sum);
 }

@@ -44,8 +44,8 @@ void main() {
   const vec3 direction = sky_direction(number);
   const vec3 cells_per_voxel =
       float(kGlowEdge) / (volumes[params.volume].bounds_max - volumes[params.volume].bounds_min);
-  const vec3 cells_per_metre =
-      volumes[params.volume].voxel_from_world * vec4(direction, 0.0) * cells_per_voxel;
+  const mat4x3 voxel_from_world = matrix_of(volumes[params.volume].voxel_from_world);
+  const vec3 cells_per_metre = voxel_from_world * vec4(direction, 0.0) * cells_per_voxel;
   const vec3 lengths = abs(cells_per_metre);
   const uint w = lengths.x >= max(lengths.y, lengths.z) ? 0u : lengths.y >= lengths.z ? 1u : 2u;
   const uint u = (w + 1u) % 3u, v = (w + 2u) % 3u;

@@ -8,7 +8,7 @@
 #include "lib/hole_reaches.glsl"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { PackedIvec3 slot_bricks[]; };
 layout(scalar, binding = kBindHoleCells) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = kBindHolePairs) writeonly buffer Pairs { uvec2 pairs[]; };
 layout(scalar, binding = kBindHoleCounters) buffer Counters { HoleCounters counters; };
@@ -24,7 +24,7 @@ void main() {
   if (lane == 0u) reached = false;
   barrier();
   const float edge = float(kBrickVoxels) * frame.smoke.voxel_size;
-  const vec3 low = frame.smoke.origin_world + vec3(slot_bricks[slot]) * edge;
+  const vec3 low = frame.smoke.origin_world + vec3(unpacked(slot_bricks[slot])) * edge;
   for (uint i = lane; i < frame.holes.count; i += 64u) {
     const HoleReach reach = reach_at(i);
     if (!hole_reaches_box(reach, low, edge)) continue;

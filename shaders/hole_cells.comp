@@ -9,7 +9,7 @@
 #include "lib/packed_holes.glsl"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { PackedIvec3 slot_bricks[]; };
 layout(scalar, binding = kBindHoleCells) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = kBindHolePairs) readonly buffer Pairs { uvec2 pairs[]; };
 layout(scalar, binding = kBindHoleCounters) readonly buffer Counters { HoleCounters counters; };
@@ -34,7 +34,7 @@ void main() {
     if (chunk == 0u) continue;
     const Hole hole = hole_at(pairs[p].y);
     const HoleReach reach = reach_at(pairs[p].y);
-    const vec3 low = frame.smoke.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
+    const vec3 low = frame.smoke.origin_world + vec3(unpacked(slot_bricks[slot])) * (cell * float(kHoleCellsPerEdge));
 
     // Slices of cells across the dominant axis of the hole; in each, a rectangle around the hole's axis.
     const vec3 a = abs(reach.forward);

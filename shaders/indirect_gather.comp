@@ -13,7 +13,7 @@ layout(scalar, binding = kBindIndirectProbes) readonly buffer Probes { uint prob
 layout(scalar, binding = kBindIndirectHits) readonly buffer Hits { uint hits[]; };
 layout(scalar, binding = kBindEmitterSamples) readonly buffer Samples { EmitterSample emitter_samples[]; };
 layout(scalar, binding = kBindEmitterRays) readonly buffer EmitterRays { EmitterRay emitter_rays[]; };
-layout(scalar, binding = kBindPatchRadiance) readonly buffer Radiance { vec3 radiance[]; };
+layout(scalar, binding = kBindPatchRadiance) readonly buffer Radiance { PackedVec3 radiance[]; };
 layout(binding = kBindIndirectMedium) uniform sampler3D medium;
 layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
 layout(scalar, push_constant) uniform Push { IndirectParams params; };
@@ -45,7 +45,7 @@ void main() {
   for (uint i = 0u; i < kProbeRays; ++i) {
     const vec3 direction = probe_direction(i, phase);
     const uint hit = hits[i * params.probe_count + probe];
-    vec3 light = hit_patch(hit) == kSkyPatch ? frame.sky.ambient * sky_shape(direction.y) : radiance[hit_patch(hit)];
+    vec3 light = hit_patch(hit) == kSkyPatch ? frame.sky.ambient * sky_shape(direction.y) : unpacked(radiance[hit_patch(hit)]);
     if (kMediaInCells != 0u) {
       const vec3 start = start_of(i);
       const vec4 media = through_media(vec3(cell) + 0.5 + start, direction, hit_cells(hit) - dot(start, direction));
@@ -63,10 +63,10 @@ void main() {
     const EmitterRay ray = emitter_rays[i * params.probe_count + probe];
     if (ray.weight <= 0.0) continue;
     const EmitterSample emitter = emitter_samples[ray.emitter_sample];
-    const vec3 start = vec3(cell) + 0.5, path = indirect_from_world(emitter.position_world) - start;
+    const vec3 start = vec3(cell) + 0.5, path = indirect_from_world(unpacked(emitter.position_world)) - start;
     const float reach = max(length(path), 1e-6);
     const vec3 direction = path / reach;
-    vec3 light = ray.weight * emitter.radiance;
+    vec3 light = ray.weight * unpacked(emitter.radiance);
     if (kMediaInCells != 0u) light *= through_media(start, direction, reach).a;
     const vec3 up = max(direction, vec3(0.0)), down = max(-direction, vec3(0.0));
     for (uint axis = 0u; axis < 3u; ++axis) {

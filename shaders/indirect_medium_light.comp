@@ -88,12 +88,12 @@ OwnGlow own_glow_in(vec3 p_cells) {
   OwnGlow sum = OwnGlow(0u, vec3(0.0), vec3(0.0));
   for (uint v = 0u; v < frame.media.volume_count; ++v) {
     const vec3 low = volumes[v].bounds_min, high = volumes[v].bounds_max;
-    const vec3 middle = volumes[v].voxel_from_world * vec4(world_from_indirect(p_cells), 1.0);
+    const vec3 middle = matrix_of(volumes[v].voxel_from_world) * vec4(world_from_indirect(p_cells), 1.0);
     if (!glows(volumes[v]) || any(lessThan(middle, low)) || any(greaterThan(middle, high))) continue;
     sum.of |= 1u << volumes[v].number;
     for (uint k = 0u; k < kPoints; ++k) {
       const vec3 p_world = world_from_indirect(p_cells + point_of_cell(k));
-      const vec3 p_voxel = volumes[v].voxel_from_world * vec4(p_world, 1.0);
+      const vec3 p_voxel = matrix_of(volumes[v].voxel_from_world) * vec4(p_world, 1.0);
       sum.straight += own_glow(v, kGlowStraight, p_voxel) / float(kPoints);
       sum.scattered += own_glow(v, kGlowScattered, p_voxel) / float(kPoints);
     }

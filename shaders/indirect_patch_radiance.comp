@@ -6,14 +6,15 @@
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = kBindSurfacePatches) readonly buffer Patches { SurfacePatch patches[]; };
-layout(scalar, binding = kBindPatchIrradiance) readonly buffer Irradiance { vec3 irradiance[]; };
-layout(scalar, binding = kBindPatchRadiance) writeonly buffer Radiance { vec3 radiance[]; };
+layout(scalar, binding = kBindPatchIrradiance) readonly buffer Irradiance { PackedVec3 irradiance[]; };
+layout(scalar, binding = kBindPatchRadiance) writeonly buffer Radiance { PackedVec3 radiance[]; };
 layout(scalar, push_constant) uniform Push { IndirectParams params; };
 
 void main() {
   const uint at = gl_GlobalInvocationID.x;
   if (at >= params.patch_count) return;
   const SurfacePatch surface = patches[at];
-  const vec3 indirect = indirect_irradiance(surface.position_world, surface.normal);
-  radiance[at] = surface.albedo * (irradiance[at] + indirect) + surface.emission;
+  const vec3 indirect = indirect_irradiance(unpacked(surface.position_world), unpacked(surface.normal));
+  radiance[at] =
+      packed_of(unpacked(surface.albedo) * (unpacked(irradiance[at]) + indirect) + unpacked(surface.emission));
 }

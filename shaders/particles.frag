@@ -26,10 +26,10 @@ void main() {
   if (visible <= 0.0) discard;
   // The ray is 1 long along the view axis: 1 / cos(theta) in all.
   const float length_m = systems[system].weight * length(ray) * visible;
-  const vec3 uvw = systems[system].uvw_from_world * vec4(p_world, 1.0);
+  const vec3 uvw = matrix_of(systems[system].uvw_from_world) * vec4(p_world, 1.0);
   const vec4 value = slice_texture_sample(slices, systems[system].slices, uvw);
   const float density = max(max(value.r, value.g), max(value.b, value.a));
   const float optical_depth = systems[system].extinction * max(density, 0.0) * length_m;
-  const vec3 emitted = systems[system].tints * max(value, vec4(0.0)) * length_m;
+  const vec3 emitted = matrix_of(systems[system].tints) * max(value, vec4(0.0)) * length_m;
   radiance_transmittance = vec4(emitted * slab_transmittance(optical_depth), exp(-optical_depth));
 }

@@ -19,7 +19,7 @@ const vec2 kCorners[6] =
 void main() {
   const uvec2 entry = order[gl_VertexIndex / 6];
   const Particle particle = particles[entry.y];
-  centre_world = particle.centre_world;
+  centre_world = unpacked(particle.centre_world);
   view_m = particle.view_m;
   system = particle.system;
   const vec2 at = systems[system].radius * kCorners[gl_VertexIndex % 6];

@@ -19,9 +19,9 @@ void main() {
     uint system = 0u;
     for (uint next = 1u; next < list.system_count; ++next) system = i >= systems[next].first ? next : system;
     const vec3 uvw = particle_uvw(systems[system], i - systems[system].first);
-    const vec3 centre_world = systems[system].world_from_uvw * vec4(uvw, 1.0);
+    const vec3 centre_world = matrix_of(systems[system].world_from_uvw) * vec4(uvw, 1.0);
     const float view_m = dot(centre_world - frame.camera.eye_world, frame.camera.forward);
-    particles[i] = Particle(centre_world, view_m, system);
+    particles[i] = Particle(packed_of(centre_world), view_m, system);
     // The bits of positive floats have their order.
     if (view_m > 0.0) key = floatBitsToUint(view_m);
   }

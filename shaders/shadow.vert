@@ -7,4 +7,4 @@
 layout(scalar, binding = kBindVertices) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, push_constant) uniform Push { ShadowDraw draw; };
 
-void main() { gl_Position = draw.clip_from_mesh * vec4(vertices[gl_VertexIndex].position, 1.0); }
+void main() { gl_Position = draw.clip_from_mesh * vec4(unpacked(vertices[gl_VertexIndex].position), 1.0); }

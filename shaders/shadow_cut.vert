@@ -14,5 +14,5 @@ void main() {
   const Vertex vertex = vertices[gl_VertexIndex];
   uv = vertex.uv;
   alpha_complement = unpackUnorm2x16(vertex.color_complement.y).y;
-  gl_Position = draw.clip_from_mesh * vec4(vertex.position, 1.0);
+  gl_Position = draw.clip_from_mesh * vec4(unpacked(vertex.position), 1.0);
 }

@@ -13,6 +13,6 @@ layout(location = 1) out vec2 uv;
 void main() {
   const UiVertex vertex = vertices[gl_VertexIndex];
   colour = unpackUnorm4x8(vertex.colour);
-  uv = vertex.uv;
-  gl_Position = vec4(2.0 * (vertex.position - ui.origin) / ui.size - 1.0, 0.0, 1.0);
+  uv = unpacked(vertex.uv);
+  gl_Position = vec4(2.0 * (unpacked(vertex.position) - ui.origin) / ui.size - 1.0, 0.0, 1.0);
 }

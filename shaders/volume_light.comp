@@ -40,7 +40,7 @@ bool is_near_bricks(uint volume, vec3 p_voxel, vec3 cell_voxels) {
 
 /// Optical depth of a sweep at a point: of the cube of this number.
 float swept_depth(sampler3D depths, uint volume, uint number, VolumeSweep sweep, vec3 p_world) {
-  const vec3 size = vec3(textureSize(depths, 0)), at = sweep.sweep_from_world * vec4(p_world, 1.0);
+  const vec3 size = vec3(textureSize(depths, 0)), at = matrix_of(sweep.sweep_from_world) * vec4(p_world, 1.0);
   const float edge = size.y;
   const vec3 first = edge * vec3(number, 0u, volume);
   return textureLod(depths, (first + clamp(at * edge, vec3(0.5), vec3(edge - 0.5))) / size, 0.0).r;
@@ -51,7 +51,7 @@ Arrivals swept_arrivals(uint volume, vec3 p_world, vec4 around) {
   Arrivals sum = no_arrivals();
   for (uint i = 0u; i < kSkySweeps; ++i) {
     const VolumeSweep sweep = sweeps[volume * kSweepsOfVolume + 1u + i];
-    const vec3 to_sky = -sweep.world_from_sweep[2] / sweep.length_m;
+    const vec3 to_sky = -matrix_of(sweep.world_from_sweep)[2] / sweep.length_m;
     const float passed = exp(-swept_depth(sky_depths, volume, i, sweep, p_world)) / float(kSkySweeps);
     sum.escape += passed;
     sum.seen += passed * seen_around(around, to_sky);
@@ -132,7 +132,7 @@ vec3 light_from_around(VolumeLook look, vec3 albedo, ManyScatterings many, Arriv
 /// The light in a cell of a volume.
 vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
-  const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
+  const vec3 p_world = matrix_of(volumes[volume].world_from_voxel) * vec4(p_voxel, 1.0);
   VolumeLook look = volumes[volume].look;
   if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, cell_voxels);
   const vec4 around = sky_around(p_world);

@@ -36,8 +36,8 @@ void main() {
   const uint volume = gl_GlobalInvocationID.z / params.sweeps, number = gl_GlobalInvocationID.z % params.sweeps;
   const VolumeSweep sweep = sweeps[volume * kSweepsOfVolume + params.first_sweep + number];
   const vec2 uv = (vec2(column) + 0.5) / float(params.edge);
-  const vec3 enters = sweep.world_from_sweep * vec4(uv, 0.0, 1.0);
-  const vec3 per_unit = sweep.world_from_sweep * vec4(0.0, 0.0, 1.0, 0.0);
+  const mat4x3 world_from_sweep = matrix_of(sweep.world_from_sweep);
+  const vec3 enters = world_from_sweep * vec4(uv, 0.0, 1.0), per_unit = world_from_sweep * vec4(0.0, 0.0, 1.0, 0.0);
   const uint samples = params.edge * kSweepSamples;
   const vec3 step_world = per_unit / float(samples);
   const float ds = sweep.length_m / float(samples);

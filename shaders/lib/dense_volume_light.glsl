@@ -39,14 +39,14 @@ float others_depth(vec3 p_world, vec3 direction, float distance) {
 
 /// The part of a ray of `distance` metres in the bounds of a volume, from a point inside of them.
 float own_part(uint volume, vec3 p_world, vec3 direction, float distance) {
-  const VoxelRay ray = VoxelRay(volumes[volume].voxel_from_world * vec4(p_world, 1.0),
-                                volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  const mat4x3 voxel_from_world = matrix_of(volumes[volume].voxel_from_world);
+  const VoxelRay ray = VoxelRay(voxel_from_world * vec4(p_world, 1.0), voxel_from_world * vec4(direction, 0.0));
   return clamp(span_in_box(ray, volumes[volume].bounds_min, volumes[volume].bounds_max).y, 0.0, distance);
 }
 
 /// Optical depth of all volumes along the first `part` metres of a ray, in steps of the voxels of a dense one.
 float fine_depth(uint volume, vec3 p_world, vec3 direction, float part, float most) {
-  const vec3 per_metre = abs(volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  const vec3 per_metre = abs(matrix_of(volumes[volume].voxel_from_world) * vec4(direction, 0.0));
   const float voxel = 1.0 / max(per_metre.x, max(per_metre.y, per_metre.z));
   const uint mask = volumes_along(p_world, p_world + direction * part);
   float depth = 0.0, t = 0.0;

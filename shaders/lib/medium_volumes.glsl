@@ -18,8 +18,9 @@ struct VolumeRay {
 };
 
 VolumeRay volume_ray(uint i, WorldRay world) {
-  const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(world.origin, 1.0),
-                                volumes[i].voxel_from_world * vec4(world.direction, 0.0));
+  const mat4x3 voxel_from_world = matrix_of(volumes[i].voxel_from_world);
+  const VoxelRay ray =
+      VoxelRay(voxel_from_world * vec4(world.origin, 1.0), voxel_from_world * vec4(world.direction, 0.0));
   const vec3 reach = disturbance_of(i);
   return VolumeRay(ray, inverse_of(ray),
                    span_in_box(ray, volumes[i].bounds_min - reach, volumes[i].bounds_max + reach));
@@ -39,8 +40,9 @@ LightRay light_ray(uint i, WorldRay world, VoxelRay ray) {
   if (kHasSun) {
     const float sun_edge = float(textureSize(sun_depths, 0).y);
     const vec3 first = vec3(0.0, 0.0, float(i));
-    lit.sun = TextureRay((volumes[i].sun_from_voxel * vec4(ray.origin, 1.0) + first) * sun_edge,
-                         volumes[i].sun_from_voxel * vec4(ray.per_metre, 0.0) * sun_edge);
+    const mat4x3 sun_from_voxel = matrix_of(volumes[i].sun_from_voxel);
+    lit.sun = TextureRay((sun_from_voxel * vec4(ray.origin, 1.0) + first) * sun_edge,
+                         sun_from_voxel * vec4(ray.per_metre, 0.0) * sun_edge);
     lit.phase = volume_phase(i, world);
   }
   return lit;
@@ -69,8 +71,8 @@ VolumeBrick brick_of(uint i, VoxelRay ray, BrickSpan span) {
   brick.uniform_value = -1.0;
   if (span.slot == kDisturbedSlot) return brick;
   brick.values = texture_ray(volumes[i].bricks, span, ray);
-  if ((kHasColorGrids || kHasMasks) && volumes[i].colors.kind != kColorsNone)
-    brick.colors = texture_ray(volumes[i].colors.bricks, span, ray);
+  if ((kHasColorGrids || kHasMasks) && volumes[i].color_kind != kColorsNone)
+    brick.colors = texture_ray(volumes[i].color_bricks, span, ray);
   if (span.slot == kUniformSlot) brick.uniform_value = span.uniform_value;
   return brick;
 }
@@ -129,12 +131,12 @@ void add_volume(uint i, VolumeMatter matter, vec4 masks, LightTexels at, float p
     sum.light += extinction * (volume_inscatter(matter.albedo, i, at, phase) + matter.emission);
     texture_samples += kHasSun ? 2u : 1u;
   }
-  if (kHasHeat && volumes[i].heat.per_value > 0.0) {
+  if (kHasHeat && volumes[i].heat_per_value > 0.0) {
     sum.glow += volumes[i].look.extinction * volume_glow(i, p_world);
     ++texture_samples;
   }
-  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks) {
-    sum.glow += volume_effects[i].tints * masks;
+  if (kHasMasks && volumes[i].color_kind >= kColorsMasks) {
+    sum.glow += matrix_of(volume_effects[i].tints) * masks;
     ++texture_samples;
   }
 }
@@ -147,9 +149,9 @@ void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_
   const BrickAt brick = volume_brick(volumes[i].bricks, p);
   if (brick.slot == kNoSlot) return;
   vec4 masks = vec4(0.0);
-  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks) {
-    const vec3 corner = atlas_corner(volumes[i].colors.bricks, brick.slot);
-    masks = masks_at(i, (corner + p - brick.low) * volumes[i].colors.bricks.atlas_texel);
+  if (kHasMasks && volumes[i].color_kind >= kColorsMasks) {
+    const vec3 corner = atlas_corner(volumes[i].color_bricks, brick.slot);
+    masks = masks_at(i, (corner + p - brick.low) * volumes[i].color_bricks.atlas_texel);
   }
   VolumeMatter matter = matter_around(volumes[i], i, p, half_voxels);
   matter.density *= detail_left(i, p, matter.density, t, texture_samples);
@@ -169,7 +171,7 @@ void add_volume_at(uint i, VolumeBrick brick, LightRay lit, VoxelRay ray, float 
     return;
   }
   vec4 masks = vec4(0.0);
-  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks)
+  if (kHasMasks && volumes[i].color_kind >= kColorsMasks)
     masks = masks_at(i, brick.colors.at + t * brick.colors.along);
   VolumeMatter matter = VolumeMatter(0.0, vec3(0.0), vec3(0.0));
   // What only glows is no more than its masks.

@@ -15,8 +15,9 @@ layout(scalar, binding = kBindMarchCounters) readonly buffer Counters {
 
 vec3 holes_view(ViewPixel pixel) {
   const VolumeLayout smoke = frame.smoke;
-  const MediaBox box = MediaBox(smoke.origin_world + smoke.bounds_min * smoke.voxel_size,
-                                smoke.origin_world + smoke.bounds_max * smoke.voxel_size);
+  MediaBox box;
+  box.low = smoke.origin_world + smoke.bounds_min * smoke.voxel_size;
+  box.high = smoke.origin_world + smoke.bounds_max * smoke.voxel_size;
   const vec2 inside = clip_to_box(box, frame.camera.eye_world, pixel.direction, pixel.surface_m);
   const RayHoles holes = holes_of_ray(vec2(pixel.px) + 0.5);
   // Fine enough for the narrowest shots: a quarter of the march's step.

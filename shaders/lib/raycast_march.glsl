@@ -26,7 +26,8 @@ RaycastRay raycast_ray(uint volume, ivec2 pixel) {
       vec3((view.shift.x + ndc.x) * window.x / window.y, view.shift.y - ndc.y, -view.focal_length);
   RaycastRay ray;
   ray.direction = normalize(along);
-  ray.voxel = VoxelRay(raycast[volume].eye_voxel, raycast[volume].voxel_from_view * ray.direction);
+  const mat4x3 voxel_from_view = matrix_of(raycast[volume].voxel_from_view);
+  ray.voxel = VoxelRay(voxel_from_view[3], mat3(voxel_from_view) * ray.direction);
   // Depth is a distance along the view axis; the ray is longer the farther it is from the axis.
   const float reverse_depth = texelFetch(depth, pixel, 0).r;
   ray.t_scene = reverse_depth > 0.0 ? view.near_z / reverse_depth / -ray.direction.z : 1e30;

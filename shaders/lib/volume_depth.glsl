@@ -9,8 +9,8 @@
 float volumes_depth(vec3 from_world, vec3 direction, float distance, uint steps, uint first, uint stride) {
   float depth = 0.0;
   for (uint v = 0u; v < frame.media.caster_count; ++v) {
-    const VoxelRay ray = VoxelRay(volumes[v].voxel_from_world * vec4(from_world, 1.0),
-                                  volumes[v].voxel_from_world * vec4(direction, 0.0));
+    const mat4x3 voxel_from_world = matrix_of(volumes[v].voxel_from_world);
+    const VoxelRay ray = VoxelRay(voxel_from_world * vec4(from_world, 1.0), voxel_from_world * vec4(direction, 0.0));
     const vec2 inside = span_in_box(ray, volumes[v].bounds_min, volumes[v].bounds_max);
     const float begin = max(inside.x, 0.0), end = min(inside.y, distance);
     const float ds = (end - begin) / float(steps);

@@ -16,10 +16,11 @@ float density_left(VolumeInstance volume, float density) {
 /// Extinction of volume i at a point [1/m]; with a transfer function that of the segment p_world - half_world to
 /// p_world + half_world.
 float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_world) {
-  const vec3 p_voxel = volume.voxel_from_world * vec4(p_world, 1.0);
+  const mat4x3 voxel_from_world = matrix_of(volume.voxel_from_world);
+  const vec3 p_voxel = voxel_from_world * vec4(p_world, 1.0);
   if (any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max))) return 0.0;
   if (!kHasTransfer) return volume.look.extinction * density_left(volume, volume_value(volume.bricks, p_voxel));
-  const vec2 values = end_values(volume, p_voxel, volume.voxel_from_world * vec4(half_world, 0.0));
+  const vec2 values = end_values(volume, p_voxel, voxel_from_world * vec4(half_world, 0.0));
   return volume.look.extinction * density_left(volume, matter_of(volume, i, values).density);
 }
 
@@ -30,8 +31,9 @@ uint volumes_along(vec3 begin_world, vec3 end_world) {
   const float margin = 1e-3;  // of the segment, for rounding
   uint mask = 0u;
   for (uint i = 0u; i < frame.media.caster_count; ++i) {
-    const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(begin_world, 1.0),
-                                  volumes[i].voxel_from_world * vec4(end_world - begin_world, 0.0));
+    const mat4x3 voxel_from_world = matrix_of(volumes[i].voxel_from_world);
+    const VoxelRay ray =
+        VoxelRay(voxel_from_world * vec4(begin_world, 1.0), voxel_from_world * vec4(end_world - begin_world, 0.0));
     const vec2 inside = span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max);
     if (inside.x <= inside.y + margin && inside.x <= 1.0 + margin && inside.y >= -margin) mask |= 1u << i;
   }

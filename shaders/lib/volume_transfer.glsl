@@ -50,12 +50,12 @@ vec4 transfer_mean(uint i, vec2 positions) {
 /// bricks would show.
 VolumeMatter matter_of(VolumeInstance volume, uint i, vec2 values) {
   VolumeMatter matter = VolumeMatter(0.5 * (values.x + values.y), volume.look.albedo, volume.look.emission);
-  if (volume.transfer.kind == kTransferNone || matter.density <= 0.0) return matter;
+  if (volume.transfer_kind == kTransferNone || matter.density <= 0.0) return matter;
   const vec4 mean = transfer_mean(i, values * volume.transfer.per_value + volume.transfer.first);
   const vec3 color = mean.a > 0.0 ? min(mean.rgb / mean.a, vec3(1.0)) : vec3(0.0);
   matter.albedo = volume.transfer.scattered * color;
   matter.emission = volume.transfer.emitted * color;
-  if (volume.transfer.kind == kTransferOpacity) matter.density = mean.a;
+  if (volume.transfer_kind == kTransferOpacity) matter.density = mean.a;
   return matter;
 }
 
@@ -67,8 +67,8 @@ float half_segment(vec3 per_metre, float ds) {
 
 /// The colour of a volume's grid at a point of a brick of its own.
 vec3 grid_color(VolumeInstance volume, BrickAt brick, vec3 p_voxel) {
-  const vec3 corner = atlas_corner(volume.colors.bricks, brick.slot);
-  const vec3 uvw = (corner + p_voxel - brick.low) * volume.colors.bricks.atlas_texel;
+  const vec3 corner = atlas_corner(volume.color_bricks, brick.slot);
+  const vec3 uvw = (corner + p_voxel - brick.low) * volume.color_bricks.atlas_texel;
   return textureLod(color_grids, uvw, 0.0).rgb;
 }
 
@@ -86,7 +86,7 @@ VolumeMatter matter_around(VolumeInstance volume, uint i, vec3 p_voxel, vec3 hal
   const vec2 values =
       kHasTransfer ? end_values(volume, p_voxel, half_voxels) : vec2(volume_value(volume.bricks, p_voxel));
   VolumeMatter matter = matter_of(volume, i, values);
-  if (kHasColorGrids && volume.colors.kind == kColorsAlbedo) {
+  if (kHasColorGrids && volume.color_kind == kColorsAlbedo) {
     const BrickAt brick = volume_brick(volume.bricks, p_voxel);
     if (brick.slot != kNoSlot) matter.albedo *= grid_color(volume, brick, p_voxel);
   }
@@ -120,7 +120,7 @@ VolumeMatter matter_along(VolumeInstance volume, uint i, TextureRay values, Text
     matter = VolumeMatter(uniform_value, volume.look.albedo, volume.look.emission);
     if (uniform_value < 0.0) matter.density = textureLod(volume_values, uvw, 0.0).r;
   }
-  if (kHasColorGrids && volume.colors.kind == kColorsAlbedo)
+  if (kHasColorGrids && volume.color_kind == kColorsAlbedo)
     matter.albedo *= textureLod(color_grids, colors.at + t * colors.along, 0.0).rgb;
   return matter;
 }

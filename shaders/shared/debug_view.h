@@ -42,11 +42,11 @@ struct DebugViewParams {
   ivec3 grid_size;         // of the level [voxels]
   float voxel_size;        // [m]
   vec3 grid_origin_world;  // [m]
-  ivec3 root_size;         // of the level [nodes of 64^3 voxels]
   int slice_axis;          // 0, 1 or 2: perpendicular to x, y or z
+  ivec3 root_size;         // of the level [nodes of 64^3 voxels]
   float slice_world;       // position of the slice along that axis [m]
-  float full;              // value at the ramp's end
   uvec3 labels;            // of the ramp's start, middle and end; 0: no ramp
+  float full;              // value at the ramp's end
 };
 SHARED_SIZE(DebugViewParams, 64);
 

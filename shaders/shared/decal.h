@@ -13,20 +13,21 @@ SHARED_BINDING(kBindOcclusion, 63u);
 SHARED_CONST uint kMaxDecals = 32u;
 
 struct Decal {
-  mat4x3 uvw_from_world;  // the box is [0, 1]^3; planes lie across v
+  Affine uvw_from_world;  // the box is [0, 1]^3; planes lie across v
   vec3 low_world;         // bounds of the box
+  float radius;           // about how far what hides reaches [m]; 0: unknown
   vec3 high_world;
-  vec3 up_world;          // unit: where the planes of the first channel face
-  vec3 middle_world;      // of what hides
-  float radius;           // about how far that reaches [m]; 0: unknown
-  vec3 scatter;           // how far noise scatters the samples, in uvw
   float strength;
+  vec3 up_world;          // unit: where the planes of the first channel face
   float gamma_off;        // what the exponent of the occlusion is more than 1 at the middle plane
-  float falloff;          // how fast that fades towards the ends
+  vec3 middle_world;      // of what hides
+  float falloff;          // how fast gamma_off fades towards the ends
+  vec3 scatter;           // how far noise scatters the samples, in uvw
   float fade;             // part of the box, at each side, over which the decal fades out
   SliceTexture occlusion; // of what faces up, and of what faces down
+  vec2 padding SHARED_ZERO;
 };
-SHARED_SIZE(Decal, 168);
+SHARED_SIZE(Decal, 176);
 
 struct DecalParams {
   mat4 past_from_world;  // planning::PastView of the frame before

@@ -16,9 +16,9 @@ SHARED_BINDING(kBindRoughnessMap, 35u);
 
 /// A vertex, pulled by the vertex shader.
 struct Vertex {
-  vec3 position;
-  vec3 normal;
-  vec4 tangent;
+  PackedVec3 position;
+  PackedVec3 normal;
+  PackedVec4 tangent;
   vec2 uv;
   /// 1 - the vertex colour, as four unorm16. White is zero, which interpolation keeps exactly.
   uvec2 color_complement;
@@ -42,9 +42,8 @@ SHARED_FUNCTION float metallic_and_moves(float metallic, float moves) {
 SHARED_FUNCTION float metallic_of(float stored) { return stored < 0.0f ? -1.0f - stored : stored; }
 SHARED_FUNCTION bool moves_of(float stored) { return stored < 0.0f; }
 
-/// Three rows of world_from_mesh, so that the material fits into the push constants too.
 struct DrawConstants {
-  vec4 row0, row1, row2;
+  Affine world_from_mesh;
   MaterialConstants material;
   float moves;  // 1: it moves over the level, and decals do not darken it
 };

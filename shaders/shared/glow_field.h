@@ -49,9 +49,9 @@ SHARED_FUNCTION uint glow_iterations(uint level) {
 
 /// What diffusing light meets in a cell, per metre.
 struct GlowCell {
-  vec3 transport;   // extinction less what is scattered straight on
-  vec3 absorption;
-  vec3 source;      // what arrives straight and is scattered
+  PackedVec3 transport;   // extinction less what is scattered straight on
+  PackedVec3 absorption;
+  PackedVec3 source;      // what arrives straight and is scattered
 };
 SHARED_SIZE(GlowCell, 36);
 

@@ -39,18 +39,18 @@ SHARED_BINDING(kBindEmitterRays, 117u);
 
 /// A piece of surface that a free cell sees.
 struct SurfacePatch {
-  vec3 position_world;
-  vec3 normal;    // unit, towards the cell
-  vec3 albedo;    // of diffuse reflection
-  vec3 emission;  // radiance, but that of small emitters
+  PackedVec3 position_world;
+  PackedVec3 normal;    // unit, towards the cell
+  PackedVec3 albedo;    // of diffuse reflection
+  PackedVec3 emission;  // radiance, but that of small emitters
 };
 SHARED_SIZE(SurfacePatch, 48);
 
 /// A place on a small emitter.
 struct EmitterSample {
-  vec3 position_world;
-  vec3 normal;    // unit; it emits to both sides
-  vec3 radiance;
+  PackedVec3 position_world;
+  PackedVec3 normal;    // unit; it emits to both sides
+  PackedVec3 radiance;
 };
 SHARED_SIZE(EmitterSample, 36);
 
@@ -63,8 +63,10 @@ SHARED_SIZE(EmitterRay, 8);
 
 struct IndirectParams {
   ivec3 media_low;  // cells that may hold smoke
+  uint patch_count;
   ivec3 media_high;
-  uint patch_count, probe_count, light_count;
+  uint probe_count;
+  uint light_count;
   uint first_probe, end_probe;  // that gather in a dispatch
   float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
   float g;           // mean cosine of the phase function of media

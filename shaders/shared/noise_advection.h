@@ -37,8 +37,9 @@ struct Impulse {
   vec3 to_world;    // [m]
   float outward;    // displacement away from the segment, next to it [m]
   vec3 along;       // displacement along with the moving object [m]
+  float padding SHARED_ZERO;
 };
-SHARED_SIZE(Impulse, 44);
+SHARED_SIZE(Impulse, 48);
 
 struct NoiseAdvectionParams {
   uint first_slot;  // into the list of slots to update

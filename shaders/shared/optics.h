@@ -10,8 +10,9 @@ struct Glass {
   vec3 center;  // [m]
   float index;  // of refraction, relative to what surrounds it; > 0. 0: there is no glass
   vec3 radii;   // [m], > 0
+  float padding SHARED_ZERO;
 };
-SHARED_SIZE(Glass, 28);
+SHARED_SIZE(Glass, 32);
 
 /// Where a ray is at the surface of the glass, in units of its direction: x where it enters and y where it leaves,
 /// which

@@ -29,18 +29,18 @@ SHARED_CONST uint kMaxParticles = 65536u;
 
 /// A volume and its particles.
 struct ParticleSystem {
-  mat4x3 world_from_uvw;  // affine; the box is [0, 1]^3
-  mat4x3 uvw_from_world;
+  Affine world_from_uvw;  // the box is [0, 1]^3
+  Affine uvw_from_world;
+  Affine tints;       // a column per channel: radiance per metre where it is 1
   SliceTexture slices;
-  mat4x3 tints;       // a column per channel: radiance per metre where it is 1
-  vec3 margin;        // by how much the region of the centres exceeds the box on each side [uvw]
   float radius;       // R [m]
   float weight;       // w [m]
+  vec3 margin;        // by how much the region of the centres exceeds the box on each side [uvw]
   float extinction;   // where the largest channel is 1 [1/m]; 0: emission only
-  float softness;     // distance over which quads fade before a surface, and from the eye [m]; 0: none
-  float drift;        // how far all have moved along the slices, a fraction of the region in [0, 1)
   vec2 swirl;         // amplitude of the swirl, a fraction of the region
   float swirl_turns;  // phase of the swirl, in [0, 1)
+  float softness;     // distance over which quads fade before a surface, and from the eye [m]; 0: none
+  float drift;        // how far all have moved along the slices, a fraction of the region in [0, 1)
   uint seed;
   uint first;         // place of its first particle among those of all systems
   uint count;         // N
@@ -49,7 +49,7 @@ SHARED_SIZE(ParticleSystem, 240);
 
 /// A particle of a frame.
 struct Particle {
-  vec3 centre_world;
+  PackedVec3 centre_world;
   float view_m;  // distance of its quad along the view axis [m]; behind the eye: not above 0
   uint system;
 };

@@ -19,30 +19,30 @@ SHARED_CONST uint kBoxVertices = 36u;
 
 /// What all volumes of a frame share.
 struct RaycastView {
-  uvec2 size_px;
-  float focal_length;          // 1 / tan(half the vertical field of view)
-  vec2 shift;                  // Camera::shift
-  float near_z;                // of the depth image [m]
   vec3 sun_direction;          // towards the sun, unit [view space]
+  float focal_length;          // 1 / tan(half the vertical field of view)
   vec3 sun_irradiance;         // on a surface that faces the sun
+  float near_z;                // of the depth image [m]
   vec3 ambient;                // mean radiance from all directions
-  Phase phase;
   float opaque_transmittance;  // below it a ray is opaque
+  Phase phase;
+  uvec2 size_px;
+  vec2 shift;                  // Camera::shift
 };
 SHARED_SIZE(RaycastView, 80);
 
 /// A volume of a frame. What the march reads of its density and look is its VolumeInstance.
 struct RaycastVolume {
   mat4 clip_from_voxel;
-  mat3 voxel_from_view;  // of directions [voxels/m]
-  vec3 eye_voxel;
-  vec3 to_sun;           // [voxels/m]
-  vec3 bounds_min;       // the box [voxel space]
-  vec3 bounds_max;
+  Affine voxel_from_view;   // [voxels/m]; the eye is its origin
+  vec3 to_sun;              // [voxels/m]
   float step_length;        // of the march along view rays [m]
+  vec3 bounds_min;          // the box [voxel space]
   float light_step_length;  // of the march towards the sun [m]
+  vec3 bounds_max;
+  float padding SHARED_ZERO;
 };
-SHARED_SIZE(RaycastVolume, 156);
+SHARED_SIZE(RaycastVolume, 160);
 
 /// A draw of a volume's box.
 struct RaycastDraw {

@@ -52,7 +52,7 @@ struct LightChange {
   vec3 from_world;
   float radius;
   vec3 to_world;
-  float padding;
+  float padding SHARED_ZERO;
 };
 SHARED_SIZE(LightChange, 32);
 

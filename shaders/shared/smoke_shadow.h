@@ -26,11 +26,11 @@ struct SmokeShadowFace {
 SHARED_SIZE(SmokeShadowFace, 32);
 
 struct SmokeShadowParams {
+  // Marches every `spread`th texel of each rectangle along both axes, starting at its texel `first`.
+  uvec2 first;
+  uint spread;
   uint face_count;
   float step_length;  // through the smoke [m]; longer where a ray would take more than 64 steps
-  // Marches every `spread`th texel of each rectangle along both axes, starting at its texel `first`.
-  uint spread;
-  uvec2 first;
 };
 SHARED_SIZE(SmokeShadowParams, 20);
 

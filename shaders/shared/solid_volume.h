@@ -18,8 +18,9 @@ struct SolidLayout {
   vec3 origin_world;  // low corner of texel (0, 0, 0) [m]
   float texel_size;   // [m]
   ivec3 size;         // texels
+  uint padding SHARED_ZERO;
 };
-SHARED_SIZE(SolidLayout, 28);
+SHARED_SIZE(SolidLayout, 32);
 
 /// Length at both ends of a ray segment between surfaces where solid texels are ignored [texels]: a texel's diagonal.
 SHARED_CONST float kSolidEnds = 1.7320508f;

@@ -25,8 +25,9 @@ struct TankLight {
   vec3 position;
   float radius;    // 0: a point
   vec3 intensity;  // [W/sr] times the squared voxels of a metre
+  float padding SHARED_ZERO;
 };
-SHARED_SIZE(TankLight, 28);
+SHARED_SIZE(TankLight, 32);
 
 SHARED_CONST uint kLensRemap = 0u;
 SHARED_CONST uint kLensRejection = 1u;
@@ -43,33 +44,37 @@ struct TankCamera {
   vec3 up;         // scaled by tan(half the vertical field of view)
   uint lens_points;  // kLensRemap or kLensRejection
   vec2 shift;        // of all rays, in units of right and up, as Camera::shift
+  vec2 padding SHARED_ZERO;
 };
-SHARED_SIZE(TankCamera, 72);
+SHARED_SIZE(TankCamera, 80);
 
 /// What surrounds the tank and fills it.
 struct TankAir {
   vec3 zenith;   // radiance that rays of the camera see above,
+  float padding SHARED_ZERO;
   vec3 horizon;  // and below
+  float padding_1 SHARED_ZERO;
   vec3 ambient;  // radiance that scattered rays see
+  float padding_2 SHARED_ZERO;
   vec3 fog_color;
   float fog_extinction;
 };
-SHARED_SIZE(TankAir, 52);
+SHARED_SIZE(TankAir, 64);
 
 struct TankConstants {
   TankCamera camera;
   TankAir air;
   Glass glass;
   ivec3 size;  // of the tank
-  ivec3 bricks;
-  uvec2 size_px;
   uint light_count;
+  ivec3 bricks;
   uint bounces;  // most scattering events of a path
   PhotonGrid photons;
+  uvec2 size_px;
   float surface_near;  // in a frame: its depth d is that of a surface at surface_near / d along the camera's axis
   uint in_middle;      // 1: rays of the camera pass through the middles of pixels, 0: anywhere through them
 };
-SHARED_SIZE(TankConstants, 208);
+SHARED_SIZE(TankConstants, 232);
 
 /// What is found for each voxel.
 struct SphereVoxelsParams {

@@ -24,18 +24,19 @@ struct LightMap {
   float first_depth;  // > 0, to the middle of the first layer
   uint layers;
   uint whole;  // 1: the map's rays meet all voxels; 0: those within slopes of 1
+  uvec2 padding SHARED_ZERO;
 };
-SHARED_SIZE(LightMap, 56);
+SHARED_SIZE(LightMap, 64);
 
 struct TankLightParams {
   LightMap map;
-  ivec3 size;      // of the tank
-  vec3 intensity;  // as TankLight
-  vec3 ambient;
+  ivec3 size;        // of the tank
   uint near_layers;  // that a voxel walks by itself before it reads the map; 0: all, which is exact
+  vec3 intensity;    // as TankLight
   uint adds;         // 0: what was there before is replaced
+  vec3 ambient;
 };
-SHARED_SIZE(TankLightParams, 100);
+SHARED_SIZE(TankLightParams, 108);
 
 /// Coordinates with the map's axis last.
 SHARED_FUNCTION vec3 to_map_axes(uint axis, vec3 v) {

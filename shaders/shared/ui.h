@@ -9,9 +9,9 @@ SHARED_BINDING(kBindUiFont, 1u);
 
 /// A vertex as Dear ImGui lays it out.
 struct UiVertex {
-  vec2 position;  ///< In display coordinates.
-  vec2 uv;        ///< In the font atlas.
-  uint colour;    ///< RGBA of 8 bits, sRGB, red lowest.
+  PackedVec2 position;  ///< In display coordinates.
+  PackedVec2 uv;        ///< In the font atlas.
+  uint colour;          ///< RGBA of 8 bits, sRGB, red lowest.
 };
 SHARED_SIZE(UiVertex, 20);
 

@@ -40,12 +40,13 @@ SHARED_CONST uint kMaxVolumes = 32u;
 /// What is derived is stored, too: a constant costs a GPU nothing, but what it computes from one takes a register.
 struct BrickLayout {
   ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
-  ivec3 window_size;    // nodes
-  ivec3 atlas_bricks;   // bricks per axis of the atlas, powers of two along x and y
-  uvec2 atlas_bits;     // logarithms of atlas_bricks.xy
-  vec3 atlas_texel;     // size of a texel in texture coordinates
   uint first_page;      // of the root, in the page buffer
+  ivec3 window_size;    // nodes
   uint first_slot;      // of the atlas; slots of the page table count from here
+  ivec3 atlas_bricks;   // bricks per axis of the atlas, powers of two along x and y
+  uint atlas_bits_x;    // logarithms of atlas_bricks.xy
+  vec3 atlas_texel;     // size of a texel in texture coordinates
+  uint atlas_bits_y;
 };
 SHARED_SIZE(BrickLayout, 64);
 
@@ -53,13 +54,15 @@ SHARED_SIZE(BrickLayout, 64);
 struct VolumeLayout {
   vec3 origin_world;  // low corner of voxel (0, 0, 0) [m]
   float voxel_size;   // [m]
-  float voxels_per_metre;
   vec3 texels_per_metre;  // in texture coordinates of the atlas
+  float voxels_per_metre;
   vec3 bounds_min;        // where density can be above 0 [voxel space]
+  float padding SHARED_ZERO;
   vec3 bounds_max;
+  float padding_1 SHARED_ZERO;
   BrickLayout bricks;
 };
-SHARED_SIZE(VolumeLayout, 120);
+SHARED_SIZE(VolumeLayout, 128);
 
 /// Absorption and scattering of a volume where its density is 1.
 struct VolumeLook {
@@ -68,17 +71,9 @@ struct VolumeLook {
   vec3 emission;               // radiance that an opaque part of the volume emits
   float anisotropy;            // Henyey-Greenstein g, (-1, 1)
   float multiple_scattering;   // weight of light scattered more than once; 0: single scattering only
+  vec3 padding SHARED_ZERO;
 };
-SHARED_SIZE(VolumeLook, 36);
-
-/// A second grid of a volume, which glows: where its value is h, as much light leaves a metre as
-/// look.extinction times the colour at h in the volume's row of the colours.
-struct VolumeHeat {
-  mat4x3 voxel_from_world;
-  BrickLayout bricks;
-  float per_value;  // position in the row of a value of 1; 0: the volume has no heat
-};
-SHARED_SIZE(VolumeHeat, 116);
+SHARED_SIZE(VolumeLook, 48);
 
 /// Colours of a row, from a value of 0 to that at the end of the row.
 SHARED_CONST uint kVolumeColors = 256u;
@@ -101,9 +96,8 @@ struct VolumeTransfer {
   float first, per_value;
   float scattered;  // fraction of the colour that is the albedo
   float emitted;    // radiance of an opaque part per colour
-  uint kind;
 };
-SHARED_SIZE(VolumeTransfer, 20);
+SHARED_SIZE(VolumeTransfer, 16);
 
 /// What the colours of a volume are.
 SHARED_CONST uint kColorsNone = 0u;
@@ -111,59 +105,65 @@ SHARED_CONST uint kColorsAlbedo = 1u;  // factors of its albedo
 SHARED_CONST uint kColorsMasks = 2u;   // three or four masks that glow
 SHARED_CONST uint kColorsPair = 3u;    // one or two, in an atlas of half as many bytes a texel
 
-/// Colours or masks in bricks of the same slots as a volume's own.
-struct VolumeColors {
-  BrickLayout bricks;
-  uint kind;
-};
-SHARED_SIZE(VolumeColors, 68);
-
 /// Noise below the voxels of a volume, which wears away what is thin (shared/volume_detail.h).
 struct VolumeDetail {
   float strength;         // as SmokeLook::erosion; 0: none
   float per_value;        // of a value, to a density that is 1 where the volume is densest
   float tiles_per_metre;  // of the noise, along the axis of most
+  float padding SHARED_ZERO;
 };
-SHARED_SIZE(VolumeDetail, 12);
+SHARED_SIZE(VolumeDetail, 16);
 
-/// A volume of one channel, its density >= 0, under any affine transform.
+/// A volume of one channel, its density >= 0, under any affine transform. It may have a second grid, which glows: where
+/// its value is h, as much light leaves a metre as look.extinction times the colour at h in the volume's row of the
+/// colours; and colours or masks in bricks of the same slots as its own.
 struct VolumeInstance {
-  mat4x3 voxel_from_world;  // [voxels/m]
-  mat4x3 world_from_voxel;
+  Affine voxel_from_world;  // [voxels/m]
+  Affine world_from_voxel;
   vec3 bounds_min;          // where density can be above 0 [voxel space]
+  uint is_dense;            // 1: opaque within a voxel or two, like a surface; else 0
   vec3 bounds_max;
+  uint number;              // in the frame's list of volumes, in view or not
+  float heat_per_value;     // position in the row of a value of 1; 0: the volume has no heat
+  uint color_kind;          // kColors...
+  uint transfer_kind;       // kTransfer...
+  uint padding SHARED_ZERO;
   VolumeLook look;
   BrickLayout bricks;
-  VolumeHeat heat;
-  mat4x3 sun_from_voxel;  // to the cube of the sun's depths, [0, 1]^3 (volume_light.h)
+  Affine heat_from_world;  // to the voxel space of the second grid
+  BrickLayout heat_bricks;
+  Affine sun_from_voxel;  // to the cube of the sun's depths, [0, 1]^3 (volume_light.h)
   VolumeTransfer transfer;
-  VolumeColors colors;
-  uint is_dense;  // 1: opaque within a voxel or two, like a surface; else 0
+  BrickLayout color_bricks;
   VolumeDetail detail;
-  uint number;  // in the frame's list of volumes, in view or not
 };
-SHARED_SIZE(VolumeInstance, 492);
+SHARED_SIZE(VolumeInstance, 512);
 
 /// Whether a volume can glow.
 SHARED_FUNCTION bool glows(VolumeInstance volume) {
   vec3 emission = volume.look.emission;
-  bool by_transfer = volume.transfer.kind != kTransferNone && volume.transfer.emitted > 0.0f;
-  return volume.heat.per_value > 0.0f || volume.colors.kind >= kColorsMasks || by_transfer ||
+  bool by_transfer = volume.transfer_kind != kTransferNone && volume.transfer.emitted > 0.0f;
+  return volume.heat_per_value > 0.0f || volume.color_kind >= kColorsMasks || by_transfer ||
          max(emission.r, max(emission.g, emission.b)) > 0.0f;
 }
 
 /// What few volumes have: tints of their masks, noise that moves the places at which they are sampled, and the place of
 /// their detail's.
 struct VolumeEffect {
-  mat4x3 tints;          // radiance per metre where a mask is 1
-  vec3 tiles_per_voxel;  // of the noise
+  Affine tints;           // a column per mask: radiance per metre where it is 1
+  vec4 growth;            // factor of the displacement at p: dot(xyz, p_voxel) + w, limited to [0, 1]
+  vec3 tiles_per_voxel;   // of the noise
+  float padding SHARED_ZERO;
   vec3 tile_offset;
-  vec3 amplitude;        // largest displacement [voxels]; 0: none
-  vec4 growth;           // factor of the displacement at p: dot(xyz, p_voxel) + w, limited to [0, 1]
+  float padding_1 SHARED_ZERO;
+  vec3 amplitude;         // largest displacement [voxels]; 0: none
+  float padding_2 SHARED_ZERO;
   vec3 detail_per_voxel;  // tiles of the detail's noise
+  float padding_3 SHARED_ZERO;
   vec3 detail_offset;
+  float padding_4 SHARED_ZERO;
 };
-SHARED_SIZE(VolumeEffect, 124);
+SHARED_SIZE(VolumeEffect, 144);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;
@@ -183,7 +183,7 @@ SHARED_FUNCTION uint node_page(BrickLayout bricks, uint root, ivec3 brick) {
 /// Position of a slot in an atlas [bricks]: slot = x + size.x (y + size.y z). By shifts: a GPU takes some 20
 /// instructions to divide by a number that is no power of two.
 SHARED_FUNCTION uvec3 atlas_brick(BrickLayout bricks, uint slot) {
-  uvec2 bits = bricks.atlas_bits;
+  uvec2 bits = uvec2(bricks.atlas_bits_x, bricks.atlas_bits_y);
   uint row = slot >> bits.x;
   return uvec3(slot - (row << bits.x), row & ((1u << bits.y) - 1u), row >> bits.y);
 }

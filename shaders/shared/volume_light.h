@@ -32,11 +32,12 @@ SHARED_CONST uint kSweepSamples = 2u;
 
 /// Parallel rays through the bounds of a volume.
 struct VolumeSweep {
-  mat4x3 sweep_from_world;  // to [0, 1]^3, z along the light
-  mat4x3 world_from_sweep;
+  Affine sweep_from_world;  // to [0, 1]^3, z along the light
+  Affine world_from_sweep;
   float length_m;  // of the sweep's z axis
+  vec3 padding SHARED_ZERO;
 };
-SHARED_SIZE(VolumeSweep, 100);
+SHARED_SIZE(VolumeSweep, 112);
 
 struct VolumeLightParams {
   uint edge;           // of the cubes that are written

@@ -147,7 +147,7 @@ MaterialImages device_material(const scene::Material& material) {
 shared::DrawConstants draw_constants(const Draw& draw, const shared::MaterialConstants& material,
                                      bool moves) {
   const glm::mat4 rows = glm::transpose(draw.world_from_mesh);
-  shared::DrawConstants constants{rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
+  shared::DrawConstants constants{{rows[0], rows[1], rows[2]}, material, moves ? 1.0f : 0.0f};
   constants.material.alpha_cutoff = draw.alpha_cutoff;
   return constants;
 }

@@ -42,9 +42,9 @@ void TankLightPass::reserve(const TankVolume& volume, std::span<const shared::Ta
       maps = {all};
     }
     for (const shared::LightMap& map : maps)
-      steps_.push_back({map, volume.size, light.intensity, glm::vec3(0), exact ? 0u : kNearLayers, 1u});
+      steps_.push_back({map, volume.size, exact ? 0u : kNearLayers, light.intensity, 1u, glm::vec3(0)});
   }
-  if (steps_.empty()) steps_.push_back({{}, volume.size, glm::vec3(0), glm::vec3(0), 0, 1});
+  if (steps_.empty()) steps_.push_back({{}, volume.size, 0, glm::vec3(0), 1, glm::vec3(0)});
   steps_.front().adds = 0;
 
   glm::uvec3 room(1);

@@ -38,6 +38,9 @@ GridList list_of(std::span<const planning::VolumeInput> volumes,
   return list;
 }
 
+// Every device of Vulkan has uniform buffers of so many bytes.
+static_assert(shared::kMaxVolumes * sizeof(shared::VolumeInstance) <= 16384);
+
 gpu::Buffer make_instances(gpu::Context& context) {
   return {context, shared::kMaxVolumes * sizeof(shared::VolumeInstance),
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
@@ -137,11 +140,11 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
   for (const planning::PlacedVolume& volume : visible) {
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(volume.grids.volume);
-    if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(volume.grids.heat);
-    if (instance.colors.kind == shared::kColorsPair)
-      instance.colors.bricks = pair_atlas_.layout(position(pairs, volume.grids.colors));
-    else if (instance.colors.kind != shared::kColorsNone)
-      instance.colors.bricks = color_atlas_.layout(position(color_grids, volume.grids.colors));
+    if (instance.heat_per_value > 0) instance.heat_bricks = layout_of(volume.grids.heat);
+    if (instance.color_kind == shared::kColorsPair)
+      instance.color_bricks = pair_atlas_.layout(position(pairs, volume.grids.colors));
+    else if (instance.color_kind != shared::kColorsNone)
+      instance.color_bricks = color_atlas_.layout(position(color_grids, volume.grids.colors));
     instances.push_back(instance);
   }
   recorder.upload(to, 0, std::as_bytes(std::span(instances)));
@@ -155,7 +158,7 @@ void VolumeUpload::record_effects(gpu::Recorder& recorder,
   for (const planning::PlacedVolume& volume : visible) {
     effects.push_back(volume.effect);
     const shared::VolumeInstance& instance = volume.instance;
-    any = any || instance.colors.kind >= shared::kColorsMasks || instance.detail.strength > 0 ||
+    any = any || instance.color_kind >= shared::kColorsMasks || instance.detail.strength > 0 ||
           volume.effect.amplitude != glm::vec3(0);
   }
   if (any) recorder.upload(effects_, 0, std::as_bytes(std::span(effects)));

@@ -39,7 +39,7 @@ FrameVector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum&
     }
     if (in.strength <= 0 || !frustum.may_intersect(bounds)) continue;
     shared::Decal decal{};
-    decal.uvw_from_world = glm::mat4x3(glm::mat4(uvw_from_world(world_from_uvw)));
+    decal.uvw_from_world = shared::affine_of(glm::mat4x3(glm::mat4(uvw_from_world(world_from_uvw))));
     decal.low_world = bounds.low;
     decal.high_world = bounds.high;
     // Normals keep their angles to the planes under any affine transform by its inverse, transposed.

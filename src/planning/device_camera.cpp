@@ -52,8 +52,16 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, co
   rows[2] = glm::vec4(0, 0, 0, kNearPlane);
   rows[1] = glm::vec4(-up, glm::dot(up, p)) / tan_y + shift.y * rows[3];
   rows[0] = glm::vec4(right, -glm::dot(right, p)) / tan_x - shift.x * rows[3];
-  return {glm::transpose(rows), p,          kNearPlane, forward, parallel ? 1.0f : 0.0f,
-          tan_x * right,        tan_y * up, shift};
+  shared::Camera result{};
+  result.clip_from_world = glm::transpose(rows);
+  result.eye_world = p;
+  result.near_z = kNearPlane;
+  result.forward = forward;
+  result.parallel = parallel ? 1.0f : 0.0f;
+  result.right = tan_x * right;
+  result.up = tan_y * up;
+  result.shift = shift;
+  return result;
 }
 
 glm::mat4 seen_from_world(const shared::Camera& camera) {

@@ -166,8 +166,8 @@ void plan_volume_light(FramePlan& plan, const PlanTarget& target, PlanHistory& h
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
     for (MediaPlan* media : {&plan.media, &plan.lit_media}) {
       shared::VolumeInstance& volume = media->volumes[i].instance;
-      volume.sun_from_voxel =
-          glm::mat4x3(glm::mat4(sun.sweep_from_world) * glm::mat4(volume.world_from_voxel));
+      volume.sun_from_voxel = shared::affine_of(glm::mat4x3(glm::mat4(matrix_of(sun.sweep_from_world)) *
+                                                            glm::mat4(matrix_of(volume.world_from_voxel))));
     }
   }
 }

@@ -40,20 +40,24 @@ float step_of(const VolumeInput& volume) {
   return is_dense(volume) ? shortest / 2 : shortest;
 }
 
-glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {
+shared::Affine inverse_of(const glm::mat4& world_from_voxel) {
   const glm::dmat4 inverse = glm::inverse(glm::dmat4(world_from_voxel));
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(inverse[column][row]))
         throw Error(ErrorCode::bad_input,
                     "the transform of a volume has no inverse; give each axis a length");
-  return glm::mat4x3(glm::mat4(inverse));
+  return shared::affine_of(glm::mat4x3(glm::mat4(inverse)));
 }
 
 /// The bounds of a volume along the world's axes.
 Box<float> world_box(const shared::VolumeLayout& layout) {
   return {layout.origin_world + layout.bounds_min * layout.voxel_size,
           layout.origin_world + layout.bounds_max * layout.voxel_size};
+}
+
+shared::MediaBox media_box(const Box<float>& box) {
+  return {box.low, 0, box.high, 0};
 }
 
 /// Adds a medium inside a box in the world to what the march goes through. `step` is the longest that suits
@@ -81,9 +85,9 @@ bool has_heat(const VolumeInput& volume) {
 
 /// The look of a volume where it has no colours of its own.
 shared::VolumeLook look_of(const VolumeInput& volume) {
-  const shared::VolumeTransfer transfer = device_transfer(volume.transfer);
   shared::VolumeLook look = volume.look;
-  if (transfer.kind == shared::kTransferNone) return look;
+  if (transfer_kind(volume.transfer) == shared::kTransferNone) return look;
+  const shared::VolumeTransfer transfer = device_transfer(volume.transfer);
   // For where a cell of light has no extinction; samples have colours of their own.
   const glm::vec3 color = mean_color(volume.transfer, look.albedo);
   look.albedo = transfer.scattered * color;
@@ -113,21 +117,23 @@ glm::vec3 detail_per_voxel(const VolumeDetailInput& detail) {
 
 shared::VolumeInstance instance_of(const VolumeInput& volume, std::size_t number) {
   const shared::VolumeLayout& layout = volume.volume->layout();
-  shared::VolumeHeat heat{};
-  if (has_heat(volume)) heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
-  return {inverse_of(volume.world_from_voxel),
-          glm::mat4x3(volume.world_from_voxel),
-          layout.bounds_min,
-          layout.bounds_max,
-          look_of(volume),
-          {},
-          heat,
-          {},
-          device_transfer(volume.transfer),
-          {{}, colors_of(volume)},
-          is_dense(volume) ? 1u : 0u,
-          volume_detail(volume),
-          static_cast<std::uint32_t>(number)};
+  shared::VolumeInstance instance{};
+  instance.voxel_from_world = inverse_of(volume.world_from_voxel);
+  instance.world_from_voxel = shared::affine_of(glm::mat4x3(volume.world_from_voxel));
+  instance.bounds_min = layout.bounds_min;
+  instance.bounds_max = layout.bounds_max;
+  instance.look = look_of(volume);
+  if (has_heat(volume)) {
+    instance.heat_from_world = inverse_of(volume.heat.world_from_voxel);
+    instance.heat_per_value = 1 / volume.heat.high;
+  }
+  instance.transfer = device_transfer(volume.transfer);
+  instance.transfer_kind = transfer_kind(volume.transfer);
+  instance.color_kind = colors_of(volume);
+  instance.is_dense = is_dense(volume) ? 1 : 0;
+  instance.detail = volume_detail(volume);
+  instance.number = static_cast<std::uint32_t>(number);
+  return instance;
 }
 
 ShownGrids grids_of(const VolumeInput& volume) {
@@ -170,7 +176,7 @@ void set_detail(const VolumeDetailInput& detail, shared::VolumeEffect& effect) {
 /// The bits of a volume.
 std::uint32_t media_of(const VolumeInput& volume) {
   std::uint32_t media = shared::kMediumVolumes;
-  if (device_transfer(volume.transfer).kind != shared::kTransferNone) media |= shared::kMediumTransfer;
+  if (transfer_kind(volume.transfer) != shared::kTransferNone) media |= shared::kMediumTransfer;
   if (colors_of(volume) == shared::kColorsAlbedo) media |= shared::kMediumColors;
   if (!volume.tints.empty() && volume.colors) media |= shared::kMediumMasks;
   if (!volume.disturbance.empty()) media |= shared::kMediumDisturbed;
@@ -203,7 +209,7 @@ void add_boxes(const VolumeInput& volume, FrameVector<Box<float>>& boxes) {
 void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
   constexpr std::size_t kMostBoxes = 16;  // beyond, to join them takes too long
   if (boxes.size() < 2 || boxes.size() > kMostBoxes) {
-    plan.frame.box_0 = {plan.frame.bounds_min, plan.frame.bounds_max};
+    plan.frame.box_0 = media_box({plan.frame.bounds_min, plan.frame.bounds_max});
     return;
   }
   join_nearest(boxes, shared::kMaxMediaBoxes);
@@ -211,13 +217,14 @@ void set_boxes(MediaPlan& plan, FrameVector<Box<float>>& boxes) {
   shared::MediaBox* const out[] = {&frame.box_0, &frame.box_1, &frame.box_2, &frame.box_3};
   static_assert(std::size(out) == shared::kMaxMediaBoxes);
   frame.box_count = 0;
-  for (const Box<float>& box : boxes) *out[frame.box_count++] = {box.low, box.high};
+  for (const Box<float>& box : boxes) *out[frame.box_count++] = media_box(box);
 }
 
 /// What glows in a volume, and what of its noise that light depends on.
 void add_glow(InputKey& key, const PlacedVolume& visible, const VolumeInput& input) {
   if (!shared::glows(visible.instance)) return;
-  key.add(visible.instance.heat);
+  key.add(visible.instance.heat_from_world);
+  key.add(visible.instance.heat_per_value);
   key.add(visible.grids.heat ? visible.grids.heat->id() : 0);
   key.add(visible.grids.heat ? visible.grids.heat->revision() : 0);
   key.add(glm::vec3(input.heat.kelvin, input.heat.high, input.heat.emission));
@@ -284,9 +291,10 @@ void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
 
 shared::VolumeEffect volume_effect(const VolumeInput& volume) {
   shared::VolumeEffect effect{};
-  effect.tints = glm::mat4x3(0);
+  glm::mat4x3 tints(0);
   for (std::size_t i = 0; i < std::min<std::size_t>(volume.tints.size(), 4); ++i)
-    effect.tints[static_cast<int>(i)] = volume.tints[i];
+    tints[static_cast<int>(i)] = volume.tints[i];
+  effect.tints = shared::affine_of(tints);
   if (!volume.disturbance.empty()) {
     set_disturbance(volume.disturbance, effect);
     set_growth(volume, effect);
@@ -315,7 +323,7 @@ shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::
   media.coarse_transmittance = shared::coarse_below(look.opaque_transmittance);
   media.to_sun = glm::vec3(0, 1, 0);
   media.box_count = 1;
-  media.box_0 = {box.low, box.high};
+  media.box_0 = media_box(box);
   return media;
 }
 
@@ -360,7 +368,8 @@ void add_casters(InputKey& key, const MediaPlan& media, std::span<const VolumeIn
     key.add(visible.instance.bounds_max);
     key.add(visible.instance.look);
     key.add(visible.instance.transfer);
-    key.add(visible.instance.colors.kind);
+    key.add(visible.instance.transfer_kind);
+    key.add(visible.instance.color_kind);
     key.add(visible.instance.is_dense);
     add_glow(key, visible, input);
     add_transfer(key, input.transfer);

@@ -29,10 +29,11 @@ void check_particles(const ParticleInput& input) {
 
 /// Around all centres and quads.
 WorldSphere bounds_of(const shared::ParticleSystem& system) {
-  WorldSphere sphere{glm::vec3(system.world_from_uvw * glm::vec4(0.5f, 0.5f, 0.5f, 1)), 0};
+  const glm::mat4x3 world_from_uvw = matrix_of(system.world_from_uvw);
+  WorldSphere sphere{world_from_uvw * glm::vec4(0.5f, 0.5f, 0.5f, 1), 0};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const glm::vec3 away = system.world_from_uvw * glm::vec4(side * (0.5f + system.margin), 0);
+    const glm::vec3 away = world_from_uvw * glm::vec4(side * (0.5f + system.margin), 0);
     sphere.radius = std::max(sphere.radius, glm::length(away));
   }
   return sphere;
@@ -61,11 +62,11 @@ shared::ParticleSystem particle_system(const ParticleInput& input, const shared:
       std::abs(glm::determinant(glm::dmat3(world_from_uvw))) * region.x * region.y * region.z;
 
   shared::ParticleSystem system{};
-  system.world_from_uvw = glm::mat4x3(input.world_from_uvw);
-  system.uvw_from_world = glm::mat4x3(glm::mat4(inverse));
+  system.world_from_uvw = shared::affine_of(glm::mat4x3(input.world_from_uvw));
+  system.uvw_from_world = shared::affine_of(glm::mat4x3(glm::mat4(inverse)));
   system.slices = slices;
-  for (int channel = 0; channel < 4; ++channel)
-    system.tints[channel] = input.tints[static_cast<std::size_t>(channel)];
+  const auto& tints = input.tints;
+  system.tints = shared::affine_of(glm::mat4x3(tints[0], tints[1], tints[2], tints[3]));
   system.margin = glm::vec3(margin);
   system.radius = static_cast<float>(radius);
   system.weight = static_cast<float>(volume / (input.count * std::numbers::pi * radius * radius / 3));

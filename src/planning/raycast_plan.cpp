@@ -49,18 +49,19 @@ double shortest_edge(const glm::dmat4& world_from_voxel) {
 
 /// Whether the eye is inside of a box, or nearly.
 bool is_around_eye(const shared::RaycastVolume& volume, const glm::dmat4& voxel_from_view) {
+  const glm::vec3 eye_voxel(voxel_from_view[3]);
   for (int axis = 0; axis < 3; ++axis) {
     const double per_metre =
         glm::length(glm::dvec3(voxel_from_view[0][axis], voxel_from_view[1][axis], voxel_from_view[2][axis]));
-    const double margin = kAroundEye * per_metre, eye = double{volume.eye_voxel[axis]};
+    const double margin = kAroundEye * per_metre, eye = double{eye_voxel[axis]};
     if (eye < double{volume.bounds_min[axis]} - margin || eye > double{volume.bounds_max[axis]} + margin)
       return false;
   }
   return true;
 }
 
-glm::dmat4 inverse_of(const glm::mat4x3& voxel_from_world) {
-  const glm::dmat4 inverse = glm::inverse(glm::dmat4(glm::mat4(voxel_from_world)));
+glm::dmat4 inverse_of(const glm::dmat4& voxel_from_world) {
+  const glm::dmat4 inverse = glm::inverse(voxel_from_world);
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(inverse[column][row]))
@@ -78,27 +79,25 @@ RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
   const glm::dmat4 from_view = world_from_view(camera), to_view = glm::inverse(from_view);
   const double focal_length = 1 / glm::length(glm::dvec3(camera.up));
   const glm::dmat4 projection = clip_from_view(focal_length, glm::dvec2(camera.shift), size_px);
-  plan.view = {size_px,
-               static_cast<float>(focal_length),
-               camera.shift,
-               camera.near_z,
-               glm::vec3(to_view * glm::dvec4(glm::dvec3(light.to_sun), 0)),
-               light.sun_irradiance,
-               light.ambient,
-               light.phase,
-               steps.opaque_transmittance};
+  plan.view.size_px = size_px;
+  plan.view.focal_length = static_cast<float>(focal_length);
+  plan.view.shift = camera.shift;
+  plan.view.near_z = camera.near_z;
+  plan.view.sun_direction = glm::vec3(to_view * glm::dvec4(glm::dvec3(light.to_sun), 0));
+  plan.view.sun_irradiance = light.sun_irradiance;
+  plan.view.ambient = light.ambient;
+  plan.view.phase = light.phase;
+  plan.view.opaque_transmittance = steps.opaque_transmittance;
 
   std::vector<double> distances;
   for (const PlacedVolume& volume : volumes) {
     // Spaces.
     const shared::VolumeInstance& instance = volume.instance;
-    const glm::dmat4 to_voxel = glm::dmat4(glm::mat4(instance.voxel_from_world)),
-                     from_voxel = inverse_of(instance.voxel_from_world),
-                     voxel_from_view = to_voxel * from_view;
+    const glm::dmat4 to_voxel = glm::dmat4(glm::mat4(matrix_of(instance.voxel_from_world))),
+                     from_voxel = inverse_of(to_voxel), voxel_from_view = to_voxel * from_view;
     shared::RaycastVolume placed{};
     placed.clip_from_voxel = glm::mat4(projection * to_view * from_voxel);
-    placed.voxel_from_view = glm::mat3(glm::dmat3(voxel_from_view));
-    placed.eye_voxel = glm::vec3(voxel_from_view[3]);
+    placed.voxel_from_view = shared::affine_of(glm::mat4x3(glm::dmat4x3(voxel_from_view)));
     placed.to_sun = glm::vec3(to_voxel * glm::dvec4(glm::dvec3(light.to_sun), 0));
     placed.bounds_min = instance.bounds_min;
     placed.bounds_max = instance.bounds_max;

@@ -31,8 +31,11 @@ TankPlan plan_tank_alone(const scene::TankScene& scene, const spheres::Tank& tan
   shared::TankConstants& constants = plan.constants;
 
   // The medium and the glass, in voxels.
-  constants.air = {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient, scene.fog.color,
-                   scene.fog.extinction / voxels.per_metre};
+  constants.air.zenith = scene.sky.zenith;
+  constants.air.horizon = scene.sky.horizon;
+  constants.air.ambient = scene.sky.ambient;
+  constants.air.fog_color = scene.fog.color;
+  constants.air.fog_extinction = scene.fog.extinction / voxels.per_metre;
   const spheres::LightPathScene light = scene::light_path_scene(scene, tank, time);
   constants.glass = light.glass;
   constants.size = glm::ivec3(tank.size);

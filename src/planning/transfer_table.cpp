@@ -17,11 +17,13 @@ double integral_of(const TransferInput& transfer, double at) {
 
 }  // namespace
 
+std::uint32_t transfer_kind(const TransferInput& transfer) {
+  if (transfer.empty()) return shared::kTransferNone;
+  return transfer.opacity.empty() ? shared::kTransferColors : shared::kTransferOpacity;
+}
+
 shared::VolumeTransfer device_transfer(const TransferInput& transfer) {
   shared::VolumeTransfer device{};
-  device.kind = transfer.empty()           ? shared::kTransferNone
-                : transfer.opacity.empty() ? shared::kTransferColors
-                                           : shared::kTransferOpacity;
   const double length = double{transfer.range.y} - double{transfer.range.x};
   device.per_value = static_cast<float>(1 / length);
   device.first = static_cast<float>(-double{transfer.range.x} / length);

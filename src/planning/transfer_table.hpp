@@ -8,7 +8,10 @@
 
 namespace brume::planning {
 
-/// What shaders read of a valid function; kTransferNone for an empty one.
+/// kTransferNone for an empty function.
+std::uint32_t transfer_kind(const TransferInput& transfer);
+
+/// What shaders read of a valid function.
 shared::VolumeTransfer device_transfer(const TransferInput& transfer);
 
 /// The shared::kTransferEntries entries of its table. `albedo` is its colour without a map.

@@ -79,8 +79,8 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
   Box<float> box = kEmptyBox;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
-    const glm::vec3 p =
-        volume.world_from_voxel * glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, high), 1);
+    const glm::vec3 p = matrix_of(volume.world_from_voxel) *
+                        glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, high), 1);
     const glm::vec3 at(glm::dot(u, p), glm::dot(v, p), glm::dot(direction, p));
     box = united(box, {at, at});
   }
@@ -89,9 +89,9 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
   // Its matrices.
   shared::VolumeSweep sweep{};
   const glm::vec3 origin = u * box.low.x + v * box.low.y + direction * box.low.z;
-  sweep.world_from_sweep = glm::mat4x3(u * size.x, v * size.y, direction * size.z, origin);
+  sweep.world_from_sweep = shared::affine_of(glm::mat4x3(u * size.x, v * size.y, direction * size.z, origin));
   const glm::mat3 rows = glm::transpose(glm::mat3(u / size.x, v / size.y, direction / size.z));
-  sweep.sweep_from_world = glm::mat4x3(rows[0], rows[1], rows[2], -(rows * origin));
+  sweep.sweep_from_world = shared::affine_of(glm::mat4x3(rows[0], rows[1], rows[2], -(rows * origin)));
   sweep.length_m = size.z;
   return sweep;
 }

@@ -27,7 +27,7 @@ void raise(Majorants& majorants, const Box<int>& all, const Box<int>& voxels, fl
 }  // namespace
 
 TransferCurve::TransferCurve(const planning::TransferInput& transfer, const glm::vec3& albedo)
-    : device_(planning::device_transfer(transfer)) {
+    : kind_(planning::transfer_kind(transfer)), device_(planning::device_transfer(transfer)) {
   if (empty()) return;
   table_ = planning::transfer_table(transfer, albedo);
   if (!has_opacity()) return;
@@ -269,7 +269,7 @@ glm::vec3 VolumeMedium::emission(const glm::vec3& p_world) const {
     const auto i = std::min(static_cast<std::size_t>(at), heat_colors_.size() - 2);
     sum += glm::mix(heat_colors_[i], heat_colors_[i + 1], at - static_cast<float>(i));
   }
-  if (has_masks_) sum += effect_.tints * masks_at(p_voxel);
+  if (has_masks_) sum += matrix_of(effect_.tints) * masks_at(p_voxel);
   if (!transfer_.empty() && transfer_.emitted() > 0) {
     const float value = values_.at(p_voxel).x;
     const glm::vec4 mean = value > 0 ? transfer_.at(value) : glm::vec4(0);

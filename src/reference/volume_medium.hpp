@@ -17,8 +17,8 @@ class TransferCurve {
   TransferCurve() = default;
   TransferCurve(const planning::TransferInput& transfer, const glm::vec3& albedo);
 
-  bool has_opacity() const { return device_.kind == shared::kTransferOpacity; }
-  bool empty() const { return device_.kind == shared::kTransferNone; }
+  bool has_opacity() const { return kind_ == shared::kTransferOpacity; }
+  bool empty() const { return kind_ == shared::kTransferNone; }
   /// Colour times opacity, and opacity, of a value: their mean over a cell of the table around it.
   glm::vec4 at(float value) const;
   /// At least the opacity of any value from `low` to `high`.
@@ -27,6 +27,7 @@ class TransferCurve {
   float emitted() const { return device_.emitted; }
 
  private:
+  std::uint32_t kind_ = shared::kTransferNone;
   shared::VolumeTransfer device_{};
   std::vector<glm::vec4> table_;
   std::vector<std::vector<float>> largest_;  // by level and cell: over 2^level cells from it on

@@ -97,8 +97,8 @@ planning::FrameInput frame_input(const Scenario& scenario, const Simulation& sim
   input.view.camera = camera_of(scenario, seconds, options);
   // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
   input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
-  input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
-                           timeline.sky.stars, timeline.sky.bounce};
+  input.environment.sky = {timeline.sky.zenith, timeline.sky.stars, timeline.sky.horizon, timeline.sky.bounce,
+                           timeline.sky.ambient};
   input.environment.bounces = timeline.bounces;
   const scene::SmokeOptions& smoke = timeline.smoke;
   input.smoke.look = planning::smoke_look(smoke, scenario.voxels.grid.layout().voxel_size);

@@ -204,7 +204,8 @@ void set_atlas(shared::BrickLayout& layout, glm::ivec3 bricks) {
                std::to_string(rows.x) + " x " + std::to_string(rows.y));
   layout.atlas_bricks = bricks;
   layout.atlas_texel = 1.0f / glm::vec3(bricks * shared::kBrickTexels);
-  layout.atlas_bits = {std::countr_zero(rows.x), std::countr_zero(rows.y)};
+  layout.atlas_bits_x = static_cast<std::uint32_t>(std::countr_zero(rows.x));
+  layout.atlas_bits_y = static_cast<std::uint32_t>(std::countr_zero(rows.y));
 }
 
 }  // namespace brume::volume

@@ -7,11 +7,11 @@
 #include "probes.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindProbeIn) readonly buffer Points { vec3 points_voxel[]; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Points { PackedVec3 points_voxel[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer Densities { float densities[]; };
 layout(scalar, push_constant) uniform Push { VolumeLayout volume; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
-  if (i < uint(points_voxel.length())) densities[i] = smoke_at(volume, points_voxel[i]).density;
+  if (i < uint(points_voxel.length())) densities[i] = smoke_at(volume, unpacked(points_voxel[i])).density;
 }

@@ -6,10 +6,10 @@
 #include "shared_structs.h"
 
 layout(local_size_x = 1) in;
-#define DECLARE(number, Type) Type values##number[2];
+#define DECLARE(number, Type) layout(align = 16) Type from##number; layout(align = 16) Type to##number;
 layout(scalar, binding = kBindProbeOut) buffer Structs { FOR_EACH_SHARED_STRUCT(DECLARE) };
 
 void main() {
-#define COPY(number, Type) values##number[1] = values##number[0];
+#define COPY(number, Type) to##number = from##number;
   FOR_EACH_SHARED_STRUCT(COPY)
 }

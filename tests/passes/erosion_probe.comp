@@ -7,7 +7,7 @@
 #include "probes.h"
 
 struct Noise {
-  vec4 tile;
+  PackedVec4 tile;
   vec2 detail;
 };
 
@@ -22,5 +22,5 @@ void main() {
   SmokeLook look;
   look.erosion = erosion;
   look.detail = detail;
-  densities[i] = erode(look, density, noises[i].tile, noises[i].detail, detail);
+  densities[i] = erode(look, density, unpacked(noises[i].tile), noises[i].detail, detail);
 }

@@ -10,6 +10,7 @@ struct Pair {
   vec3 p_world;
   float time;
   float rim;
+  vec3 padding;
 };
 
 layout(local_size_x = 64) in;

@@ -7,7 +7,7 @@
 #include "probes.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindProbeIn) readonly buffer Pairs { vec3 pairs[]; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Pairs { PackedVec3 pairs[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer FreeAnswers { float free[]; };
 layout(scalar, binding = kBindProbeOut2) writeonly buffer SkyAnswers {
   vec4 sky[];  // visibility; irradiance from above, below, +x
@@ -16,8 +16,8 @@ layout(scalar, binding = kBindProbeOut2) writeonly buffer SkyAnswers {
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(free.length())) return;
-  const vec3 p = pairs[2u * i];
-  free[i] = segment_visibility(p, pairs[2u * i + 1u]);
+  const vec3 p = unpacked(pairs[2u * i]);
+  free[i] = segment_visibility(p, unpacked(pairs[2u * i + 1u]));
   sky[i] = vec4(sky_light_at(p).x / sky_shape(0.0), sky_irradiance(p, vec3(0.0, 1.0, 0.0)),
                 sky_irradiance(p, vec3(0.0, -1.0, 0.0)), sky_irradiance(p, vec3(1.0, 0.0, 0.0)));
 }

@@ -7,14 +7,14 @@
 #include "probes.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = kBindProbeIn) readonly buffer Points { vec3 points[]; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Points { PackedVec3 points[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer Values { float values[]; };
 layout(scalar, push_constant) uniform Push { int cells; uint seed; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(points.length())) return;
-  const vec3 p = points[i];
+  const vec3 p = unpacked(points[i]);
   const vec4 gradient = perlin(p, cells, seed);
   const vec3 curl = curl_noise(p, cells, seed);
   const float all[10] =

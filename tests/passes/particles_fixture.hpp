@@ -200,12 +200,12 @@ class ParticlesFixture : public gpu::GpuTest {
                    : (view_m < surface ? 1.0 : 0.0);
       const double metres =
           double{system.weight} * glm::length(scene.ray(pixel)) * std::pow(1 - relative * relative, 2) * fade;
-      const glm::dvec3 uvw = glm::dmat4x3(system.uvw_from_world) * glm::dvec4(p, 1);
+      const glm::dvec3 uvw = glm::dmat4x3(matrix_of(system.uvw_from_world)) * glm::dvec4(p, 1);
       const glm::dvec4 value = scene.volumes[particle.system]->sample(uvw);
       const double depth =
           double{system.extinction} * std::max({value.x, value.y, value.z, value.w}) * metres;
       const double mean = depth > 1e-9 ? -std::expm1(-depth) / depth : 1;
-      const glm::dvec3 emitted = glm::dmat4x3(system.tints) * value * metres * mean;
+      const glm::dvec3 emitted = glm::dmat4x3(matrix_of(system.tints)) * value * metres * mean;
       composed.value = glm::dvec4(emitted, 0) + std::exp(-depth) * composed.value;
       composed.metres += metres;
     }
@@ -219,7 +219,7 @@ class ParticlesFixture : public gpu::GpuTest {
   };
   static Line integrate(const Scene& scene, std::size_t pixel, glm::dvec4 weights, int steps = 2000) {
     const ParticleSystem& system = scene.systems[0];
-    const glm::dmat4x3 uvw_from_world(system.uvw_from_world);
+    const glm::dmat4x3 uvw_from_world(matrix_of(system.uvw_from_world));
     const glm::dvec3 ray = scene.ray(pixel);
     const glm::dvec3 origin = uvw_from_world * glm::dvec4(glm::dvec3(scene.camera.eye_world), 1);
     const glm::dvec3 direction = uvw_from_world * glm::dvec4(ray, 0);

@@ -81,7 +81,8 @@ TEST_F(ParticlesTest, AreWhereTheFormulaPutsThem) {
     const glm::vec3 uvw = shared::particle_uvw(system, i);
     ASSERT_TRUE(glm::all(glm::greaterThanEqual(uvw, -system.margin - 1e-5f)));
     ASSERT_TRUE(glm::all(glm::lessThanEqual(uvw, 1.0f + system.margin + 1e-5f)));
-    const glm::vec3 on_device = system.uvw_from_world * glm::vec4(drawn.particles[i].centre_world, 1);
+    const glm::vec3 on_device =
+        matrix_of(system.uvw_from_world) * glm::vec4(drawn.particles[i].centre_world, 1);
     const glm::vec3 region = 1.0f + 2.0f * system.margin;
     const glm::vec3 apart = glm::abs(uvw - on_device) / region;
     const glm::vec3 wrapped = glm::min(apart, 1.0f - apart);

@@ -8,11 +8,11 @@
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = kBindProbeIn) readonly buffer Points { PhotonQuery queries[]; };
-layout(scalar, binding = kBindProbeOut) writeonly buffer Sums { vec3 sums[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Sums { PackedVec3 sums[]; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(queries.length())) return;
   const PhotonQuery query = queries[i];
-  sums[i] = gather_photons(query.grid, query.at, query.id, query.sphere, query.extinction);
+  sums[i] = packed_of(gather_photons(query.grid, query.at, query.id, query.sphere, query.extinction));
 }

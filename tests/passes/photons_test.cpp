@@ -38,7 +38,7 @@ TEST_F(PhotonsTest, ShadersGatherTheSame) {
       const std::uint32_t ball = i & 1;
       // Some where photons lie: small radii find nothing elsewhere.
       const glm::vec3 at = i % 4 < 2 ? photons[i].position : point(ball);
-      queries.push_back({paths.grid, at, ball + 1, spheres::packed(balls[ball]), ball == 0 ? 0 : 0.3f});
+      queries.push_back({spheres::packed(balls[ball]), at, ball + 1, paths.grid, ball == 0 ? 0 : 0.3f});
     }
     const gpu::Buffer in_queries = upload(queries), in_photons = upload(paths.photons),
                       in_cells = upload(paths.cells);

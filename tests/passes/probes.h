@@ -13,11 +13,12 @@ SHARED_BINDING(kBindProbeIn3, 52u);
 
 /// A point of a sphere where photons are gathered.
 struct PhotonQuery {
-  PhotonGrid grid;
+  vec4 sphere;
   vec3 at;
   uint id;
-  vec4 sphere;
+  PhotonGrid grid;
   float extinction;
+  float padding SHARED_ZERO;
 };
 
 SHARED_END

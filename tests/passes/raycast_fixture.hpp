@@ -63,7 +63,8 @@ class RaycastFixture : public gpu::GpuTest {
     std::vector<planning::PlacedVolume> visible;
     for (const Placed& one : placed) {
       shared::VolumeInstance instance{};
-      instance.voxel_from_world = glm::mat4x3(glm::mat4(glm::inverse(glm::dmat4(one.world_from_voxel))));
+      instance.voxel_from_world =
+          shared::affine_of(glm::mat4x3(glm::mat4(glm::inverse(glm::dmat4(one.world_from_voxel)))));
       instance.bounds_min = one.volume->layout().bounds_min;
       instance.bounds_max = one.volume->layout().bounds_max;
       instance.look = one.look;

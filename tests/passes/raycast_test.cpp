@@ -304,7 +304,7 @@ TEST(RaycastPlanTest, StepsReachAcrossTheLongestDiagonal) {
   planning::PlacedVolume volume;
   glm::dmat4 sheared(1);
   sheared[1][0] = 3;
-  volume.instance.voxel_from_world = glm::mat4x3(glm::mat4(glm::inverse(sheared)));
+  volume.instance.voxel_from_world = shared::affine_of(glm::mat4x3(glm::mat4(glm::inverse(sheared))));
   volume.instance.bounds_max = glm::vec3(1, 1, 1);
   planning::RaycastSteps steps;
   const auto planned = [&] {
@@ -319,7 +319,7 @@ TEST(RaycastPlanTest, StepsReachAcrossTheLongestDiagonal) {
   steps.samples = steps.light_samples = 1000;
   EXPECT_FLOAT_EQ(planned().step_length, 0.25f);
   EXPECT_FLOAT_EQ(planned().light_step_length, 0.125f);
-  volume.instance.voxel_from_world = glm::mat4x3(0);
+  volume.instance.voxel_from_world = {};
   EXPECT_THROW(planned(), Error);
 }
 

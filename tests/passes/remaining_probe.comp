@@ -6,7 +6,7 @@
 #include "probes.h"
 
 struct Question {
-  vec3 p_world;
+  PackedVec3 p_world;
   float time;
   float rim_noise;
   float rim;
@@ -20,5 +20,5 @@ void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(questions.length())) return;
   const Question q = questions[i];
-  remaining[i] = remaining_after_hole(i, hole_front(i), q.p_world, q.time, q.rim_noise, q.rim);
+  remaining[i] = remaining_after_hole(i, hole_front(i), unpacked(q.p_world), q.time, q.rim_noise, q.rim);
 }

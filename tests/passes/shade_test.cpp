@@ -76,7 +76,7 @@ class ShadeTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {1, 0, 0};
     frame.camera.up = {0, 0.5f, 0};
-    frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f, 0.0f};
+    frame.sky = {glm::vec3(0.1f), 0.3f, glm::vec3(0.2f), 0.0f, glm::vec3(0.05f)};
     frame.solid = solid_.layout();
     frame.size_px = size_;
     frame.exposure = 1;

@@ -5,7 +5,6 @@
 #include "shared/antialias.h"
 #include "shared/average.h"
 #include "shared/cloud.h"
-#include "shared/dda.h"
 #include "shared/debug_view.h"
 #include "shared/decal.h"
 #include "shared/display.h"
@@ -26,7 +25,6 @@
 #include "shared/photons.h"
 #include "shared/raycast.h"
 #include "shared/resolve.h"
-#include "shared/scattering.h"
 #include "shared/sky_light.h"
 #include "shared/slice_texture.h"
 #include "shared/smoke_light.h"
@@ -45,15 +43,15 @@
 
 // clang-format off
 #define FOR_EACH_SHARED_STRUCT(X) \
-  X(0, AccumulateParams) \
-  X(1, AccumulatedPixel) \
-  X(2, BoundaryCell) \
-  X(3, BrickLayout) \
-  X(4, Camera) \
-  X(5, CloudMotion) \
-  X(6, CloudParams) \
-  X(7, CloudShape) \
-  X(8, Dda) \
+  X(0, Affine) \
+  X(1, AccumulateParams) \
+  X(2, AccumulatedPixel) \
+  X(3, BoundaryCell) \
+  X(4, BrickLayout) \
+  X(5, Camera) \
+  X(6, CloudMotion) \
+  X(7, CloudParams) \
+  X(8, CloudShape) \
   X(9, DebugViewParams) \
   X(10, DisplayParams) \
   X(11, DrawConstants) \
@@ -63,86 +61,79 @@
   X(15, HoleCellsParams) \
   X(16, HoleClusterLayout) \
   X(17, HoleCounters) \
-  X(18, HoleCut) \
-  X(19, HoleListsParams) \
-  X(20, HoleOpening) \
-  X(21, HoleReach) \
-  X(22, Impulse) \
-  X(23, Light) \
-  X(24, LightChange) \
-  X(25, LightGather) \
-  X(26, ManyFit) \
-  X(27, ManyScatterings) \
-  X(28, MarchList) \
-  X(29, MaterialConstants) \
-  X(30, MediaBox) \
-  X(31, NoiseAdvectionParams) \
-  X(32, NoiseParams) \
-  X(33, PackedHole) \
-  X(34, PackedReach) \
-  X(35, Phase) \
-  X(36, RayEnds) \
-  X(37, RaycastDraw) \
-  X(38, RaycastView) \
-  X(39, RaycastVolume) \
-  X(40, ShadowDraw) \
-  X(41, ShadowRays) \
-  X(42, ShadowView) \
-  X(43, Sky) \
-  X(44, SmokeLightParams) \
-  X(45, SmokeLook) \
-  X(46, SmokeShadowFace) \
-  X(47, SmokeShadowParams) \
-  X(48, SolidLayout) \
-  X(49, TexelList) \
-  X(50, UiConstants) \
-  X(51, UiVertex) \
-  X(52, UpscaleConstants) \
-  X(53, Vertex) \
-  X(54, VolumeColors) \
-  X(55, VolumeHeat) \
-  X(56, VolumeInstance) \
-  X(57, VolumeLayout) \
-  X(58, VolumeLightParams) \
-  X(59, VolumeLook) \
-  X(60, VolumeSweep) \
-  X(61, VolumeTransfer) \
-  X(62, SliceTexture) \
-  X(63, Particle) \
-  X(64, ParticleList) \
-  X(65, ParticleSystem) \
-  X(66, Decal) \
-  X(67, DecalParams) \
-  X(68, VolumeEffect) \
-  X(69, AverageConstants) \
-  X(70, SphereBrick) \
-  X(71, Glass) \
-  X(72, TankLight) \
-  X(73, TankCamera) \
-  X(74, TankAir) \
-  X(75, TankConstants) \
-  X(76, SphereVoxelsParams) \
-  X(77, TankSamples) \
-  X(78, LightMap) \
-  X(79, TankLightParams) \
-  X(80, NearestIds) \
-  X(81, Photon) \
-  X(82, PhotonGrid) \
-  X(83, IndirectLayout) \
-  X(84, SurfacePatch) \
-  X(85, IndirectParams) \
-  X(86, AntialiasParams) \
-  X(87, SurfaceImportParams) \
-  X(88, MediaLayerParams) \
-  X(89, SurfaceShadowParams) \
-  X(90, SurfaceNormalParams) \
-  X(91, VolumeDetail) \
-  X(92, PaneMaterial) \
-  X(93, GlowFieldParams) \
-  X(94, GlowCell) \
-  X(95, EmitterSample) \
-  X(96, EmitterRay) \
-  X(97, SmokeMotionParams)
+  X(18, HoleListsParams) \
+  X(19, HoleReach) \
+  X(20, Impulse) \
+  X(21, Light) \
+  X(22, LightChange) \
+  X(23, LightGather) \
+  X(24, MarchList) \
+  X(25, MaterialConstants) \
+  X(26, MediaBox) \
+  X(27, NoiseAdvectionParams) \
+  X(28, NoiseParams) \
+  X(29, PackedHole) \
+  X(30, PackedReach) \
+  X(31, Phase) \
+  X(32, RayEnds) \
+  X(33, RaycastDraw) \
+  X(34, RaycastView) \
+  X(35, RaycastVolume) \
+  X(36, ShadowDraw) \
+  X(37, ShadowRays) \
+  X(38, ShadowView) \
+  X(39, Sky) \
+  X(40, SmokeLightParams) \
+  X(41, SmokeLook) \
+  X(42, SmokeShadowFace) \
+  X(43, SmokeShadowParams) \
+  X(44, SolidLayout) \
+  X(45, TexelList) \
+  X(46, UiConstants) \
+  X(47, UiVertex) \
+  X(48, UpscaleConstants) \
+  X(49, Vertex) \
+  X(50, VolumeInstance) \
+  X(51, VolumeLayout) \
+  X(52, VolumeLightParams) \
+  X(53, VolumeLook) \
+  X(54, VolumeSweep) \
+  X(55, VolumeTransfer) \
+  X(56, SliceTexture) \
+  X(57, Particle) \
+  X(58, ParticleList) \
+  X(59, ParticleSystem) \
+  X(60, Decal) \
+  X(61, DecalParams) \
+  X(62, VolumeEffect) \
+  X(63, AverageConstants) \
+  X(64, SphereBrick) \
+  X(65, Glass) \
+  X(66, TankLight) \
+  X(67, TankCamera) \
+  X(68, TankAir) \
+  X(69, TankConstants) \
+  X(70, SphereVoxelsParams) \
+  X(71, TankSamples) \
+  X(72, LightMap) \
+  X(73, TankLightParams) \
+  X(74, Photon) \
+  X(75, PhotonGrid) \
+  X(76, IndirectLayout) \
+  X(77, SurfacePatch) \
+  X(78, IndirectParams) \
+  X(79, AntialiasParams) \
+  X(80, SurfaceImportParams) \
+  X(81, MediaLayerParams) \
+  X(82, SurfaceShadowParams) \
+  X(83, SurfaceNormalParams) \
+  X(84, VolumeDetail) \
+  X(85, PaneMaterial) \
+  X(86, GlowFieldParams) \
+  X(87, GlowCell) \
+  X(88, EmitterSample) \
+  X(89, EmitterRay) \
+  X(90, SmokeMotionParams)
 // clang-format on
 
 #endif

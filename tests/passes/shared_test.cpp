@@ -18,27 +18,29 @@ namespace {
 
 using spirv_cross::SPIRType;
 
-/// Type of a member: that of its numbers and how many, or Struct and its size in numbers.
-struct MemberType {
-  SPIRType::BaseType base;
-  std::size_t numbers;
-  bool operator==(const MemberType&) const = default;
-};
+/// The types of a member's numbers: PackedVec3 is a vector in one language and a struct in the other.
+using NumberTypes = std::vector<SPIRType::BaseType>;
+
+template <typename Number>
+constexpr SPIRType::BaseType kTypeOf = std::is_same_v<Number, float> ? SPIRType::Float
+                                       : std::is_same_v<Number, int> ? SPIRType::Int
+                                                                     : SPIRType::UInt;
 
 template <typename T>
-MemberType type_of(const T&) {
-  const auto of_number = [](auto number) {
-    using Number = decltype(number);
-    return std::is_same_v<Number, float> ? SPIRType::Float
-           : std::is_same_v<Number, int> ? SPIRType::Int
-                                         : SPIRType::UInt;
-  };
+void add_numbers(const T& value, NumberTypes& types) {
   if constexpr (std::is_arithmetic_v<T>)
-    return {of_number(T()), 1};
+    types.push_back(kTypeOf<T>);
   else if constexpr (requires { typename T::value_type; })
-    return {of_number(typename T::value_type()), sizeof(T) / 4};
+    types.insert(types.end(), sizeof(T) / 4, kTypeOf<typename T::value_type>);
   else
-    return {SPIRType::Struct, sizeof(T) / 4};
+    for_each_member(value, [&](const auto& member) { add_numbers(member, types); });
+}
+
+template <typename T>
+NumberTypes numbers_of(const T& value) {
+  NumberTypes types;
+  add_numbers(value, types);
+  return types;
 }
 
 /// Layouts in the compiled shader.
@@ -50,9 +52,9 @@ class Layouts {
 
   template <typename T>
   void expect_same(std::uint32_t number, const char* name) const {
-    ASSERT_LT(number, block_.member_types.size()) << name;
-    EXPECT_EQ(compiler_.type_struct_member_array_stride(block_, number), sizeof(T)) << name;
-    const SPIRType& type = compiler_.get_type(compiler_.get_type(block_.member_types[number]).parent_type);
+    ASSERT_LT(2 * number, block_.member_types.size()) << name;
+    const SPIRType& type = compiler_.get_type(block_.member_types[2 * number]);
+    EXPECT_EQ(compiler_.get_declared_struct_size(type), sizeof(T)) << name;
     ASSERT_EQ(type.member_types.size(), member_count<T>()) << name;
     const T value{};
     std::uint32_t i = 0;
@@ -60,21 +62,23 @@ class Layouts {
       const auto offset =
           reinterpret_cast<const std::byte*>(&member) - reinterpret_cast<const std::byte*>(&value);
       EXPECT_EQ(compiler_.type_struct_member_offset(type, i), offset) << name << " member " << i;
-      EXPECT_EQ(member_type(type.member_types[i]), type_of(member)) << name << " member " << i;
+      NumberTypes numbers;
+      add_member(type.member_types[i], numbers);
+      EXPECT_EQ(numbers, numbers_of(member)) << name << " member " << i;
       ++i;
     });
   }
 
  private:
-  MemberType member_type(spirv_cross::TypeID id) const {
+  void add_member(spirv_cross::TypeID id, NumberTypes& types) const {
     const SPIRType& type = compiler_.get_type(id);
-    if (type.basetype == SPIRType::Struct)
-      return {SPIRType::Struct, compiler_.get_declared_struct_size(type) / 4};
-    return {type.basetype, std::size_t{type.vecsize} * type.columns};
+    if (type.basetype != SPIRType::Struct)
+      types.insert(types.end(), std::size_t{type.vecsize} * type.columns, type.basetype);
+    for (const spirv_cross::TypeID member : type.member_types) add_member(member, types);
   }
 
   spirv_cross::Compiler compiler_;
-  const SPIRType& block_;  // its member `number` is an array of that struct
+  const SPIRType& block_;  // its members 2 `number` and the next are that struct
 };
 
 TEST(SharedStructs, HaveOneLayoutInBothLanguages) {
@@ -107,10 +111,11 @@ TEST_F(SharedStructsOnTheDevice, AreCopiedWhole) {
   const gpu::ComputePipeline pipeline(context(), shaders::echo_comp);
   std::vector<std::uint32_t> values;
   std::vector<std::size_t> words;
+  const auto rounded_up = [](std::size_t count) { return (count + 3) / 4 * 4; };  // to 16 bytes
   const auto add = [&](std::size_t bytes) {
     words.push_back(bytes / 4);
     for (std::uint32_t i = 0; i < bytes / 4; ++i) values.push_back(0x3f800000u + i);  // floats from 1 on
-    values.resize(values.size() + bytes / 4);
+    values.resize(rounded_up(values.size()) + rounded_up(bytes / 4));
   };
 #define ADD(number, Type) add(sizeof(shared::Type));
   FOR_EACH_SHARED_STRUCT(ADD)
@@ -123,9 +128,10 @@ TEST_F(SharedStructsOnTheDevice, AreCopiedWhole) {
   const auto copied = read_back<std::uint32_t>(buffer, values.size());
   auto first = copied.begin();
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const auto second = first + static_cast<std::ptrdiff_t>(words[i]);
-    EXPECT_TRUE(std::equal(first, second, second)) << "struct " << i;
-    first = second + static_cast<std::ptrdiff_t>(words[i]);
+    const auto room = static_cast<std::ptrdiff_t>(rounded_up(words[i]));
+    const auto second = first + room;
+    EXPECT_TRUE(std::equal(first, first + static_cast<std::ptrdiff_t>(words[i]), second)) << "struct " << i;
+    first = second + room;
   }
 }
 

@@ -7,7 +7,7 @@
 #include "probes.h"
 
 struct Segment {
-  vec3 a_world, b_world;
+  PackedVec3 a_world, b_world;
 };
 
 layout(local_size_x = 64) in;
@@ -15,8 +15,8 @@ layout(scalar, binding = kBindProbeIn) readonly buffer Segments { Segment segmen
 layout(scalar, binding = kBindProbeIn2) readonly buffer Holes { Hole holes[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer Depths { float depths[]; };
 const float kStepVoxel = 1.0 / 64.0;  // at most
+layout(scalar, binding = kBindProbeIn3) readonly buffer Constants { VolumeLayout volume; };
 layout(scalar, push_constant) uniform Push {
-  VolumeLayout volume;
   float time;
   uint hole_count;   // at most 32
 };
@@ -42,15 +42,15 @@ bool hole_near_ray(Hole hole, vec3 origin_world, vec3 direction, float t_begin, 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(segments.length())) return;
-  const Segment s = segments[i];
-  const vec3 a = (s.a_world - volume.origin_world) / volume.voxel_size;
-  const vec3 segment = (s.b_world - volume.origin_world) / volume.voxel_size - a;
+  const vec3 a_world = unpacked(segments[i].a_world), b_world = unpacked(segments[i].b_world);
+  const vec3 a = (a_world - volume.origin_world) / volume.voxel_size;
+  const vec3 segment = (b_world - volume.origin_world) / volume.voxel_size - a;
   const float reach = length(segment);
   const vec3 direction = segment / reach;
 
   uint near = 0u;
   for (uint h = 0u; h < hole_count; ++h) {
-    if (hole_near_ray(holes[h], s.a_world, direction * volume.voxel_size, 0.0, reach, 0.0)) near |= 1u << h;
+    if (hole_near_ray(holes[h], a_world, direction * volume.voxel_size, 0.0, reach, 0.0)) near |= 1u << h;
   }
   const float count = ceil(reach / kStepVoxel), ds = reach / count;
   float sum = 0.0;

@@ -18,7 +18,6 @@ constexpr std::size_t kHoles = 32;
 constexpr float kStep = 1.0f / 64;  // of sight_probe.comp [voxels]
 
 struct ProbeConstants {
-  shared::VolumeLayout volume;
   float time;
   std::uint32_t hole_count;
 };
@@ -40,8 +39,8 @@ class SightTest : public gpu::GpuTest {
     const gpu::Buffer out(context(), segments.size() * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     const SmokeResources& on_device = smoke.resources();
-    const ProbeConstants constants{scene.volume().layout(), scene.time(),
-                                   static_cast<std::uint32_t>(open.size())};
+    const gpu::Buffer layout = upload(std::vector{scene.volume().layout()});
+    const ProbeConstants constants{scene.time(), static_cast<std::uint32_t>(open.size())};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.bind(pipeline,
                     {{shared::kBindProbeIn, gpu::read(in)},
@@ -51,6 +50,7 @@ class SightTest : public gpu::GpuTest {
                      {shared::kBindBoundary, gpu::read(on_device.boundary)},
                      {shared::kBindCorners, gpu::read(on_device.corners)},
                      {shared::kBindProbeIn2, gpu::read(holes)},
+                     {shared::kBindProbeIn3, gpu::read(layout)},
                      {shared::kBindProbeOut, gpu::write(out)},
                      {shared::kBindHoleMasks, gpu::sampled(masks, nearest)}},
                     constants);

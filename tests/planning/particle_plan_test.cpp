@@ -68,7 +68,7 @@ TEST(ParticlePlan, TheMarginHoldsAFootprintAroundEveryPointOfTheBox) {
   for (int i = 0; i < 1000; ++i) {
     const float a = 0.1f * static_cast<float>(i), b = 0.37f * static_cast<float>(i);
     const glm::vec3 away = glm::vec3(std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b));
-    const glm::vec3 off = system.uvw_from_world * glm::vec4(system.radius * away, 0);
+    const glm::vec3 off = matrix_of(system.uvw_from_world) * glm::vec4(system.radius * away, 0);
     EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(off), system.margin * 1.00001f)));
   }
 }

@@ -38,18 +38,18 @@ TEST(TransferTable, AConstantColourIsThatOfAnyPart) {
 
 TEST(TransferTable, ValuesHavePositionsInTheRange) {
   TransferInput transfer;
-  EXPECT_EQ(device_transfer(transfer).kind, shared::kTransferNone);
+  EXPECT_EQ(transfer_kind(transfer), shared::kTransferNone);
   transfer.glow = 0.25f;
   transfer.emission = 8;
   transfer.range = {2, 6};
   const shared::VolumeTransfer device = device_transfer(transfer);
-  EXPECT_EQ(device.kind, shared::kTransferColors);
+  EXPECT_EQ(transfer_kind(transfer), shared::kTransferColors);
   EXPECT_EQ(2 * device.per_value + device.first, 0);
   EXPECT_EQ(6 * device.per_value + device.first, 1);
   EXPECT_EQ(device.scattered, 0.75f);
   EXPECT_EQ(device.emitted, 2);
   transfer.opacity = {{0, 0}, {1, 1}};
-  EXPECT_EQ(device_transfer(transfer).kind, shared::kTransferOpacity);
+  EXPECT_EQ(transfer_kind(transfer), shared::kTransferOpacity);
 }
 
 }  // namespace

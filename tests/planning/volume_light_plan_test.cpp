@@ -22,26 +22,30 @@ TEST(VolumeSweep, FitsTheBoundsAndRunsAlongTheLight) {
     glm::mat4 matrix(1);
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 3; ++row) matrix[column][row] = 3 * draw(random);
-    volume.world_from_voxel = glm::mat4x3(matrix);
+    const glm::mat4x3 world_from_voxel(matrix);
+    volume.world_from_voxel = shared::affine_of(world_from_voxel);
     volume.bounds_min = glm::vec3(draw(random), draw(random), draw(random));
     volume.bounds_max = volume.bounds_min + 7.0f;
     const glm::vec3 direction = glm::normalize(glm::vec3(draw(random), draw(random), 0.1f + draw(random)));
     const shared::VolumeSweep sweep = sweep_through(volume, direction);
+
+    const glm::mat4x3 world_from_sweep = matrix_of(sweep.world_from_sweep),
+                      sweep_from_world = matrix_of(sweep.sweep_from_world);
 
     // Corners of the bounds fill the unit cube along each axis.
     glm::vec3 low(1e9f), high(-1e9f);
     for (int corner = 0; corner < 8; ++corner) {
       const glm::bvec3 side(corner & 1, corner & 2, corner & 4);
       const glm::vec3 p =
-          volume.world_from_voxel * glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, side), 1);
-      const glm::vec3 at = sweep.sweep_from_world * glm::vec4(p, 1);
+          world_from_voxel * glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, side), 1);
+      const glm::vec3 at = sweep_from_world * glm::vec4(p, 1);
       low = glm::min(low, at);
       high = glm::max(high, at);
-      EXPECT_LT(glm::length(sweep.world_from_sweep * glm::vec4(at, 1) - p), 1e-3f) << round;
+      EXPECT_LT(glm::length(world_from_sweep * glm::vec4(at, 1) - p), 1e-3f) << round;
     }
     EXPECT_LT(glm::length(low), 1e-3f) << round;
     EXPECT_LT(glm::length(high - 1.0f), 1e-3f) << round;
-    const glm::vec3 along = sweep.world_from_sweep * glm::vec4(0, 0, 1, 0);
+    const glm::vec3 along = world_from_sweep * glm::vec4(0, 0, 1, 0);
     EXPECT_NEAR(glm::length(along), sweep.length_m, 1e-3f * sweep.length_m) << round;
     EXPECT_LT(glm::length(along / sweep.length_m - direction), 1e-4f) << round;
   }
@@ -66,7 +70,7 @@ class VolumeLightCacheTest : public testing::Test {
     media.frame.volume_count = media.frame.caster_count = media.caster_count = 1;
     PlacedVolume visible;
     visible.instance.voxel_from_world = visible.instance.world_from_voxel =
-        glm::mat4x3(inputs_[0].world_from_voxel);
+        shared::affine_of(glm::mat4x3(inputs_[0].world_from_voxel));
     visible.instance.bounds_max = size_;
     visible.instance.is_dense = is_dense_ ? 1 : 0;
     visible.instance.look = inputs_[0].look;

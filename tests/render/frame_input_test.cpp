@@ -57,7 +57,7 @@ class FrameInputTest : public VolumeFixture {
 
   FrameInputTest() {
     input_.view.camera = {{0.3f, 1.9f, 5}, {0, 0.9f, 0}, 0.9f};
-    input_.environment.sky = {glm::vec3(0.2f, 0.3f, 0.5f), glm::vec3(0.3f), glm::vec3(0.2f), 0, 0.2f};
+    input_.environment.sky = {glm::vec3(0.2f, 0.3f, 0.5f), 0, glm::vec3(0.3f), 0.2f, glm::vec3(0.2f)};
     input_.level.voxels.grid = &level();
     smoke().show_in(input_);
     shared::SmokeLook& look = input_.smoke.look;
@@ -272,7 +272,7 @@ TEST_F(FrameInputTest, TheMeanOfTwoSamplesIsAnotherPictureThanTheSecond) {
 
 TEST_F(FrameInputTest, TheEnvironment) {
   [[maybe_unused]] const auto& [sky, flashes, glow, bounces] = input_.environment;
-  [[maybe_unused]] const auto& [zenith, horizon, ambient, stars, bounce] = sky;
+  [[maybe_unused]] const auto& [zenith, stars, horizon, bounce, ambient, sky_padding] = sky;
   const auto flash = [](FrameInput& input) {
     shared::Light& light = input.environment.flashes.emplace_back();
     light.position_world = {-1, 1.5f, 2};
@@ -346,7 +346,7 @@ TEST_F(FrameInputTest, TheLevel) {
 TEST_F(FrameInputTest, TheSmoke) {
   [[maybe_unused]] const auto& [volume, state, holes, look, swirl_period, time] = input_.smoke;
   [[maybe_unused]] const auto& [albedo, extinction, step, opaque, erosion, frequency, detail, rise, swirl,
-                                swirl_width, scattering, rim, phase] = look;
+                                swirl_width, phase, scattering, rim, padding] = look;
   [[maybe_unused]] const auto& [g_hg, g_draine, alpha, draine_weight] = phase;
   const auto look_row = [](const char* field, float shared::SmokeLook::*member, float value) {
     return FieldChange{field, [=](FrameInput& input) { input.smoke.look.*member = value; }};
@@ -397,7 +397,7 @@ TEST_F(FrameInputTest, TheSmoke) {
 TEST_F(FrameInputTest, Volumes) {
   [[maybe_unused]] const auto& [density, placement, look, heat, preview, from_preview, transfer, colors,
                                 tints, disturbance, detail, index, voxel_depth] = input_.volumes[0];
-  [[maybe_unused]] const auto& [albedo, extinction, emission, anisotropy, scattering] = look;
+  [[maybe_unused]] const auto& [albedo, extinction, emission, anisotropy, scattering, padding] = look;
   [[maybe_unused]] const auto& [warm, warm_placement, kelvin, high, gain, warm_preview, warm_from] = heat;
   [[maybe_unused]] const auto& [opacity, color_map, range, glow, strength] = transfer;
   [[maybe_unused]] const auto& [noise_from_file, noise, noise_time] = disturbance;

@@ -83,7 +83,7 @@ class FrameLayersTest : public gpu::GpuTest {
          {}}};
     input_.volumes[0].look = {glm::vec3(0), kExtinction, glm::vec3(0.3f, 0.2f, 0.1f), 0, 0};
     input_.view.camera = {{0, 1, 9}, {0, 0, 0}, 1.2f};
-    input_.environment.sky = {glm::vec3(0.25f, 0.5f, 2), glm::vec3(0.25f, 0.5f, 2), glm::vec3(0.1f), 0, 0};
+    input_.environment.sky = {glm::vec3(0.25f, 0.5f, 2), 0, glm::vec3(0.25f, 0.5f, 2), 0, glm::vec3(0.1f)};
     input_.smoke.look.swirl_width = 1;
     input_.smoke.look.noise_frequency = 1;
     renderer().set_march_scale(1);

@@ -10,7 +10,8 @@
 namespace brume::smoke {
 
 /// One question; as the shader of the passes' tests reads it.
-struct HolePair {
+/// With gaps as hole_probe.comp has them.
+struct alignas(16) HolePair {
   shared::Hole hole;
   glm::vec3 p_world;
   float time;
