@@ -75,7 +75,7 @@ typedef struct brume_renderer brume_renderer;
 // ---- Device ----
 
 /// Returns a constant chain for VkDeviceCreateInfo::pNext, which begins with a VkPhysicalDeviceFeatures2: all
-/// features that Brume uses of a device of Vulkan 1.3. A device of Vulkan 1.2 with scalarBlockLayout and
+/// features that Brume uses of a device of Vulkan 1.3. A device of Vulkan 1.2 with
 /// shaderStorageImageExtendedFormats is enough, if you give brume_device_params::enabled_features: render
 /// passes and barriers of Vulkan 1.0 then draw the same pictures. Each device must support subgroup vote,
 /// arithmetic and ballot in compute shaders. None needs an extension. Never fails.

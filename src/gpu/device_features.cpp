@@ -11,8 +11,7 @@ constexpr auto kFeatures2 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
 constexpr auto kVulkan12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
 constexpr auto kVulkan13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 constexpr std::size_t kOfSingle = offsetof(FeatureStructs::Single, enabled);
-static_assert(sizeof(FeatureStructs::Single) == sizeof(VkPhysicalDeviceScalarBlockLayoutFeatures) &&
-              kOfSingle == offsetof(VkPhysicalDeviceScalarBlockLayoutFeatures, scalarBlockLayout) &&
+static_assert(sizeof(FeatureStructs::Single) == sizeof(VkPhysicalDeviceDynamicRenderingFeatures) &&
               kOfSingle == offsetof(VkPhysicalDeviceDynamicRenderingFeatures, dynamicRendering) &&
               kOfSingle == offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2));
 
@@ -20,9 +19,6 @@ static_assert(sizeof(FeatureStructs::Single) == sizeof(VkPhysicalDeviceScalarBlo
 constexpr Feature kFeatures[] = {
     {"shaderStorageImageExtendedFormats",
      {kFeatures2, offsetof(VkPhysicalDeviceFeatures2, features.shaderStorageImageExtendedFormats)}},
-    {"scalarBlockLayout",
-     {kVulkan12, offsetof(VkPhysicalDeviceVulkan12Features, scalarBlockLayout)},
-     {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, kOfSingle}},
     {"samplerAnisotropy", {kFeatures2, offsetof(VkPhysicalDeviceFeatures2, features.samplerAnisotropy)}},
     {"dynamicRendering",
      {kVulkan13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering)},
@@ -30,7 +26,7 @@ constexpr Feature kFeatures[] = {
     {"synchronization2",
      {kVulkan13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2)},
      {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, kOfSingle}}};
-constexpr std::size_t kRequiredCount = 2;
+constexpr std::size_t kRequiredCount = 1;
 static_assert(std::size(kFeatures) <= std::tuple_size_v<decltype(FeatureStructs::singles)>);
 
 /// The structs of a chain, in order.

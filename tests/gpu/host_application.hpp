@@ -10,6 +10,7 @@
 #include "gpu/context.hpp"
 #include "gpu/device_features.hpp"
 #include "gpu/host_recording.hpp"
+#include "tests/gpu/godot_features.hpp"
 #include "tests/gpu/shared_pipelines.hpp"
 #include "tests/thorough.hpp"
 
@@ -18,9 +19,9 @@ namespace brume::gpu {
 // What runs long makes and destroys every pipeline of its renderers, under the layers.
 inline const bool kSharesPipelines = !is_thorough("frames");
 
-/// The least device is of Vulkan 1.2 and has the required features alone, but timelineSemaphore for the
-/// application itself.
-enum class HostKind { validated, without_layers, least };
+/// The least device is of Vulkan 1.2 and has the required feature alone, Godot's is of Vulkan 1.2, too. Both
+/// have timelineSemaphore for the application itself.
+enum class HostKind { validated, without_layers, least, godot };
 /// Of hosts that ask for none.
 inline const HostKind kUsualHost = is_thorough("least") ? HostKind::least : HostKind::validated;
 
@@ -44,9 +45,9 @@ class SharedDevice {
 
   SharedDevice()
       : instance(kKind != HostKind::without_layers, {},
-                 kKind == HostKind::least ? VK_API_VERSION_1_2 : VK_API_VERSION_1_3),
+                 kIsOfVulkan12 ? VK_API_VERSION_1_2 : VK_API_VERSION_1_3),
         vk(instance.vk()),
-        features(kKind == HostKind::least ? VK_FALSE : VK_TRUE) {
+        features(kIsOfVulkan12 ? VK_FALSE : VK_TRUE) {
     host.get_instance_proc_addr = kSharesPipelines ? Pipelines::instance_proc_addr : system_loader();
     host.instance = instance.handle();
     host.physical_device = choose_device(list_devices(vk, host.instance, host_needs()), "").handle;
@@ -55,12 +56,14 @@ class SharedDevice {
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    if (kKind == HostKind::least) {
+    if (kIsOfVulkan12) {
+      vulkan11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
       features.features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-      features.vulkan12.scalarBlockLayout = VK_TRUE;
-      features.vulkan12.pNext = nullptr;
+      features.vulkan12.pNext = &vulkan11;
       host.enabled_features = features.chain();
     }
+    if (kKind == HostKind::godot)
+      enable_as_godot(vk, host.physical_device, features.features.features, vulkan11, features.vulkan12);
     features.vulkan12.timelineSemaphore = VK_TRUE;  // of `done_`
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
@@ -75,9 +78,11 @@ class SharedDevice {
   Instance instance;
   Functions vk;
   DeviceFeatures features;
+  VkPhysicalDeviceVulkan11Features vulkan11{};
   HostDevice host;
 
  private:
+  static constexpr bool kIsOfVulkan12 = kKind == HostKind::least || kKind == HostKind::godot;
   static inline std::unique_ptr<SharedDevice> shared_;
 };
 
@@ -88,6 +93,7 @@ class SharedDevices : public testing::Environment {
     SharedDevice<HostKind::validated>::end();
     SharedDevice<HostKind::without_layers>::end();
     SharedDevice<HostKind::least>::end();
+    SharedDevice<HostKind::godot>::end();
   }
 };
 inline testing::Environment* const g_shared_devices = testing::AddGlobalTestEnvironment(new SharedDevices);
@@ -105,6 +111,9 @@ class HostApplication {
         break;
       case HostKind::least:
         use(SharedDevice<HostKind::least>::get());
+        break;
+      case HostKind::godot:
+        use(SharedDevice<HostKind::godot>::get());
         break;
     }
     vk_.GetDeviceQueue(host_.device, 0, 0, &queue_);

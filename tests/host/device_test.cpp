@@ -171,8 +171,8 @@ struct OwnChain {
   VkPhysicalDeviceVulkan13Features vulkan13{};
   VkPhysicalDeviceTimelineSemaphoreFeatures timeline{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, nullptr, VK_TRUE};
-  VkPhysicalDeviceScalarBlockLayoutFeatures scalar{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, nullptr, VK_FALSE};
+  VkPhysicalDeviceDynamicRenderingFeatures rendering{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, nullptr, VK_FALSE};
   VkPhysicalDeviceSynchronization2Features synchronization{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_FALSE};
 
@@ -231,9 +231,9 @@ TEST_F(MergeTest, SetsTheStructsOfVersions) {
 
 TEST_F(MergeTest, SetsTheStructsOfSingleFeatures) {
   OwnChain own;
-  own.link(own.timeline, own.synchronization, own.scalar);
+  own.link(own.timeline, own.synchronization, own.rendering);
   expect_merged(&own.features, own);
-  EXPECT_TRUE(own.scalar.scalarBlockLayout && own.synchronization.synchronization2);
+  EXPECT_TRUE(own.rendering.dynamicRendering && own.synchronization.synchronization2);
 }
 
 TEST_F(MergeTest, SetsBothKindsOfStructs) {
@@ -244,25 +244,25 @@ TEST_F(MergeTest, SetsBothKindsOfStructs) {
 
 TEST_F(MergeTest, TakesFeatures2InAnyPlaceAndTwice) {
   OwnChain own;
-  own.vulkan13.pNext = &own.features;
+  own.timeline.pNext = &own.features;
   brume_feature_storage storage;
-  ASSERT_OK(brume_vulkan_merge_features(&own.vulkan13, &storage));
+  ASSERT_OK(brume_vulkan_merge_features(&own.timeline, &storage));
   const void* const appended = own.features.pNext;
   EXPECT_NE(appended, nullptr);
   brume_feature_storage second;
-  ASSERT_OK(brume_vulkan_merge_features(&own.vulkan13, &second));
+  ASSERT_OK(brume_vulkan_merge_features(&own.timeline, &second));
   EXPECT_EQ(own.features.pNext, appended);
-  params_.enabled_features = &own.vulkan13;
+  params_.enabled_features = &own.timeline;
   expect_taken();
 }
 
 TEST_F(MergeTest, RefusesWhatIsNoChainOfFeatures) {
   OwnChain own;
   brume_feature_storage storage;
-  expect_refused(brume_vulkan_merge_features(&own.vulkan12, &storage), BRUME_ERROR_ARGUMENT,
+  expect_refused(brume_vulkan_merge_features(&own.vulkan13, &storage), BRUME_ERROR_ARGUMENT,
                  "has no VkPhysicalDeviceFeatures2");
-  EXPECT_FALSE(own.vulkan12.scalarBlockLayout);
-  EXPECT_EQ(own.vulkan12.pNext, nullptr);
+  EXPECT_FALSE(own.vulkan13.synchronization2);
+  EXPECT_EQ(own.vulkan13.pNext, nullptr);
   expect_refused(brume_vulkan_merge_features(nullptr, &storage), BRUME_ERROR_ARGUMENT, "`chain` is null");
   expect_refused(brume_vulkan_merge_features(&own.features, nullptr), BRUME_ERROR_ARGUMENT,
                  "`storage` is null");
