@@ -118,17 +118,48 @@ std::vector<sim::Event> match(std::uint32_t count) {
   return events;
 }
 
-/// CPU times of the parts of a tick [ms].
+/// CPU times of the parts of a tick [ms]; the field with its lines of sight.
 struct Times {
   std::vector<double> world, field;
+  double mean_depth = 0;  // of the lines
 };
 
-/// Plays the match; an event of `late` comes kLateTicks after its tick.
-Times play(const Warehouse& level, std::uint32_t count, bool late) {
+/// Lines of sight between players that are at most 32 m apart along each axis.
+class Lines {
+ public:
+  Lines(std::size_t count, const smoke::Field& field) : field_(field), segments_(count), depths_(count) {}
+  void query() {
+    if (segments_.empty()) return;
+    const auto metres = [&](float low, float high) {
+      return std::uniform_real_distribution<float>(std::max(low, 1.0f), std::min(high, 255.0f))(random_);
+    };
+    for (smoke::Segment& line : segments_) {
+      line.a_world = {metres(1, 255), metres(1, 2), metres(1, 255)};
+      line.b_world = {metres(line.a_world.x - 32, line.a_world.x + 32), metres(1, 2),
+                      metres(line.a_world.z - 32, line.a_world.z + 32)};
+    }
+    field_.sight({})->optical_depths(segments_, depths_).value_or_throw();
+    for (const float depth : depths_) sum_ += double{depth};
+    queried_ += segments_.size();
+  }
+  double mean_depth() const { return queried_ == 0 ? 0 : sum_ / static_cast<double>(queried_); }
+
+ private:
+  const smoke::Field& field_;
+  std::vector<smoke::Segment> segments_;
+  std::vector<float> depths_;
+  std::mt19937 random_{2};
+  double sum_ = 0;
+  std::size_t queried_ = 0;
+};
+
+/// Plays the match with so many lines of sight a tick; an event of `late` comes kLateTicks after its tick.
+Times play(const Warehouse& level, std::uint32_t count, bool late, std::size_t line_count) {
   Players players;
   sim::World world(level.grid);
   world.append(match(count)).value_or_throw();
   smoke::Field field(level.grid, level.planes);
+  Lines lines(line_count, field);
   Times times;
   for (std::uint32_t tick = 1; tick < kThrowTicks; ++tick) {
     const double start = thread_cpu_ms();
@@ -138,10 +169,12 @@ Times play(const Warehouse& level, std::uint32_t count, bool late) {
     if (tick > 64) world.forget_before(tick - 64);
     const double moved = thread_cpu_ms();
     field.update(world.state());
+    lines.query();
     if (tick < kFirstMeasured) continue;
     times.world.push_back(moved - start);
     times.field.push_back(thread_cpu_ms() - moved);
   }
+  times.mean_depth = lines.mean_depth();
   return times;
 }
 
@@ -152,26 +185,30 @@ double mean_of(const std::vector<double>& values) {
 }
 
 /// The mean tick of a match, and its worst.
-Result<std::vector<Measurement>> server(Bench& bench, std::uint32_t count, bool late) {
+Result<std::vector<Measurement>> server(Bench& bench, std::uint32_t count, bool late, std::size_t lines) {
   const std::string name = "server/" + std::to_string(count) + (late ? "late" : "");
   const unsigned threads = thread_count();
   set_thread_count(1);
   const Warehouse level;
   std::vector<double> world, field;
-  double world_worst = 0, field_worst = 0;
+  double world_worst = 0, field_worst = 0, mean_depth = 0;
   for (unsigned i = 0; i < bench.repetitions(3); ++i) {
-    const Times times = play(level, count, late);
+    const Times times = play(level, count, late, lines);
     world.push_back(mean_of(times.world));
     field.push_back(mean_of(times.field));
     world_worst = std::max(world_worst, *std::ranges::max_element(times.world));
     field_worst = std::max(field_worst, *std::ranges::max_element(times.field));
+    mean_depth = times.mean_depth;
   }
   set_thread_count(threads);
+  const std::string with = lines == 0 ? "" : "+" + std::to_string(lines);
   auto of_world = summarize(name + "/world", "ms", "cpu", std::move(world));
-  auto of_field = summarize(name + "/field", "ms", "cpu", std::move(field));
+  auto of_field = summarize(name + "/field" + with, "ms", "cpu", std::move(field));
   of_world.details = {{"worst tick [ms]", world_worst}};
   of_field.details = {{"worst tick [ms]", field_worst}};
-  return std::vector{of_world, of_field};
+  if (lines == 0) return std::vector{of_world, of_field};
+  of_field.details["mean optical depth"] = mean_depth;
+  return std::vector{of_field};
 }
 
 }  // namespace
@@ -180,9 +217,13 @@ std::vector<Case> server_cases() {
   constexpr std::uint32_t kSmokes = 1000;
   return {
       {"server/1000", "a tick with 1,000 smokes thrown within 7 s in 256 rooms, one thread: world and field",
-       [](Bench& b) { return server(b, kSmokes, false); }},
+       [](Bench& b) { return server(b, kSmokes, false, 0); }},
+      {"server/1000+64", "the field and 64 lines of sight of up to 32 m an axis",
+       [](Bench& b) { return server(b, kSmokes, false, 64); }},
+      {"server/1000+2000", "the field and 2,000 lines of sight",
+       [](Bench& b) { return server(b, kSmokes, false, 2000); }},
       {"server/1000late", "the same with a smoke that comes 30 ticks late each 16 ticks",
-       [](Bench& b) { return server(b, kSmokes, true); }},
+       [](Bench& b) { return server(b, kSmokes, true, 0); }},
   };
 }
 

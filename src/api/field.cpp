@@ -182,7 +182,10 @@ brume_result brume_field_changed_bricks(const brume_field* field, brume_voxel* b
                                         size_t* count) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     const brume_field& object = call.handle(field);
-    call.read(object, [&] { write_list(object.field->changed_bricks(), bricks, capacity, count); });
+    call.read(object, [&] {
+      const std::vector<brume_voxel> changed = object.field->changed_bricks();
+      write_list(std::span<const brume_voxel>(changed), bricks, capacity, count);
+    });
   });
 }
 

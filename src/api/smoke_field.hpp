@@ -28,13 +28,13 @@ class SmokeField {
   /// Queries of the drawn smoke; built on first use and kept until the next update. Thread-safe.
   std::shared_ptr<const smoke::Sight> drawn_sight(const smoke::NoiseLook& noise) const;
   float extinction() const { return extinction_; }
-  /// The bricks in which the last update may have changed densities, by z, y, x.
-  std::span<const brume_voxel> changed_bricks() const { return changed_bricks_; }
+  /// The bricks in which the last update may have changed densities, by z, y, x. Thread-safe.
+  std::vector<brume_voxel> changed_bricks() const;
   /// The bricks with smoke after the last update that succeeded.
   std::vector<glm::ivec3> bricks() const;
 
  private:
-  void find_changed_bricks();
+  void follow_slots();
 
   std::shared_ptr<const LevelData> level_;
   std::shared_ptr<const smoke::MaskAtlas> masks_;
@@ -42,8 +42,8 @@ class SmokeField {
   smoke::Field field_;
   std::shared_ptr<const smoke::Sight> sight_;             // without noise
   std::vector<std::optional<glm::ivec3>> brick_of_slot_;  // after the last update
-  std::vector<glm::ivec3> replaced_bricks_;               // changed, too, in the first update
-  std::vector<brume_voxel> changed_bricks_;
+  std::vector<glm::ivec3> replaced_bricks_;               // until the first update
+  std::vector<glm::ivec3> gone_bricks_;                   // whose slots the last update released
 };
 
 }  // namespace brume::api

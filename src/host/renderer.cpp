@@ -121,7 +121,7 @@ void draw(brume_renderer& renderer, const brume_frame_params& params, const pass
           passes::HostNormals normals) {
   reserve(renderer, params);
   const planning::FrameInput& input = renderer.input;
-  const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->volume().id() : 0;
+  const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->id() : 0;
   if (volume != renderer.shown_volume) {
     renderer.renderer->invalidate_level();
     renderer.shown_volume = volume;

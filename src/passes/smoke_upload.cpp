@@ -71,7 +71,7 @@ void SmokeUpload::trim(glm::ivec3 atlas_bricks) {
 
 void SmokeUpload::reserve(const smoke::SmokeBricks& volume) {
   // Not by address: another volume may lie where one was.
-  const std::uint64_t id = volume.volume().id();
+  const std::uint64_t id = volume.id();
   if (id != reserved_volume_) uploaded_.change(context_).everything = true;
   if ((id == reserved_volume_ && volume.structure_generation() == reserved_generation_) ||
       volume.slot_count() == 0)
@@ -124,7 +124,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeBricks& volu
   const bool had_smoke = resources_.slot_count > 0;
   resources_.slot_count = volume.slot_count();
   if (volume.slot_count() == 0) return had_smoke;
-  const std::uint64_t id = volume.volume().id();
+  const std::uint64_t id = volume.id();
   Uploaded& uploaded = recorder.change(uploaded_);
   const bool everything = uploaded.everything || id != uploaded.volume;
   if (!everything && volume.revision() == uploaded.revision) return false;

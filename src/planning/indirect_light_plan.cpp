@@ -14,7 +14,7 @@ InputKey key_of(const FrameInput& input, std::uint32_t bounces, const MediaPlan&
   key.add(input.environment.sky.ambient);
   for (const shared::Light& light : lights) key.add(light);
   if (const smoke::SmokeVolume* smoke = input.smoke.volume; smoke && smoke->slot_count() > 0) {
-    key.add(smoke->volume().id());
+    key.add(smoke->id());
     key.add(smoke->revision());
     key.add(input.smoke.look.albedo);
     key.add(input.smoke.look.extinction);

@@ -31,12 +31,12 @@ bool same_opening(const shared::Hole& hole, float time_a, float time_b) {
 }
 
 bool LightChangeTracker::is_continuous(const SmokeLightInputs& inputs) const {
-  if (!last_ || inputs.volume->volume().id() != last_->volume) return false;
+  if (!last_ || inputs.volume->id() != last_->volume) return false;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != layout_.origin_world || layout.voxel_size != layout_.voxel_size ||
       layout.bricks.atlas_bricks != layout_.bricks.atlas_bricks)
     return false;
-  if (all_smoke(inputs).volume().id() != last_->all_smoke) return false;
+  if (all_smoke(inputs).id() != last_->all_smoke) return false;
   // The dirty slots are those since the revision before, no older ones.
   const auto follows = [](std::uint64_t revision, std::uint64_t last) {
     return revision == last || revision == last + 1;
@@ -120,9 +120,9 @@ void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
 
 void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
   const smoke::SmokeBricks& smoke = all_smoke(inputs);
-  const bool other_volume = !last_ || last_->all_smoke != smoke.volume().id();
-  last_ = {inputs.volume->volume().id(),
-           smoke.volume().id(),
+  const bool other_volume = !last_ || last_->all_smoke != smoke.id();
+  last_ = {inputs.volume->id(),
+           smoke.id(),
            inputs.volume->revision(),
            smoke.revision(),
            inputs.time,

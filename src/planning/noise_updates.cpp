@@ -19,7 +19,7 @@ std::uint32_t slice_of(std::uint32_t slot) {
 
 bool NoiseUpdates::all_are_due(const NoiseInputs& inputs) const {
   const State& before = state_.now();
-  if (!before.last || before.last->volume != inputs.volume->volume().id()) return true;
+  if (!before.last || before.last->volume != inputs.volume->id()) return true;
   const Last& last = *before.last;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != last.layout.origin_world || layout.voxel_size != last.layout.voxel_size ||
@@ -92,7 +92,7 @@ std::span<const std::uint32_t> NoiseUpdates::slots_due(const NoiseInputs& inputs
   state.scheduler.complete_slice();
 
   // What the next frame compares with.
-  state.last = {inputs.volume->volume().id(), inputs.volume->revision(), inputs.volume->layout(), inputs.look,
+  state.last = {inputs.volume->id(), inputs.volume->revision(), inputs.volume->layout(), inputs.look,
                 inputs.time};
   state.motions.assign(inputs.motions.begin(), inputs.motions.end());
   state.impulses.assign(inputs.impulses.begin(), inputs.impulses.end());

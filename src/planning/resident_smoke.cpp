@@ -177,7 +177,7 @@ void ResidentSmoke::restart(const smoke::SmokeVolume& source, int level, glm::iv
   level_ = level;
   updating_ = false;
   last_frame_.clear();
-  source_id_ = source.volume().id();
+  source_id_ = source.id();
   source_revision_ = source.revision();
   source_generation_ = source.structure_generation();
   dirty_cell_slots_.clear();
@@ -293,7 +293,7 @@ void ResidentSmoke::make_room(std::size_t arriving, std::size_t wanted, std::siz
 }
 
 void ResidentSmoke::end() {
-  source_id_ = source_->volume().id();
+  source_id_ = source_->id();
   source_revision_ = source_->revision();
   source_generation_ = source_->structure_generation();
   if (!updating_) return;
@@ -321,7 +321,7 @@ SmokeVisibility ResidentSmoke::update(const Request& request, const SmokeVisibil
   wanted_count_ = static_cast<std::uint32_t>(wanted.bricks.size());
   const std::uint64_t generation = generation_;
   const bool was_interrupted = updating_;  // Memory ran out halfway through an update.
-  if (was_interrupted || source_->volume().id() != source_id_ || level != level_ ||
+  if (was_interrupted || source_->id() != source_id_ || level != level_ ||
       room_of(held_.layout().bricks.atlas_bricks) > request.most_bricks)
     restart(*source_, level,
             room_of(request.atlas_bricks) > request.most_bricks ? volume::grown_atlas({}, request.most_bricks)

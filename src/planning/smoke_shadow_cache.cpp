@@ -23,7 +23,7 @@ shared::SmokeLook noise_look_of(const shared::SmokeLook& look) {
 void SmokeShadowCache::add_inputs(const SmokeShadowInputs& inputs, InputKey& key) {
   key.add(inputs.volume != nullptr);
   if (!inputs.volume) return;
-  key.add(inputs.volume->volume().id());
+  key.add(inputs.volume->id());
   key.add(inputs.volume->revision());
 
   // Rays end at the caster bounds, and only these slots have this frame's density.

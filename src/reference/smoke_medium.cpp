@@ -51,12 +51,11 @@ void SmokeMedium::find_majorants() {
   const smoke::SmokeVolume& volume = *smoke_.input().volume;
   Box<int> all{glm::ivec3(1 << 30), glm::ivec3(-(1 << 30))};
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.volume().in_use(slot))
-      all = united(all, {8 * volume.brick_of(slot), 8 * volume.brick_of(slot) + 8});
+    if (volume.in_use(slot)) all = united(all, {8 * volume.brick_of(slot), 8 * volume.brick_of(slot) + 8});
   if (all.empty()) return;
   majorants_ = Majorants(world_from_voxel(volume.layout()), all, kPart);
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-    if (!volume.volume().in_use(slot)) continue;
+    if (!volume.in_use(slot)) continue;
     for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(8 / kPart)}, [&](glm::ivec3 part) {
       std::uint32_t largest = 0;
       for_each_in(Box<int>{kPart * part, kPart * part + kPart + 1},

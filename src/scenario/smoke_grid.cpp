@@ -87,7 +87,7 @@ std::vector<glm::ivec3> brick_origins(const smoke::SmokeVolume& volume, const vo
   const double edge = 8 * double{volume.layout().voxel_size} / double{layout.voxel_size};
   std::vector<glm::ivec3> origins;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-    if (!volume.volume().in_use(slot)) continue;
+    if (!volume.in_use(slot)) continue;
     const glm::dvec3 low = edge * glm::dvec3(volume.brick_of(slot));
     const glm::ivec3 first(glm::floor(low / 8.0)), end(glm::ceil((low + edge) / 8.0));
     for_each_in(Box<int>{first, end}, [&](glm::ivec3 brick) { origins.push_back(8 * brick); });

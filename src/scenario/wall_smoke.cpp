@@ -103,7 +103,7 @@ std::vector<Deposit> deposits_of(const smoke::Field& field, std::uint32_t slot) 
   std::vector<Deposit> deposits;
   const smoke::SmokeVolume& volume = field.volume();
   smoke::PlaneWindow window(field.planes());
-  window.move_to(volume.brick_of(slot));
+  window.move_to(8 * volume.brick_of(slot));
   smoke::CellSight sight(window);
   for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(8)}, [&](glm::ivec3 local) {
     const glm::ivec3 i = local + 1;
@@ -134,7 +134,7 @@ grids::Grid smoke_grid_up_to_walls(const smoke::Field& field, const SmokeGridOpt
   // In the order of places, so that sums have the same bits whatever the slots.
   std::vector<std::uint32_t> slots;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.volume().in_use(slot)) slots.push_back(slot);
+    if (volume.in_use(slot)) slots.push_back(slot);
   std::ranges::sort(slots, [&](std::uint32_t a, std::uint32_t b) {
     return grids::goes_before(volume.brick_of(a), volume.brick_of(b));
   });

@@ -318,8 +318,7 @@ CloudPhase Cloud::phase(std::uint32_t tick) const {
 std::uint8_t Cloud::profile(std::uint32_t distance, Front front) {
   const Front here = distance * kFrontUnit;
   if (here >= front) return 0;
-  const Front taper = std::max<Front>(2 * kFaceStep * kFrontUnit, front / 3);
-  const std::uint64_t x = std::min<std::uint64_t>((front - here) * kWhole / taper, kWhole);
+  const std::uint64_t x = std::min<std::uint64_t>((front - here) * kWhole / taper(front), kWhole);
   return static_cast<std::uint8_t>((x * 255 + kWhole / 2) >> 16);
 }
 

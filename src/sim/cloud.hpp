@@ -111,6 +111,7 @@ class Cloud {
   /// two voxels, so that the rim fades in open air while walls, which the fill reaches early, get full
   /// density.
   static std::uint8_t profile(std::uint32_t distance, Front front);
+  static Front taper(Front front) { return std::max<Front>(2 * kFaceStep * kFrontUnit, front / 3); }
 
   static constexpr std::uint32_t kNoDistance = ~std::uint32_t{0};
   /// Front distance at which smoke reaches a voxel, by rank in voxels(): its own distance plus up to a

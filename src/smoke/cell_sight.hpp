@@ -33,15 +33,16 @@ inline glm::vec3 from_cell_centre(int bit) {
   return glm::vec3(neighbour_offset(bit)) - 1.5f;
 }
 
-/// The planes of a brick's cells and of those around them, each queried once.
+/// The planes of 8^3 cells and of those around them, each queried once.
 class PlaneWindow {
  public:
   explicit PlaneWindow(const PlaneSource& source) : source_(source) {}
-  void move_to(glm::ivec3 brick) {
-    first_cell_ = 8 * brick - 1;
+  /// To other cells, or because planes changed.
+  void move_to(glm::ivec3 lowest_cell) {
+    first_cell_ = lowest_cell - 1;
     known_.fill(false);
   }
-  /// The planes of a cell in the brick or next to it.
+  /// The planes of one of the cells or of a cell next to one.
   std::span<const voxel::Plane> at(glm::ivec3 cell) {
     const glm::ivec3 c = cell - first_cell_;
     const auto i = static_cast<std::size_t>(c.x + 10 * (c.y + 10 * c.z));

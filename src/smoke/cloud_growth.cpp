@@ -74,7 +74,7 @@ bool CloudGrowth::update(const sim::State& state, const SmokeBricks& volume) {
     return held == live.cloud;
   };
   // Nothing to do while volume and clouds are the same.
-  const std::uint64_t id = volume.volume().id();
+  const std::uint64_t id = volume.id();
   if (volume_ == id && generation_ == volume.structure_generation() &&
       std::equal(clouds_.begin(), clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
     return false;

@@ -40,7 +40,6 @@ void DensityChannel::add(std::uint32_t slot) {
     is_new_.resize(slot + 1);
   }
   is_new_[slot] = true;
-  new_slots_.push_back(slot);
 }
 
 BrickBits DensityChannel::remove(std::uint32_t slot) {
@@ -92,24 +91,16 @@ void DensityChannel::set_solid(std::uint32_t slot, const VoxelWindow& solid) {
   for (std::size_t z = 0; z < 10; ++z)
     for (std::size_t y = 0; y < 10; ++y)
       for (unsigned x = 0; x < 10; ++x, ++texel) {
-        const std::uint8_t free = (solid[z][y] >> x & 1) != 0 ? 0 : 255;
+        const std::uint8_t free = (solid[z + 1][y + 1] >> (x + 1) & 1) != 0 ? 0 : 255;
         changed |= into[texel].free != free;
         into[texel].free = free;
       }
   if (changed) volume_.mark_dirty(kDensityChannel, slot);
 }
 
-void DensityChannel::fill_new() {
-  for (const std::uint32_t slot : new_slots_) {
-    if (slot >= is_new_.size() || !is_new_[slot]) continue;
-    fill(slot);
-    is_new_[slot] = false;
-  }
-  new_slots_.clear();
-}
-
-/// The densities of all texels of a brick.
-void DensityChannel::fill(std::uint32_t slot) {
+void DensityChannel::fill_new(std::uint32_t slot) {
+  if (!is_new_[slot]) return;
+  is_new_[slot] = false;
   const volume::NeighbourSlots slots = volume_.slots_around(volume_.brick_of(slot));
   const auto into = texels(slot);
   std::size_t texel = 0;

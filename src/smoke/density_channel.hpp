@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "smoke/smoke_brick.hpp"
-#include "smoke/smoke_structure.hpp"
+#include "smoke/voxel_window.hpp"
 #include "volume/sparse_volume.hpp"
 
 namespace brume::smoke {
@@ -15,13 +15,14 @@ namespace brume::smoke {
 /// The channel of density in the smoke's volume, of Texel.
 inline constexpr volume::ChannelId kDensityChannel{0};
 
-/// Marks what it writes dirty. Members that are not const are called within an update of the volume.
+/// Marks what it writes dirty; SparseVolume::sort_dirty has to follow. Texels of a brick are right when the
+/// densities of the 27 bricks around it are set and fill_new was called for it.
 class DensityChannel {
  public:
   /// `volume` must outlive it.
   explicit DensityChannel(volume::SparseVolume& volume) : volume_(volume) {}
 
-  /// The brick of a slot is new: its voxels hold 0. Its densities are in the texels after fill_new.
+  /// The brick of a slot is new: its voxels hold 0.
   void add(std::uint32_t slot);
   /// The brick of a slot goes: sets its voxels to 0, in the aprons around too; returns those that were not.
   /// To be called before the volume releases the slot.
@@ -30,8 +31,8 @@ class DensityChannel {
   BrickBits set_densities(std::uint32_t slot, const BrickDensities& densities);
   /// Sets which voxels of a brick and its apron are solid.
   void set_solid(std::uint32_t slot, const VoxelWindow& solid);
-  /// Fills the texels of the bricks added since the last call.
-  void fill_new();
+  /// Writes all densities into the texels of a brick that was added; nothing where that was done.
+  void fill_new(std::uint32_t slot);
   /// Follows the volume's slot count after releases.
   void shrink();
 
@@ -44,12 +45,10 @@ class DensityChannel {
     return volume_.texels<Texel>(kDensityChannel, slot);
   }
   void copy_to_texels(std::uint32_t slot, const BrickBits& voxels);
-  void fill(std::uint32_t slot);
 
   volume::SparseVolume& volume_;
   std::vector<std::uint8_t> densities_;  // kVoxelsPerBrick a slot
-  std::vector<std::uint32_t> new_slots_;
-  std::vector<bool> is_new_;  // by slot
+  std::vector<bool> is_new_;             // by slot: whether its texels are to be filled
 };
 
 }  // namespace brume::smoke

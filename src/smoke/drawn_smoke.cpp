@@ -32,7 +32,7 @@ void DrawnSmoke::find_holes() {
     const shared::HoleReach reach = shared::hole_reach(input_.holes[i], input_.time, input_.look.hole_rim);
     if (reach.length_m < 0) continue;
     for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-      if (!volume.volume().in_use(slot)) continue;
+      if (!volume.in_use(slot)) continue;
       const glm::vec3 low = layout.origin_world + layout.voxel_size * glm::vec3(8 * volume.brick_of(slot));
       if (shared::hole_reach_within(reach, low, low + 8 * layout.voxel_size).length_m >= 0)
         holes_of_[slot].push_back(static_cast<std::uint32_t>(i));

@@ -265,7 +265,7 @@ void SmokePacket::enter_brick(std::size_t lane) {
   lanes_.place[lane] = place_of(kRow) | place_of(kEntryRow) << 16;
   lanes_.t[lane] = bricks.t;
   lanes_.texels[lane] = volume_.texels(bricks.slot).data();
-  lanes_.entries[lane] = volume_.cells(bricks.slot).data();
+  lanes_.entries[lane] = volume_.entries(bricks.slot);
 }
 
 void SmokePacket::end(std::size_t lane) {
@@ -290,7 +290,7 @@ void SmokePacket::add_special(std::size_t lane) {
   const Float4 at{lanes_.passed_at[0][lane], lanes_.passed_at[1][lane], lanes_.passed_at[2][lane], 0};
   const float from = lanes_.passed_from[lane], to = lanes_.passed_to[lane];
   if (entry != 0) {
-    sum.add_boundary(volume_.boundary_cells()[entry - 1], at, from, to);
+    sum.add_boundary(volume_.boundary_cell(rays_[lane].bricks.slot, place >> 16, entry), at, from, to);
   } else {
     const TexelRows rows(lanes_.texels[lane] + (place & 0xffffu));
     if (rows.empty()) return;

@@ -84,7 +84,7 @@ class Walk {
  private:
   void through_brick() {
     const Texel* texels = volume_.texels(bricks_.slot).data();
-    const std::uint32_t* entries = volume_.cells(bricks_.slot).data();
+    const std::uint32_t* entries = volume_.entries(bricks_.slot);
     Int4 cell = bricks_.cell;
     const auto first_of = [&](int row) { return cell[0] + row * (cell[1] + row * cell[2]); };
     int texel = first_of(kRow), entry = first_of(kEntryRow);
@@ -97,6 +97,7 @@ class Walk {
       const float out = std::min(first[0], length_);
       const Int4 crossed = exits <= first, here = cell;
       const Texel* texel_here = texels + texel;
+      const auto number_here = static_cast<std::uint32_t>(entry);
       const std::uint32_t entry_here = entries[entry];
       const std::uint32_t axes = bits_of(crossed);
       cell += bricks_.stride() & crossed;
@@ -106,7 +107,8 @@ class Walk {
       // Add the smoke on the part of the ray in the cell that it left.
       if (!(out > t)) continue;
       if (entry_here != 0) {
-        sum_.add_boundary(volume_.boundary_cells()[entry_here - 1], bricks_.at - to_float(here), t, out);
+        sum_.add_boundary(volume_.boundary_cell(bricks_.slot, number_here, entry_here),
+                          bricks_.at - to_float(here), t, out);
       } else {
         const TexelRows rows(texel_here);
         if (!rows.empty()) sum_.add(rows.corners(), bricks_.at - to_float(here), t, out);
@@ -145,7 +147,7 @@ void SmokeSum::add_boundary(const shared::BoundaryCell& cell, Float4 at, float f
   // Each part with the corner set of its side.
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t side = planes.side(0.5f * (cuts[i] + cuts[i + 1]));
-    const glm::uvec2 set = volume_->corner_sets()[cell.first_set + side];
+    const glm::uvec2 set = volume_->corner_set(cell.first_set + side);
     if (set != glm::uvec2(0)) add(corners_of_set(set), at, cuts[i], cuts[i + 1]);
   }
 }

@@ -43,7 +43,7 @@ static_assert(std::endian::native == std::endian::little, "densities are read fo
 
 inline constexpr float kHuge = 1e30f;
 inline constexpr int kRow = shared::kBrickTexels, kLayer = kRow * kRow;
-inline constexpr int kEntryRow = kRow - 1;  // cells of a brick along an axis
+inline constexpr int kEntryRow = shared::kBrickVoxels;  // cells that rays pass in a brick along an axis
 
 /// Densities [0, 255] of a cell's corners: lane y + 2 z, for the lower and the higher x.
 struct Corners {

@@ -24,7 +24,10 @@ class SmokeBricks {
   SmokeBricks& operator=(const SmokeBricks&) = delete;
 
   /// The bricks: page table, slots, density channel.
-  const volume::SparseVolume& volume() const { return bricks_; }
+  virtual const volume::SparseVolume& volume() const { return bricks_; }
+  virtual std::span<const Texel> texels(std::uint32_t slot) const {
+    return bricks_.texels<Texel>(kDensityChannel, slot);
+  }
 
   // Boundary cells.
   /// kCellsPerBrick entries of a slot: boundary cell + 1, or 0.
@@ -41,18 +44,17 @@ class SmokeBricks {
 
   /// Whether the last update changed a corner set.
   bool corner_sets_dirty() const { return !dirty_corner_sets().empty(); }
-
-  // Functions of the sparse volume.
-  const shared::VolumeLayout& layout() const { return volume().layout(); }
-  const volume::PageTable& pages() const { return volume().pages(); }
-  std::uint32_t slot_count() const { return volume().slot_count(); }
-  std::uint32_t slot_at(glm::ivec3 brick) const { return volume().slot_at(brick); }
-  glm::ivec3 brick_of(std::uint32_t slot) const { return volume().brick_of(slot); }
-  std::span<const Texel> texels(std::uint32_t slot) const {
-    return volume().texels<Texel>(kDensityChannel, slot);
-  }
-  std::uint64_t revision() const { return volume().revision(); }
   std::span<const std::uint32_t> dirty_slots() const { return volume().dirty(kDensityChannel); }
+
+  // Functions of the sparse volume that read no texel.
+  std::uint64_t id() const { return bricks_.id(); }
+  const shared::VolumeLayout& layout() const { return bricks_.layout(); }
+  const volume::PageTable& pages() const { return bricks_.pages(); }
+  std::uint32_t slot_count() const { return bricks_.slot_count(); }
+  std::uint32_t slot_at(glm::ivec3 brick) const { return bricks_.slot_at(brick); }
+  bool in_use(std::uint32_t slot) const { return bricks_.in_use(slot); }
+  glm::ivec3 brick_of(std::uint32_t slot) const { return bricks_.brick_of(slot); }
+  std::uint64_t revision() const { return bricks_.revision(); }
 
  protected:
   /// `bricks`, which may not exist yet, lives as long as this.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace brume::smoke {
 namespace {
@@ -77,12 +78,17 @@ SmokeSources::Exchange<Held> exchange(std::vector<std::unique_ptr<Held>>& held, 
   return result;
 }
 
+/// Whether only the reach decides the densities at a phase.
+bool only_reach_counts(const sim::Cloud& cloud, const sim::CloudPhase& phase) {
+  const sim::CloudParts& parts = cloud.parts();
+  return parts.flow_tick == 0 && parts.detached.empty() && phase.dissolved == 0;
+}
+
 /// The densities of a whole cloud by rank.
 void densities_of_cloud(const sim::Cloud& cloud, const sim::CloudPhase& phase,
                         std::vector<std::uint8_t>& out) {
   out.resize(cloud.voxels().size());
-  const sim::CloudParts& parts = cloud.parts();
-  if (parts.flow_tick != 0 || !parts.detached.empty() || phase.dissolved != 0) {
+  if (!only_reach_counts(cloud, phase)) {
     for (std::uint32_t rank = 0; rank < out.size(); ++rank) out[rank] = cloud.density(rank, phase);
     return;
   }
@@ -101,6 +107,28 @@ void densities_of_cloud(const sim::Cloud& cloud, const sim::CloudPhase& phase,
   }
 }
 
+std::vector<ReachSpan> reaches_of(const sim::Cloud& cloud) {
+  std::vector<ReachSpan> spans;
+  for (const sim::VoxelBlock& block : cloud.voxels().blocks()) {
+    ReachSpan span{cloud.reach(block.first), cloud.reach(block.first)};
+    const auto count = static_cast<std::uint32_t>(std::popcount(block.mask));
+    for (std::uint32_t rank = block.first + 1; rank < block.first + count; ++rank) {
+      span.nearest = std::min(span.nearest, cloud.reach(rank));
+      span.farthest = std::max(span.farthest, cloud.reach(rank));
+    }
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+/// Where densities are constant behind and beyond a front: full below one reach, 0 from another one on.
+struct FrontEnds {
+  sim::Front full, none;
+  explicit FrontEnds(sim::Front front)
+      : full(front < sim::Cloud::taper(front) ? 0 : (front - sim::Cloud::taper(front)) / sim::kFrontUnit + 1),
+        none((front + sim::kFrontUnit - 1) / sim::kFrontUnit) {}
+};
+
 /// Index of a brick's voxel from the brick's block and the bit in it.
 constexpr std::size_t first_of_block(std::size_t block) {
   return 4 * (block & 1) + 32 * (block >> 1 & 1) + 256 * (block >> 2);
@@ -113,7 +141,7 @@ void add_cloud_part(const CloudPart& part, BrickDensities& sums) {
   for (std::size_t i = 0; i < 8; ++i) {
     if (part.blocks[i] == kNoBlock) continue;
     const sim::VoxelBlock& block = part.source->cloud->voxels().blocks()[part.blocks[i]];
-    const std::uint8_t* density = part.source->densities.data() + block.first;
+    const std::uint8_t* density = part.source->densities().data() + block.first;
     std::uint8_t* sum = sums.data() + first_of_block(i);
     for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
       std::uint8_t& here = sum[voxel_of_bit(std::countr_zero(bits))];
@@ -194,6 +222,7 @@ SmokeSources::Exchange<SmokeSource> SmokeSources::take_clouds(const sim::State& 
         auto source = std::make_unique<SmokeSource>();
         source->id = live.id;
         source->cloud = live.cloud;
+        source->reach_of_block = reaches_of(*live.cloud);
         return source;
       });
   steady_.clear();
@@ -225,11 +254,19 @@ SmokeSources::Exchange<SmokeSink> SmokeSources::take_sinks(const sim::State& sta
       });
 }
 
-void SmokeSources::advance_to(std::uint32_t tick, std::vector<std::uint32_t>& slots,
-                              std::vector<glm::ivec3>& bricks) {
+std::span<const std::uint8_t> SmokeSource::densities() const {
+  if (densities_at_ != phase) {
+    densities_of_cloud(*cloud, *phase, densities_);
+    densities_at_ = phase;
+  }
+  return densities_;
+}
+
+void SmokeSources::advance_to(std::uint32_t tick, std::vector<const SmokeSource*>& moved,
+                              std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks) {
   for (std::size_t i = 0; i < clouds_.size(); ++i) {
     if (tick >= steady_[i].first && tick <= steady_[i].last) continue;
-    advance_cloud(*clouds_[i], tick, slots);
+    if (advance_cloud(*clouds_[i], tick, slots)) moved.push_back(clouds_[i].get());
     steady_[i] = clouds_[i]->steady;
   }
   for (const auto& sink : sinks_) {
@@ -240,7 +277,8 @@ void SmokeSources::advance_to(std::uint32_t tick, std::vector<std::uint32_t>& sl
   }
 }
 
-void SmokeSources::advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots) {
+/// Returns whether the cloud has another phase.
+bool SmokeSources::advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots) {
   // How long the phase stays. A phase only rises: if it is the same at the end of the hold, it stays so.
   const sim::Cloud& cloud = *source.cloud;
   const sim::CloudPhase phase = cloud.phase(tick);
@@ -249,27 +287,26 @@ void SmokeSources::advance_cloud(SmokeSource& source, std::uint32_t tick, std::v
       origin.detonation_tick + origin.settings.bloom_ticks + origin.settings.hold_ticks;
   const bool steady = tick < hold_end && cloud.phase(hold_end) == phase;
   source.steady = steady ? TickSpan{tick, hold_end} : TickSpan{};
+  if (source.phase == phase) return false;
 
-  const bool first = source.densities.empty();
-  if (!first && phase == source.phase) return;
-  source.phase = phase;
-  std::swap(source.densities, densities_before_);
-  densities_of_cloud(cloud, phase, source.densities);
-
-  // The blocks whose densities differ.
-  const std::span<const sim::VoxelBlock> blocks = cloud.voxels().blocks();
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const std::uint32_t rank = blocks[i].first;
-    const auto count = static_cast<std::size_t>(std::popcount(blocks[i].mask));
-    if (first || std::memcmp(source.densities.data() + rank, densities_before_.data() + rank, count) != 0)
-      slots.push_back(source.slot_of_block[i]);
+  // Blocks behind both tapers, or beyond both fronts, stay as they are.
+  const std::optional<sim::CloudPhase> before = std::exchange(source.phase, phase);
+  const bool by_reach = before && only_reach_counts(cloud, *before) && only_reach_counts(cloud, phase);
+  const FrontEnds was(by_reach ? before->front : 0), is(phase.front);
+  for (std::size_t i = 0; i < source.slot_of_block.size(); ++i) {
+    const ReachSpan reach = source.reach_of_block[i];
+    const bool constant =
+        reach.farthest < std::min(was.full, is.full) || reach.nearest >= std::max(was.none, is.none);
+    if (!by_reach || !constant) slots.push_back(source.slot_of_block[i]);
   }
+  return true;
 }
 
 std::uint64_t SmokeSources::bytes() const {
   std::uint64_t sum = 0;
   for (const auto& source : clouds_)
-    sum += sizeof(SmokeSource) + source->densities.capacity() +
+    sum += sizeof(SmokeSource) + source->densities_.capacity() +
+           source->reach_of_block.capacity() * sizeof(ReachSpan) +
            4 * (source->slot_of_block.capacity() + source->slots.capacity());
   return sum;
 }

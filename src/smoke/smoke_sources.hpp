@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,15 +19,28 @@ struct TickSpan {
   std::uint32_t first = 1, last = 0;
 };
 
+/// The least and the greatest reach of the voxels of a block.
+struct ReachSpan {
+  std::uint32_t nearest = 0, farthest = 0;
+};
+
 /// A cloud, as the last update saw it.
 struct SmokeSource {
   std::uint32_t id = 0;
   std::shared_ptr<const sim::Cloud> cloud;
-  sim::CloudPhase phase;
-  std::vector<std::uint8_t> densities;       ///< By rank, at that phase; empty before the first.
+  std::optional<sim::CloudPhase> phase;      ///< None before the first update.
   std::vector<std::uint32_t> slot_of_block;  ///< For each block of its voxels.
+  std::vector<ReachSpan> reach_of_block;     ///< The same.
   std::vector<std::uint32_t> slots;          ///< All bricks around it, each once.
   TickSpan steady;                           ///< When its phase is known not to change.
+
+  /// By rank, at the phase; computed when they are read. One thread at a time.
+  std::span<const std::uint8_t> densities() const;
+
+ private:
+  mutable std::vector<std::uint8_t> densities_;
+  mutable std::optional<sim::CloudPhase> densities_at_;
+  friend class SmokeSources;
 };
 
 /// A cavity in the smoke, as the last update saw it.
@@ -74,8 +88,10 @@ class SmokeSources {
   /// Takes over the sinks of a state, likewise.
   Exchange<SmokeSink> take_sinks(const sim::State& state);
 
-  /// Brings clouds and sinks to a tick. Appends the slots and bricks in which they changed, with repeats.
-  void advance_to(std::uint32_t tick, std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks);
+  /// Brings clouds and sinks to a tick. Appends the clouds with another phase, the slots in which their
+  /// densities may differ, and the bricks in which those of sinks do; both with repeats.
+  void advance_to(std::uint32_t tick, std::vector<const SmokeSource*>& moved,
+                  std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks);
 
   /// By id.
   std::span<const std::unique_ptr<SmokeSource>> clouds() const { return clouds_; }
@@ -85,14 +101,13 @@ class SmokeSources {
   std::uint64_t bytes() const;
 
  private:
-  void advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots);
+  static bool advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots);
 
   std::vector<std::unique_ptr<SmokeSource>> clouds_;  // by id
   std::vector<std::unique_ptr<SmokeSink>> sinks_;     // by id
   // What each tick reads of all clouds, in one piece: what the state had, and whether anything can be new.
   std::vector<sim::LiveCloud> live_clouds_;
   std::vector<TickSpan> steady_;
-  std::vector<std::uint8_t> densities_before_;
 };
 
 }  // namespace brume::smoke

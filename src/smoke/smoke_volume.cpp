@@ -5,8 +5,8 @@
 namespace brume::smoke {
 namespace {
 
-/// Numbers of voxels and means share 32 bits.
-constexpr std::uint32_t kMaxBricks = kMeanBit / kVoxelsPerBrick;
+/// Numbers of voxels stay below 2^31.
+constexpr std::uint32_t kMaxBricks = (1u << 31) / kVoxelsPerBrick;
 
 bool intersect(const BrickBits& a, const BrickBits& b) {
   std::uint64_t any = 0;
@@ -33,6 +33,7 @@ SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes&
 void SmokeVolume::update(const sim::State& state, const voxel::BitGrid& grid) {
   BRUME_ASSERT(grid.layout() == grid_layout_ && state.layout == grid_layout_, "the state is of another grid");
   grid_ = &grid;
+  complete_.store(false, std::memory_order_relaxed);
   volume_.begin_update();
   walls_.begin_update();
 
@@ -41,28 +42,40 @@ void SmokeVolume::update(const sim::State& state, const voxel::BitGrid& grid) {
   update_clouds(state);
   update_sinks(state);
 
-  // Bricks and boundary cells, then the densities in them.
+  // Bricks and the masks of where smoke can be, then what is stale of densities.
   update_structure();
   update_densities(state.tick);
 
-  walls_.end_update();
   volume_.end_update();
-  for (const std::uint32_t slot : touched_) {
-    Brick& brick = bricks_[slot];
-    brick.touched = brick.masks_stale = brick.walls_stale = brick.cells_stale = brick.densities_stale = false;
-  }
+  for (const std::uint32_t slot : touched_) bricks_[slot].touched = bricks_[slot].masks_stale = false;
   touched_.clear();
   if (structure_changed_) ++generation_;
   structure_changed_ = false;
-  grid_ = nullptr;
 }
 
-/// Lists a slot for the update, and notes what is stale in it.
-void SmokeVolume::mark(std::uint32_t slot, bool Brick::*what) {
+/// Lists a slot for the update, because its clouds changed.
+void SmokeVolume::mark_masks(std::uint32_t slot) {
   Brick& brick = bricks_[slot];
   if (!brick.touched) touched_.push_back(slot);
-  brick.touched = true;
-  brick.*what = true;
+  brick.touched = brick.masks_stale = true;
+}
+
+/// Boundary cells of a slot are stale; `walls`: what is solid, too.
+void SmokeVolume::mark_cells(std::uint32_t slot, bool walls) {
+  Brick& brick = bricks_[slot];
+  brick.cells_stale = true;
+  brick.walls_stale |= walls;
+  ready_[slot] = 0;
+  structure_changed_ = true;
+}
+
+/// Densities of a brick, if it has a slot, are stale, and with them what the bricks around it copy.
+void SmokeVolume::mark_densities(glm::ivec3 at) {
+  const std::uint32_t slot = slot_at(at);
+  if (slot == kNoSlot) return;
+  bricks_[slot].densities_stale = true;
+  for (const std::uint32_t around : volume_.slots_around(at))
+    if (around != kNoSlot) ready_[around] = 0;
 }
 
 void SmokeVolume::update_clouds(const sim::State& state) {
@@ -84,7 +97,7 @@ void SmokeVolume::add_cloud(SmokeSource& source) {
     std::vector<CloudPart>& parts = bricks_[slot].clouds;
     if (parts.empty() || parts.back().source != &source) parts.push_back({&source, no_blocks()});
     parts.back().blocks[block_in_brick(at)] = static_cast<std::uint32_t>(i);
-    mark(slot, &Brick::masks_stale);
+    mark_masks(slot);
   }
 }
 
@@ -92,8 +105,9 @@ void SmokeVolume::remove_cloud(const SmokeSource& source) {
   for (const std::uint32_t slot : source.slots) {
     Brick& brick = bricks_[slot];
     std::erase_if(brick.clouds, [&](const CloudPart& part) { return part.source == &source; });
-    mark(slot, &Brick::masks_stale);
-    mark(slot, &Brick::densities_stale);
+    mark_masks(slot);
+    brick.densities_stale = true;
+    ready_[slot] = 0;
     --brick.cloud_count;
   }
 }
@@ -108,7 +122,7 @@ void SmokeVolume::add_sink(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
       add_sink_part(at, sink, bricks_[slot].sinks);
-      mark(slot, &Brick::densities_stale);
+      mark_densities(at);
     }
 }
 
@@ -116,7 +130,7 @@ void SmokeVolume::remove_sink(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
       std::erase_if(bricks_[slot].sinks, [&](const SinkPart& part) { return part.sink == &sink; });
-      mark(slot, &Brick::densities_stale);
+      mark_densities(at);
     }
 }
 
@@ -140,16 +154,12 @@ void SmokeVolume::voxels_changed(glm::ivec3 block, std::uint64_t mask) {
 }
 
 void SmokeVolume::planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell) {
-  // A cell reads the planes of its neighbours; it has the number of its lowest corner's voxel.
-  mark_walls(low_cell - 1, high_cell + 1);
+  // A cell reads the planes of its neighbours; its brick is the one of its highest corner's voxel.
+  mark_walls(low_cell - 1, high_cell + 2);
 }
 
 /// Marks all that depends on the walls of these voxels as stale.
 void SmokeVolume::mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel) {
-  const auto mark_stale = [&](std::uint32_t slot) {
-    mark(slot, &Brick::walls_stale);
-    mark(slot, &Brick::cells_stale);
-  };
   const glm::ivec3 low = glm::max(low_voxel >> 3, 8 * pages().origin());
   const glm::ivec3 high = glm::min(high_voxel >> 3, 8 * (pages().origin() + pages().size()) - 1);
   if (glm::any(glm::lessThan(high, low))) return;
@@ -160,13 +170,13 @@ void SmokeVolume::mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel) {
     for (std::uint32_t slot = 0; slot < slot_count(); ++slot)
       if (volume_.in_use(slot) && glm::all(glm::greaterThanEqual(brick_of(slot), low)) &&
           glm::all(glm::lessThanEqual(brick_of(slot), high)))
-        mark_stale(slot);
+        mark_cells(slot, true);
     return;
   }
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
-        if (const std::uint32_t slot = slot_at({x, y, z}); slot != kNoSlot) mark_stale(slot);
+        if (const std::uint32_t slot = slot_at({x, y, z}); slot != kNoSlot) mark_cells(slot, true);
 }
 
 /// The slot of the brick, a new one when it has none; one cloud more is in it.
@@ -174,12 +184,17 @@ std::uint32_t SmokeVolume::take_brick(glm::ivec3 at) {
   std::uint32_t slot = slot_at(at);
   if (slot == kNoSlot) {
     slot = volume_.acquire(at);
-    if (slot >= bricks_.size()) bricks_.resize(slot + 1);
+    if (slot >= bricks_.size()) {
+      bricks_.resize(slot + 1);
+      ready_.resize(slot + 1);
+    }
     densities_.add(slot);
     walls_.add(slot);
     for (const auto& sink : sources_.sinks()) add_sink_part(at, *sink, bricks_[slot].sinks);
-    mark(slot, &Brick::walls_stale);
-    mark(slot, &Brick::cells_stale);
+    mark_cells(slot, true);
+    // Tables and aprons around it change.
+    for (const std::uint32_t around : volume_.slots_around(at))
+      if (around != kNoSlot) ready_[around] = 0;
   }
   ++bricks_[slot].cloud_count;
   return slot;
@@ -192,6 +207,7 @@ void SmokeVolume::release_brick(std::uint32_t slot) {
   volume_.release(slot);
   bricks_[slot] = {};
   bricks_[slot].touched = true;
+  ready_[slot] = 0;
 }
 
 /// Releases the bricks that no cloud is in.
@@ -206,6 +222,7 @@ void SmokeVolume::release_unneeded() {
   densities_.shrink();
   walls_.shrink();
   bricks_.resize(slot_count());
+  ready_.resize(slot_count());
   std::erase_if(touched_, [&](std::uint32_t slot) { return slot >= slot_count(); });
   if (bricks_.empty()) pockets_ = {};
 }
@@ -215,15 +232,9 @@ void SmokeVolume::update_structure() {
   for (std::size_t i = 0; i < touched_.size(); ++i)
     if (bricks_[touched_[i]].masks_stale) update_mask(touched_[i]);
   for (const glm::ivec3 at : stale_bricks_)
-    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) mark(slot, &Brick::cells_stale);
+    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) mark_cells(slot, false);
   stale_bricks_.clear();
-
   release_unneeded();
-  for (const std::uint32_t slot : touched_)
-    if (bricks_[slot].cells_stale) {
-      structure_changed_ = true;
-      build_cells(slot);
-    }
   if (structure_changed_) update_bounds();
 }
 
@@ -242,29 +253,7 @@ void SmokeVolume::update_mask(std::uint32_t slot) {
   const std::array<BrickBits, 27> cells = cells_that_take(changed);
   for (std::size_t i = 0; i < 27; ++i)
     if (slots[i] != kNoSlot && intersect(cells[i], bricks_[slots[i]].cells_at_solid))
-      mark(slots[i], &Brick::cells_stale);
-}
-
-void SmokeVolume::build_cells(std::uint32_t slot) {
-  // What is solid and where smoke can be, in the brick and around it.
-  const glm::ivec3 at = brick_of(slot);
-  BrickScene scene{at, make_window(solid_around(*grid_, at)), {}, volume_.slots_around(at)};
-  std::array<const BrickBits*, 27> smoke{};
-  for (std::size_t i = 0; i < 27; ++i)
-    if (scene.slots[i] != kNoSlot) smoke[i] = &bricks_[scene.slots[i]].smoke;
-  scene.smoke = make_window(smoke);
-  if (bricks_[slot].walls_stale) {
-    densities_.set_solid(slot, scene.solid);
-    bricks_[slot].cells_at_solid = cells_at_solid(scene.solid);
-  }
-
-  const auto has_smoke = [this](glm::ivec3 v) {
-    const std::uint32_t other = slot_at(v >> 3);
-    return other != kNoSlot &&
-           (bricks_[other].smoke[static_cast<std::size_t>(v.z & 7)] >> (local_voxel(v) & 63) & 1) != 0;
-  };
-  walls_.build(slot, scene,
-               [&](glm::ivec3 v) { return grid_->free(v) && pockets_.sealed(*grid_, has_smoke, v, at); });
+      mark_cells(slots[i], false);
 }
 
 void SmokeVolume::update_bounds() {
@@ -282,25 +271,83 @@ void SmokeVolume::update_bounds() {
   volume_.set_bounds(low, high);
 }
 
+/// Where clouds and sinks changed since the last tick.
 void SmokeVolume::update_densities(std::uint32_t tick) {
-  // Where clouds and sinks changed since the last tick.
+  moved_clouds_.clear();
   changed_slots_.clear();
   changed_bricks_.clear();
-  sources_.advance_to(tick, changed_slots_, changed_bricks_);
-  for (const std::uint32_t slot : changed_slots_) mark(slot, &Brick::densities_stale);
-  for (const glm::ivec3 at : changed_bricks_)
-    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot && !bricks_[slot].clouds.empty())
-      mark(slot, &Brick::densities_stale);
+  sources_.advance_to(tick, moved_clouds_, changed_slots_, changed_bricks_);
+  for (const std::uint32_t slot : changed_slots_) bricks_[slot].densities_stale = true;
+  // Every brick that copies from a cloud's is one of those around it.
+  for (const SmokeSource* source : moved_clouds_)
+    for (const std::uint32_t slot : source->slots) ready_[slot] = 0;
+  for (const glm::ivec3 at : changed_bricks_) mark_densities(at);
+}
 
-  // Their densities, texels and corner sets.
-  for (const std::uint32_t slot : touched_) {
-    const Brick& brick = bricks_[slot];
-    if (!brick.densities_stale) continue;
-    const BrickBits changed = densities_.set_densities(slot, densities_of(brick.clouds, brick.sinks));
-    if (changed != BrickBits{}) walls_.densities_changed(brick_of(slot), changed);
+void SmokeVolume::prepare_now(std::uint32_t slot) const {
+  const std::lock_guard lock(mutex_);
+  if (!is_ready(slot)) prepare_locked(slot);
+}
+
+/// Texels and the list of boundary cells.
+void SmokeVolume::prepare_locked(std::uint32_t slot) const {
+  // Densities here and around.
+  const glm::ivec3 at = brick_of(slot);
+  const volume::NeighbourSlots around = volume_.slots_around(at);
+  for (const std::uint32_t other : around) {
+    if (other == kNoSlot || !bricks_[other].densities_stale) continue;
+    const Brick& brick = bricks_[other];
+    const BrickBits changed = densities_.set_densities(other, densities_of(brick.clouds, brick.sinks));
+    if (changed != BrickBits{}) walls_.densities_changed(brick_of(other), changed);
+    bricks_[other].densities_stale = false;
   }
-  densities_.fill_new();
-  walls_.evaluate(densities_.densities());
+
+  if (bricks_[slot].cells_stale) build_cells(slot, around);
+  densities_.fill_new(slot);
+  std::atomic_ref(ready_[slot]).store(1, std::memory_order_release);
+}
+
+void SmokeVolume::build_cells(std::uint32_t slot, const volume::NeighbourSlots& around) const {
+  // What is solid and where smoke can be, in the brick and around it.
+  Brick& brick = bricks_[slot];
+  const VoxelWindow solid = make_window(solid_around(*grid_, brick_of(slot)));
+  std::array<const BrickBits*, 27> smoke{};
+  for (std::size_t i = 0; i < 27; ++i)
+    if (around[i] != kNoSlot) smoke[i] = &bricks_[around[i]].smoke;
+  if (brick.walls_stale) {
+    densities_.set_solid(slot, solid);
+    brick.cells_at_solid = cells_at_solid(solid);
+  }
+  walls_.build(slot, solid, make_window(smoke), brick.walls_stale);
+  brick.walls_stale = brick.cells_stale = false;
+}
+
+/// For the boundary cells of a brick.
+CellFormer::Sealed SmokeVolume::sealed_for(glm::ivec3 brick) const {
+  const auto has_smoke = [this](glm::ivec3 v) {
+    const std::uint32_t other = slot_at(v >> 3);
+    return other != kNoSlot &&
+           (bricks_[other].smoke[static_cast<std::size_t>(v.z & 7)] >> (local_voxel(v) & 63) & 1) != 0;
+  };
+  return [this, has_smoke, brick](glm::ivec3 v) {
+    return grid_->free(v) && pockets_.sealed(*grid_, has_smoke, v, brick);
+  };
+}
+
+void SmokeVolume::compute_cell(std::uint32_t slot, std::uint32_t cell) const {
+  const std::lock_guard lock(mutex_);
+  if (!walls_.computed(slot, cell))
+    walls_.compute(slot, cell, densities_.densities(), sealed_for(brick_of(slot)));
+}
+
+void SmokeVolume::complete_now() const {
+  const std::lock_guard lock(mutex_);
+  if (complete_.load(std::memory_order_relaxed)) return;
+  for (std::uint32_t slot = 0; slot < slot_count(); ++slot)
+    if (volume_.in_use(slot) && !is_ready(slot)) prepare_locked(slot);
+  walls_.compute_all(densities_.densities(), [this](glm::ivec3 brick) { return sealed_for(brick); });
+  volume_.sort_dirty(kDensityChannel);
+  complete_.store(true, std::memory_order_release);
 }
 
 std::uint64_t SmokeVolume::bytes() const {
@@ -332,12 +379,13 @@ float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
   if (shared::corner_set_density(frees, f) >= 1.0f - 1.0f / 512.0f) return plain;
 
   // A solid corner: the set for the point's side of the surface.
-  const std::uint32_t entry =
-      volume.cells(slot)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
+  const std::uint32_t home = volume.slot_at(brick_of_cell(cell)), number = cell_in_brick(cell);
+  if (home == SmokeVolume::kNoSlot) return 0;
+  const std::uint32_t entry = volume.entries(home)[number];
   if (entry == 0) return 0;  // no smoke near
-  const shared::BoundaryCell& boundary = volume.boundary_cells()[entry - 1];
+  const shared::BoundaryCell& boundary = volume.boundary_cell(home, number, entry);
   const std::uint32_t side = shared::boundary_side(boundary, f - 0.5f);
-  return shared::corner_set_density(volume.corner_sets()[boundary.first_set + side], f);
+  return shared::corner_set_density(volume.corner_set(boundary.first_set + side), f);
 }
 
 }  // namespace brume::smoke

@@ -2,26 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace brume::smoke {
 namespace {
 
 constexpr std::uint32_t kNoSlot = volume::SparseVolume::kNoSlot;
-constexpr std::uint64_t kColumn0 = 0x0101010101010101u;
-
-/// For voxels of a layer, the cells voxel - 2 to voxel + 1 along x: in the previous brick, this, the next.
-std::array<std::uint64_t, 3> spread_x(std::uint64_t v) {
-  const std::uint64_t first = v & kColumn0, second = v & kColumn0 << 1;
-  return {
-      first << 7 | first << 6 | second << 6,
-      v | (v << 1 & ~kColumn0) | (v >> 1 & ~(kColumn0 << 7)) | (v >> 2 & ~(kColumn0 << 7 | kColumn0 << 6)),
-      v >> 7 & kColumn0};
-}
-/// The same along y.
-std::array<std::uint64_t, 3> spread_y(std::uint64_t v) {
-  const std::uint64_t first = v & 0xff, second = v & 0xff00;
-  return {first << 56 | first << 48 | second << 48, v | v << 8 | v >> 8 | v >> 16, v >> 56};
-}
+/// Forms are only kept while they are fewer than this, or than twice the boundary cells.
+constexpr std::uint64_t kLeastForms = 1u << 16;
 
 void sort_and_merge(std::vector<volume::IndexRange>& ranges) {
   std::sort(ranges.begin(), ranges.end(),
@@ -37,223 +25,297 @@ void sort_and_merge(std::vector<volume::IndexRange>& ranges) {
   ranges.resize(merged);
 }
 
-}  // namespace
-
-/// Voxel - 2 to voxel + 1 per axis.
-std::array<BrickBits, 27> cells_that_take(const BrickBits& voxels) {
-  std::array<BrickBits, 27> cells{};
-  for (int z = 0; z < 8; ++z) {
-    const std::uint64_t layer = voxels[static_cast<std::size_t>(z)];
-    if (layer == 0) continue;
-    const auto by_x = spread_x(layer);
-    for (std::size_t x = 0; x < 3; ++x) {
-      const auto by_y = spread_y(by_x[x]);
-      for (std::size_t y = 0; y < 3; ++y)
-        for (int to = z - 2; to <= z + 1; ++to)
-          cells[x + 3 * y + 9 * static_cast<std::size_t>((to >> 3) + 1)][static_cast<std::size_t>(to & 7)] |=
-              by_y[y];
-    }
-  }
-  return cells;
+template <typename Visit>
+void for_each_cell(const BrickBits& cells, Visit visit) {
+  for (std::uint32_t z = 0; z < 8; ++z)
+    for (std::uint64_t bits = cells[z]; bits != 0; bits &= bits - 1)
+      visit(64 * z + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
 
+}  // namespace
+
 WallCells::WallCells(const volume::SparseVolume& volume, PlaneSource planes)
-    : volume_(volume), planes_(std::move(planes)), builder_(planes_) {}
+    : volume_(volume), planes_(std::move(planes)), former_(planes_) {}
 
 void WallCells::begin_update() {
-  for (const std::uint32_t slot : touched_) {
+  for (const std::uint32_t slot : changed_) {
+    if (slot >= bricks_.size()) continue;
     Brick& brick = bricks_[slot];
-    brick.touched = brick.cells_changed = brick.home_changed = false;
-    brick.sets_changed = {};
+    brick.changed_hands = brick.listed = false;
+    if (brick.home) brick.home->cells_changed = brick.home->sets_changed = {};
   }
-  touched_.clear();
+  changed_.clear();
   dirty_slots_.clear();
   dirty_boundary_cells_.clear();
   dirty_corner_sets_.clear();
+  boundary_cells_.forget_old();
+  corner_sets_.forget_old();
+  former_placed_ = false;
+  if (forms_.size() <= std::max(kLeastForms, 2 * cell_count_)) return;
+  forms_.clear();
+  for (Brick& brick : bricks_)
+    if (brick.home) brick.home->forms.fill(0);
 }
 
-void WallCells::touch(std::uint32_t slot) {
-  if (bricks_[slot].touched) return;
-  bricks_[slot].touched = true;
-  touched_.push_back(slot);
+/// Lists a slot as one with something to report.
+void WallCells::note(std::uint32_t slot) {
+  if (bricks_[slot].listed) return;
+  bricks_[slot].listed = true;
+  changed_.push_back(slot);
 }
 
 void WallCells::add(std::uint32_t slot) {
   if (slot >= bricks_.size()) bricks_.resize(slot + 1);
-  bricks_[slot].cells_changed = true;
-  touch(slot);
+  bricks_[slot].changed_hands = bricks_[slot].table_stale = true;
+  note(slot);
 }
 
 void WallCells::remove(std::uint32_t slot) {
   drop(slot);
-  touch(slot);
-  bricks_[slot].cells.reset();
-  bricks_[slot].cells_changed = true;
-}
-
-void WallCells::build(std::uint32_t slot, const BrickScene& scene, const CellBuilder::Sealed& sealed) {
-  drop(slot);
   Brick& brick = bricks_[slot];
-  brick.home = builder_.build(scene, sealed);
-  if (!brick.home) return;
-  store(*brick.home);
-  write_cells(scene.brick, *brick.home, false);
-  brick.home_changed = true;
-  brick.stale.fill(~std::uint64_t{0});
-  touch(slot);
-}
-
-/// Gives the brick's cells a place in the lists.
-void WallCells::store(BrickCells& home) {
-  home.cell_range = cell_arena_.take(static_cast<std::uint32_t>(home.records.size()));
-  home.set_range = set_arena_.take(home.set_count);
-  if (boundary_cells_.size() < cell_arena_.end()) boundary_cells_.resize(cell_arena_.end());
-  if (corner_sets_.size() < set_arena_.end()) corner_sets_.resize(set_arena_.end());
-  for (std::size_t i = 0; i < home.records.size(); ++i) {
-    shared::BoundaryCell record = home.records[i];
-    record.first_set += home.set_range.first;
-    boundary_cells_[home.cell_range.first + i] = record;
-  }
-  std::fill_n(corner_sets_.begin() + home.set_range.first, home.set_range.count, glm::uvec2(0));
-}
-
-void WallCells::drop(std::uint32_t slot) {
-  Brick& brick = bricks_[slot];
-  brick.stale = {};
-  if (!brick.home) return;
-  write_cells(volume_.brick_of(slot), *brick.home, true);
-  cell_arena_.give_back(brick.home->cell_range);
-  set_arena_.give_back(brick.home->set_range);
-  brick.home.reset();
-  brick.home_changed = false;
-  brick.sets_changed = {};
-}
-
-/// Writes the cells' numbers, or 0, into every brick in which their points may lie: this one and those above.
-void WallCells::write_cells(glm::ivec3 brick, const BrickCells& home, bool clear) {
-  std::array<std::uint32_t, 8> slots;
-  for (int i = 0; i < 8; ++i) slots[static_cast<std::size_t>(i)] = volume_.slot_at(brick + corner_offset(i));
-  for (std::size_t k = 0; k < home.cells.size(); ++k) {
-    const glm::ivec3 local(home.cells[k] & 7, home.cells[k] >> 3 & 7, home.cells[k] >> 6);
-    const glm::ivec3 last = (local + 1) >> 3;
-    for (int i = 0; i < 8; ++i) {
-      const glm::ivec3 step = corner_offset(i);
-      const std::uint32_t slot = slots[static_cast<std::size_t>(i)];
-      if (glm::any(glm::greaterThan(step, last)) || slot == kNoSlot) continue;
-      Brick& into = bricks_[slot];
-      if (!into.cells && clear) continue;
-      if (!into.cells) into.cells = std::make_unique<CellTable>();
-      const glm::ivec3 at = local + 1 - 8 * step;
-      (*into.cells)[static_cast<std::size_t>(at.x + 9 * (at.y + 9 * at.z))] =
-          clear ? 0 : home.cell_range.first + static_cast<std::uint32_t>(k) + 1;
-      into.cells_changed = true;
-      touch(slot);
-    }
-  }
-}
-
-void WallCells::densities_changed(glm::ivec3 brick, const BrickBits& voxels) {
-  const volume::NeighbourSlots slots = volume_.slots_around(brick);
-  const std::array<BrickBits, 27> cells = cells_that_take(voxels);
-  for (std::size_t i = 0; i < 27; ++i) {
-    if (slots[i] == kNoSlot || !bricks_[slots[i]].home || cells[i] == BrickBits{}) continue;
-    for (std::size_t z = 0; z < 8; ++z) bricks_[slots[i]].stale[z] |= cells[i][z];
-    touch(slots[i]);
-  }
-}
-
-void WallCells::evaluate(std::span<const std::uint8_t> densities) {
-  for (const std::uint32_t slot : touched_) {
-    Brick& brick = bricks_[slot];
-    if (brick.home && brick.stale != BrickBits{}) {
-      evaluate_means(*brick.home, brick.stale, densities);
-      brick.sets_changed = evaluate_sets(*brick.home, brick.stale, densities);
-    }
-    brick.stale = {};
-  }
-}
-
-/// The numbers of the items whose cell is stale. Without a branch for each, which no processor could predict.
-template <typename Item>
-std::span<const std::uint32_t> WallCells::stale_of(const std::vector<Item>& items,
-                                                   const std::array<std::uint16_t, 64>& items_of_row,
-                                                   const BrickBits& stale) {
-  if (stale_numbers_.size() < items.size()) stale_numbers_.resize(items.size());
-  std::size_t count = 0;
-  std::uint32_t end = 0;
-  for (std::size_t row = 0; row < 64; ++row) {
-    const std::uint32_t first = end;
-    end += items_of_row[row];
-    const auto cells = static_cast<unsigned>(stale[row / 8] >> (8 * (row % 8)) & 0xff);
-    if (cells == 0) continue;
-    for (std::uint32_t i = first; i < end; ++i) {
-      stale_numbers_[count] = i;
-      count += cells >> (items[i].cell & 7) & 1;
-    }
-  }
-  return std::span(stale_numbers_).first(count);
-}
-
-void WallCells::evaluate_means(BrickCells& home, const BrickBits& stale,
-                               std::span<const std::uint8_t> densities) {
-  for (const std::uint32_t i : stale_of(home.means, home.means_of_row, stale)) {
-    const SmokeMean& mean = home.means[i];
-    const std::uint32_t* voxels = home.mean_voxels.data() + mean.first;
-    const std::uint8_t* weights = home.mean_weights.data() + mean.first;
-    std::uint32_t sum = mean.total / 2u;
-    for (std::uint32_t k = 0; k < mean.count; ++k) sum += std::uint32_t{weights[k]} * densities[voxels[k]];
-    home.mean_values[i + 1] = static_cast<std::uint8_t>(sum / mean.total);
-  }
-}
-
-/// Returns the sets that changed, counted in the brick.
-volume::IndexRange WallCells::evaluate_sets(BrickCells& home, const BrickBits& stale,
-                                            std::span<const std::uint8_t> densities) {
-  const std::array<const std::uint8_t*, 2> values{densities.data(), home.mean_values.data()};
-  std::uint32_t low = home.set_range.count, high = 0;
-  for (const std::uint32_t i : stale_of(home.sources, home.sources_of_row, stale)) {
-    // Its eight densities, from voxels or from means.
-    const CornerSource& source = home.sources[i];
-    const auto value = [&](std::size_t corner) -> std::uint32_t {
-      const std::uint32_t from = source.corners[corner];
-      return values[from / kMeanBit][from & ~kMeanBit];
-    };
-    const glm::uvec2 packed(value(0) | value(1) << 8 | value(2) << 16 | value(3) << 24,
-                            value(4) | value(5) << 8 | value(6) << 16 | value(7) << 24);
-
-    // Every set of the cell that has these corners.
-    for (unsigned sides = source.sides; sides != 0; sides &= sides - 1) {
-      const std::uint32_t set = source.first_set + static_cast<std::uint32_t>(std::countr_zero(sides));
-      glm::uvec2& held = corner_sets_[home.set_range.first + set];
-      if (held == packed) continue;
-      held = packed;
-      low = std::min(low, set);
-      high = std::max(high, set + 1);
-    }
-  }
-  return low < high ? volume::IndexRange{low, high - low} : volume::IndexRange{};
+  brick.cells.reset();
+  brick.table_stale = false;
+  brick.changed_hands = true;
+  note(slot);
 }
 
 void WallCells::shrink() {
-  std::erase_if(touched_, [&](std::uint32_t slot) { return slot >= volume_.slot_count(); });
   bricks_.resize(volume_.slot_count());
   if (!bricks_.empty()) return;
   boundary_cells_.clear();
   corner_sets_.clear();
 }
 
-void WallCells::end_update() {
-  std::sort(touched_.begin(), touched_.end());
-  for (const std::uint32_t slot : touched_) {
-    const Brick& brick = bricks_[slot];
-    if (brick.cells_changed) dirty_slots_.push_back(slot);
-    if (brick.home && brick.home_changed) {
-      dirty_boundary_cells_.push_back(brick.home->cell_range);
-      dirty_corner_sets_.push_back(brick.home->set_range);
-    } else if (brick.home && brick.sets_changed.count > 0) {
-      dirty_corner_sets_.push_back(
-          {brick.home->set_range.first + brick.sets_changed.first, brick.sets_changed.count});
+/// Removes the boundary cells of a brick.
+void WallCells::drop(std::uint32_t slot) {
+  Brick& brick = bricks_[slot];
+  if (!brick.home) return;
+  mark_tables(volume_.brick_of(slot));
+  cell_arena_.give_back(brick.home->cell_range);
+  set_arena_.give_back(brick.home->set_range);
+  cell_count_ -= brick.home->cell_range.count;
+  brick.home.reset();
+}
+
+/// The numbers of a brick's cells changed: they are in the tables of this brick and of those below.
+void WallCells::mark_tables(glm::ivec3 brick) {
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t slot = volume_.slot_at(brick - corner_offset(i));
+    if (slot == kNoSlot) continue;
+    bricks_[slot].table_stale = true;
+    note(slot);
+  }
+}
+
+void WallCells::build(std::uint32_t slot, const VoxelWindow& solid, const VoxelWindow& smoke,
+                      bool walls_changed) {
+  BrickBits cells = cells_at_solid(solid);
+  const BrickBits near_smoke = cells_near_smoke(smoke);
+  for (std::size_t z = 0; z < 8; ++z) cells[z] &= near_smoke[z];
+  Brick& brick = bricks_[slot];
+  if (cells == BrickBits{}) {
+    drop(slot);
+    return;
+  }
+
+  // At the same walls the same forms hold, other than bent ones; and the same cells keep their numbers.
+  if (!brick.home) brick.home = std::make_unique<Home>();
+  Home& home = *brick.home;
+  home.solid = solid;
+  home.smoke = smoke;
+  if (walls_changed) {
+    home.forms.fill(0);
+  } else {
+    for (std::uint32_t& form : home.forms)
+      if (form != 0 && forms_.bent(form - 1)) form = 0;
+  }
+  if (walls_changed || cells != home.cells) list_cells(volume_.brick_of(slot), cells, home);
+  home.stale = cells;
+  note(slot);
+}
+
+/// Gives the cells of a brick numbers, and their corner sets.
+void WallCells::list_cells(glm::ivec3 brick, const BrickBits& cells, Home& home) {
+  // Their sets: two to the power of their planes.
+  move_former_to(brick);
+  std::uint32_t cell_count = 0, set_count = 0;
+  for_each_cell(cells, [&](std::uint32_t cell) {
+    ++cell_count;
+    set_count += 1u << former_.plane_count(cell_of_brick(brick, cell));
+  });
+
+  // Places in the lists.
+  cell_count_ -= home.cell_range.count;
+  cell_arena_.give_back(std::exchange(home.cell_range, {}));
+  set_arena_.give_back(std::exchange(home.set_range, {}));
+  home.cell_range = cell_arena_.take(cell_count);
+  cell_count_ += cell_count;
+  home.set_range = set_arena_.take(set_count);
+  boundary_cells_.grow(cell_arena_.end());
+  corner_sets_.grow(set_arena_.end());
+  home.cells_changed = home.sets_changed = {};
+  home.cells_changed.add(home.cell_range);
+  home.sets_changed.add(home.set_range);
+
+  home.cells = cells;
+  home.entries.fill(0);
+  std::uint32_t number = home.cell_range.first, first_set = home.set_range.first;
+  for_each_cell(cells, [&](std::uint32_t cell) {
+    home.entries[cell] = number + 1;
+    boundary_cells_[number++] = {0, 0, 0, first_set};
+    first_set += 1u << former_.plane_count(cell_of_brick(brick, cell));
+  });
+  mark_tables(brick);
+}
+
+void WallCells::move_former_to(glm::ivec3 brick) {
+  if (former_placed_ && former_brick_ == brick) return;
+  former_.move_to(brick);
+  former_brick_ = brick;
+  former_placed_ = true;
+}
+
+void WallCells::densities_changed(glm::ivec3 brick, const BrickBits& voxels) {
+  const volume::NeighbourSlots slots = volume_.slots_around(brick);
+  const std::array<BrickBits, 27> cells = cells_that_take(voxels);
+  for (std::size_t i = 0; i < 27; ++i) {
+    if (slots[i] == kNoSlot || !bricks_[slots[i]].home) continue;
+    Home& home = *bricks_[slots[i]].home;
+    for (std::size_t z = 0; z < 8; ++z) home.stale[z] |= cells[i][z] & home.cells[z];
+  }
+}
+
+void WallCells::compute(std::uint32_t slot, std::uint32_t cell, std::span<const std::uint8_t> densities,
+                        const CellFormer::Sealed& sealed) {
+  note(slot);
+  compute(volume_.brick_of(slot), *bricks_[slot].home, cell, densities, sealed);
+}
+
+void WallCells::compute(glm::ivec3 brick, Home& home, std::uint32_t cell,
+                        std::span<const std::uint8_t> densities, const CellFormer::Sealed& sealed) {
+  const std::uint32_t form = form_of(brick, home, cell, sealed), number = home.entries[cell] - 1;
+  shared::BoundaryCell& record = boundary_cells_[number];
+  const std::array<std::uint32_t, 3>& planes = forms_.planes(form);
+  if (record.plane0 != planes[0] || record.plane1 != planes[1] || record.plane2 != planes[2]) {
+    record = {planes[0], planes[1], planes[2], record.first_set};
+    home.cells_changed.add({number, 1});
+  }
+
+  const Neighbourhood64 smoke =
+      forms_.reads_smoke(form) ? neighbourhood_of(home.smoke, cell) : Neighbourhood64{0};
+  const std::span<const glm::uvec2> sets =
+      forms_.corner_sets(form, densities_around(cell_of_brick(brick, cell), densities), smoke);
+  for (std::uint32_t side = 0; side < sets.size(); ++side) {
+    glm::uvec2& held = corner_sets_[record.first_set + side];
+    if (held == sets[side]) continue;
+    held = sets[side];
+    home.sets_changed.add({record.first_set + side, 1});
+  }
+  std::atomic_ref(home.stale[cell >> 6])
+      .fetch_and(~(std::uint64_t{1} << (cell & 63)), std::memory_order_release);
+}
+
+std::uint32_t WallCells::form_of(glm::ivec3 brick, Home& home, std::uint32_t cell,
+                                 const CellFormer::Sealed& sealed) {
+  if (home.forms[cell] != 0) return home.forms[cell] - 1;
+  move_former_to(brick);
+  const CellSurroundings around{cell_of_brick(brick, cell), ~neighbourhood_of(home.solid, cell),
+                                neighbourhood_of(home.smoke, cell)};
+  const std::uint32_t form = forms_.number_of(former_.form(around, sealed));
+  home.forms[cell] = form + 1;
+  return form;
+}
+
+/// The densities of the 4^3 voxels around a cell.
+CellDensities WallCells::densities_around(glm::ivec3 cell, std::span<const std::uint8_t> densities) const {
+  // Of up to two bricks an axis.
+  CellDensities around{};
+  const glm::ivec3 low = cell - 1, first = low >> 3, steps = ((low + 3) >> 3) - first;
+  std::array<const std::uint8_t*, 8> bricks{};
+  for (int i = 0; i < 8; ++i) {
+    const glm::ivec3 step = corner_offset(i);
+    if (glm::any(glm::greaterThan(step, steps))) continue;
+    const std::uint32_t slot = volume_.slot_at(first + step);
+    if (slot != kNoSlot)
+      bricks[static_cast<std::size_t>(i)] = densities.data() + std::size_t{slot} * kVoxelsPerBrick;
+  }
+  // Rows of four, the first ones in the lower brick.
+  const int in_lower = std::min(4, 8 - (low.x & 7));
+  std::uint8_t* row = around.data();
+  for (int z = low.z; z < low.z + 4; ++z)
+    for (int y = low.y; y < low.y + 4; ++y, row += 4) {
+      const auto pair = static_cast<std::size_t>(2 * ((y >> 3) - first.y) + 4 * ((z >> 3) - first.z));
+      const std::uint32_t at = local_voxel({low.x, y, z});
+      if (in_lower == 4) {
+        if (bricks[pair]) std::memcpy(row, bricks[pair] + at, 4);
+        continue;
+      }
+      if (bricks[pair]) std::copy_n(bricks[pair] + at, in_lower, row);
+      if (bricks[pair + 1]) std::copy_n(bricks[pair + 1] + (at & ~7u), 4 - in_lower, row + in_lower);
     }
+  return around;
+}
+
+void WallCells::compute_all(std::span<const std::uint8_t> densities, const SealedOfBrick& sealed_of) {
+  for (std::uint32_t slot = 0; slot < bricks_.size(); ++slot) {
+    if (bricks_[slot].table_stale) note(slot);
+    if (!bricks_[slot].home || bricks_[slot].home->stale == BrickBits{}) continue;
+    Home& home = *bricks_[slot].home;
+    note(slot);
+    const BrickBits stale = home.stale;
+    const glm::ivec3 brick = volume_.brick_of(slot);
+    const CellFormer::Sealed sealed = sealed_of(brick);
+    for_each_cell(stale, [&](std::uint32_t cell) { compute(brick, home, cell, densities, sealed); });
+  }
+  publish();
+}
+
+/// Writes the entries of the cells that overlap a brick; returns whether any changed.
+bool WallCells::write_table(std::uint32_t slot) {
+  CellTable table{};
+  bool any = false;
+  for (int i = 0; i < 8; ++i) {
+    const glm::ivec3 step = corner_offset(i);
+    const std::uint32_t from = volume_.slot_at(volume_.brick_of(slot) + step);
+    if (from == kNoSlot || !bricks_[from].home) continue;
+    any = true;
+    // All of the brick's own cells, of the bricks above those at the face.
+    const glm::ivec3 end = 8 - 7 * step;
+    for (int z = 0; z < end.z; ++z)
+      for (int y = 0; y < end.y; ++y) {
+        const auto to = static_cast<std::size_t>(8 * step.x + 9 * (y + 8 * step.y + 9 * (z + 8 * step.z)));
+        std::copy_n(bricks_[from].home->entries.data() + 8 * y + 64 * z, end.x, table.data() + to);
+      }
+  }
+  std::unique_ptr<CellTable>& held = bricks_[slot].cells;
+  if (!any || table == CellTable{}) {
+    const bool changed = held != nullptr;
+    held.reset();
+    return changed;
+  }
+  if (held && *held == table) return false;
+  if (!held) held = std::make_unique<CellTable>();
+  *held = table;
+  return true;
+}
+
+/// Lists what is dirty.
+void WallCells::publish() {
+  dirty_slots_.clear();
+  dirty_boundary_cells_.clear();
+  dirty_corner_sets_.clear();
+  std::erase_if(changed_, [&](std::uint32_t slot) { return slot >= bricks_.size(); });
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  for (const std::uint32_t slot : changed_) {
+    Brick& brick = bricks_[slot];
+    if (brick.table_stale && write_table(slot)) brick.changed_hands = true;
+    brick.table_stale = false;
+    if (brick.changed_hands) dirty_slots_.push_back(slot);
+    if (!brick.home) continue;
+    const Changes &cells = brick.home->cells_changed, &sets = brick.home->sets_changed;
+    if (cells.low < cells.high) dirty_boundary_cells_.push_back({cells.low, cells.high - cells.low});
+    if (sets.low < sets.high) dirty_corner_sets_.push_back({sets.low, sets.high - sets.low});
   }
   sort_and_merge(dirty_boundary_cells_);
   sort_and_merge(dirty_corner_sets_);
@@ -265,15 +327,11 @@ std::span<const std::uint32_t> WallCells::cells(std::uint32_t slot) const {
 }
 
 std::uint64_t WallCells::bytes() const {
-  std::uint64_t sum = boundary_cells_.capacity() * sizeof(shared::BoundaryCell) +
-                      corner_sets_.capacity() * sizeof(glm::uvec2) + bricks_.capacity() * sizeof(Brick);
+  std::uint64_t sum =
+      boundary_cells_.bytes() + corner_sets_.bytes() + forms_.bytes() + bricks_.capacity() * sizeof(Brick);
   for (const Brick& brick : bricks_) {
     if (brick.cells) sum += sizeof(CellTable);
-    if (const BrickCells* home = brick.home.get())
-      sum += sizeof(BrickCells) + home->cells.capacity() * 2 +
-             home->records.capacity() * sizeof(shared::BoundaryCell) +
-             home->means.capacity() * (sizeof(SmokeMean) + 1) + home->mean_voxels.capacity() * 4 +
-             home->mean_weights.capacity() + home->sources.capacity() * sizeof(CornerSource);
+    if (brick.home) sum += sizeof(Home);
   }
   return sum;
 }

@@ -124,7 +124,7 @@ void SparseVolume::mark_everything(std::uint32_t slot) {
 }
 
 void SparseVolume::mark_dirty(ChannelId channel, std::uint32_t slot) {
-  BRUME_ASSERT(updating_ && slot < slot_count(), std::to_string(slot));
+  BRUME_ASSERT(slot < slot_count(), std::to_string(slot));
   channels_[index(channel)].dirty.insert(slot);
 }
 

@@ -78,8 +78,10 @@ class SparseVolume {
   /// Takes the slot from its brick. Its texels become 0 and dirty in every channel; slot_count() falls when
   /// no slot above it is in use.
   void release(std::uint32_t slot);
-  /// Texels of the slot change in this update.
+  /// Texels of the slot change in this update. Also after end_update, by a writer that computes texels late;
+  /// sort_dirty then has to follow before anyone reads what is dirty.
   void mark_dirty(ChannelId channel, std::uint32_t slot);
+  void sort_dirty(ChannelId channel) { channels_[index(channel)].dirty.sort(slot_count()); }
   /// Where anything can be [voxel space]: layout().bounds_min and bounds_max, from the end of the update on.
   void set_bounds(glm::vec3 low, glm::vec3 high);
   /// Takes bounds and boxes from another volume, from the end of the update on: this one is a part of it.
