@@ -52,8 +52,6 @@ class CellFormer {
 
   /// The cells that follow are of this brick, and planes may have changed.
   void move_to(glm::ivec3 brick);
-  /// How many planes a cell has.
-  std::size_t plane_count(glm::ivec3 cell) { return planes_.at(cell).size(); }
   /// `sealed` is called for bent cells only.
   CellForm form(const CellSurroundings& cell, const Sealed& sealed);
 
@@ -122,6 +120,7 @@ class CellForms {
 
   /// The planes of a form.
   const std::array<std::uint32_t, 3>& planes(std::uint32_t form) const { return forms_[form].planes; }
+  std::uint32_t side_count(std::uint32_t form) const { return forms_[form].side_count; }
   bool bent(std::uint32_t form) const { return forms_[form].bent != 0; }
   /// Whether corner_sets reads where smoke is.
   bool reads_smoke(std::uint32_t form) const { return forms_[form].hidden != 0; }

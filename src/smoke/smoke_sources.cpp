@@ -129,39 +129,55 @@ struct FrontEnds {
         none((front + sim::kFrontUnit - 1) / sim::kFrontUnit) {}
 };
 
-/// Index of a brick's voxel from the brick's block and the bit in it.
-constexpr std::size_t first_of_block(std::size_t block) {
-  return 4 * (block & 1) + 32 * (block >> 1 & 1) + 256 * (block >> 2);
-}
-constexpr std::size_t voxel_of_bit(int bit) {
-  return static_cast<std::size_t>((bit & 3) + 8 * (bit >> 2 & 3) + 64 * (bit >> 4));
+/// The densities of a brick, block after block.
+using BlockDensities = std::array<std::array<std::uint8_t, 64>, 8>;
+
+std::uint8_t limited_sum(std::uint8_t a, std::uint8_t b) {
+  const auto sum = static_cast<std::uint8_t>(a + b);
+  return static_cast<std::uint8_t>(sum | -(sum < a));
 }
 
-void add_cloud_part(const CloudPart& part, BrickDensities& sums) {
+void add_cloud_part(const CloudPart& part, BlockDensities& sums) {
+  const std::span<const std::uint8_t> densities = part.source->densities();
   for (std::size_t i = 0; i < 8; ++i) {
     if (part.blocks[i] == kNoBlock) continue;
     const sim::VoxelBlock& block = part.source->cloud->voxels().blocks()[part.blocks[i]];
-    const std::uint8_t* density = part.source->densities().data() + block.first;
-    std::uint8_t* sum = sums.data() + first_of_block(i);
+    const std::uint8_t* density = densities.data() + block.first;
+    std::array<std::uint8_t, 64>& sum = sums[i];
+    if (~block.mask == 0) {
+      for (std::size_t k = 0; k < 64; ++k) sum[k] = limited_sum(sum[k], density[k]);
+      continue;
+    }
     for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
-      std::uint8_t& here = sum[voxel_of_bit(std::countr_zero(bits))];
-      here = static_cast<std::uint8_t>(std::min(255, here + *density++));
+      std::uint8_t& here = sum[static_cast<std::size_t>(std::countr_zero(bits))];
+      here = limited_sum(here, *density++);
     }
   }
 }
 
-void apply_sink_part(const SinkPart& part, BrickDensities& densities) {
+void apply_sink_part(const SinkPart& part, BlockDensities& densities) {
   const sim::BlastField& field = *part.sink->field;
   for (std::size_t i = 0; i < 8; ++i) {
     if (part.blocks[i] == kNoBlock) continue;
     const sim::VoxelBlock& block = field.reached().blocks()[part.blocks[i]];
     const std::uint8_t* reach = field.reach().data() + block.first;
-    std::uint8_t* density = densities.data() + first_of_block(i);
     for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
-      std::uint8_t& here = density[voxel_of_bit(std::countr_zero(bits))];
+      std::uint8_t& here = densities[i][static_cast<std::size_t>(std::countr_zero(bits))];
       here = sim::scaled_density(here, part.sink->profile.remaining[*reach++]);
     }
   }
+}
+
+/// The same, row after row of the brick.
+BrickDensities by_rows(const BlockDensities& blocks) {
+  BrickDensities densities;
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t row = 0; row < 16; ++row) {
+      const std::size_t to =
+          4 * (i & 1) + 32 * (i >> 1 & 1) + 256 * (i >> 2) + 8 * (row & 3) + 64 * (row >> 2);
+      std::memcpy(densities.data() + to, blocks[i].data() + 4 * row, 4);
+    }
+  return densities;
 }
 
 }  // namespace
@@ -182,10 +198,10 @@ BrickBits voxels_of(std::span<const CloudPart> clouds) {
 }
 
 BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const SinkPart> sinks) {
-  BrickDensities densities{};
+  BlockDensities densities{};
   for (const CloudPart& part : clouds) add_cloud_part(part, densities);
   for (const SinkPart& part : sinks) apply_sink_part(part, densities);
-  return densities;
+  return by_rows(densities);
 }
 
 void add_sink_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<SinkPart>& parts) {

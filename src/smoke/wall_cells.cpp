@@ -42,7 +42,9 @@ void WallCells::begin_update() {
     if (slot >= bricks_.size()) continue;
     Brick& brick = bricks_[slot];
     brick.changed_hands = brick.listed = false;
-    if (brick.home) brick.home->cells_changed = brick.home->sets_changed = {};
+    if (!brick.home) continue;
+    brick.home->cells_changed = {};
+    for (SetChunk& chunk : brick.home->chunks) chunk.changed = {};
   }
   changed_.clear();
   dirty_slots_.clear();
@@ -91,10 +93,16 @@ void WallCells::drop(std::uint32_t slot) {
   Brick& brick = bricks_[slot];
   if (!brick.home) return;
   mark_tables(volume_.brick_of(slot));
-  cell_arena_.give_back(brick.home->cell_range);
-  set_arena_.give_back(brick.home->set_range);
-  cell_count_ -= brick.home->cell_range.count;
+  give_back(*brick.home);
   brick.home.reset();
+}
+
+/// Frees the places of a brick's cells in the lists.
+void WallCells::give_back(Home& home) {
+  cell_count_ -= home.cell_range.count;
+  cell_arena_.give_back(std::exchange(home.cell_range, {}));
+  for (const SetChunk& chunk : home.chunks) set_arena_.give_back(chunk.range);
+  home.chunks.clear();
 }
 
 /// The numbers of a brick's cells changed: they are in the tables of this brick and of those below.
@@ -134,38 +142,54 @@ void WallCells::build(std::uint32_t slot, const VoxelWindow& solid, const VoxelW
   note(slot);
 }
 
-/// Gives the cells of a brick numbers, and their corner sets.
+/// Gives the cells of a brick numbers.
 void WallCells::list_cells(glm::ivec3 brick, const BrickBits& cells, Home& home) {
-  // Their sets: two to the power of their planes.
-  move_former_to(brick);
-  std::uint32_t cell_count = 0, set_count = 0;
-  for_each_cell(cells, [&](std::uint32_t cell) {
-    ++cell_count;
-    set_count += 1u << former_.plane_count(cell_of_brick(brick, cell));
-  });
-
-  // Places in the lists.
-  cell_count_ -= home.cell_range.count;
-  cell_arena_.give_back(std::exchange(home.cell_range, {}));
-  set_arena_.give_back(std::exchange(home.set_range, {}));
-  home.cell_range = cell_arena_.take(cell_count);
-  cell_count_ += cell_count;
-  home.set_range = set_arena_.take(set_count);
+  std::uint32_t count = 0;
+  for (const std::uint64_t layer : cells) count += static_cast<std::uint32_t>(std::popcount(layer));
+  give_back(home);
+  home.cell_range = cell_arena_.take(count);
+  cell_count_ += count;
   boundary_cells_.grow(cell_arena_.end());
-  corner_sets_.grow(set_arena_.end());
-  home.cells_changed = home.sets_changed = {};
+  home.cells_changed = {};
   home.cells_changed.add(home.cell_range);
-  home.sets_changed.add(home.set_range);
 
   home.cells = cells;
   home.entries.fill(0);
-  std::uint32_t number = home.cell_range.first, first_set = home.set_range.first;
+  std::uint32_t number = home.cell_range.first;
   for_each_cell(cells, [&](std::uint32_t cell) {
     home.entries[cell] = number + 1;
-    boundary_cells_[number++] = {0, 0, 0, first_set};
-    first_set += 1u << former_.plane_count(cell_of_brick(brick, cell));
+    boundary_cells_[number++] = {0, 0, 0, kNoSets};
   });
   mark_tables(brick);
+}
+
+/// Places of the corner sets of a cell. How many all cells have is only known when all are computed: most
+/// have a plane, and two sets.
+std::uint32_t WallCells::take_sets(Home& home, std::uint32_t count) {
+  const auto has_room = [&](const SetChunk& chunk) { return chunk.used + count <= chunk.range.count; };
+  auto chunk = std::ranges::find_if(home.chunks, has_room);
+  if (chunk == home.chunks.end()) {
+    const std::uint32_t size = home.chunks.empty() ? 2 * home.cell_range.count : home.cell_range.count;
+    const volume::IndexRange range = set_arena_.take(std::max(size, 8u));
+    corner_sets_.grow(set_arena_.end());
+    home.chunks.push_back({range, 0, {}});
+    chunk = home.chunks.end() - 1;
+  }
+  const volume::IndexRange sets{chunk->range.first + chunk->used, count};
+  chunk->used += count;
+  chunk->changed.add(sets);
+  return sets.first;
+}
+
+void WallCells::write_sets(Home& home, std::uint32_t first, std::span<const glm::uvec2> sets) {
+  const auto holds = [&](const SetChunk& chunk) { return first - chunk.range.first < chunk.range.count; };
+  SetChunk& chunk = *std::ranges::find_if(home.chunks, holds);
+  for (std::uint32_t side = 0; side < sets.size(); ++side) {
+    glm::uvec2& held = corner_sets_[first + side];
+    if (held == sets[side]) continue;
+    held = sets[side];
+    chunk.changed.add({first + side, 1});
+  }
 }
 
 void WallCells::move_former_to(glm::ivec3 brick) {
@@ -193,24 +217,21 @@ void WallCells::compute(std::uint32_t slot, std::uint32_t cell, std::span<const 
 
 void WallCells::compute(glm::ivec3 brick, Home& home, std::uint32_t cell,
                         std::span<const std::uint8_t> densities, const CellFormer::Sealed& sealed) {
+  // Its planes, and places for its sets.
   const std::uint32_t form = form_of(brick, home, cell, sealed), number = home.entries[cell] - 1;
-  shared::BoundaryCell& record = boundary_cells_[number];
   const std::array<std::uint32_t, 3>& planes = forms_.planes(form);
-  if (record.plane0 != planes[0] || record.plane1 != planes[1] || record.plane2 != planes[2]) {
-    record = {planes[0], planes[1], planes[2], record.first_set};
+  shared::BoundaryCell record{planes[0], planes[1], planes[2], boundary_cells_[number].first_set};
+  if (record.first_set == kNoSets) record.first_set = take_sets(home, forms_.side_count(form));
+  shared::BoundaryCell& held = boundary_cells_[number];
+  if (std::memcmp(&held, &record, sizeof record) != 0) {
+    held = record;
     home.cells_changed.add({number, 1});
   }
 
   const Neighbourhood64 smoke =
       forms_.reads_smoke(form) ? neighbourhood_of(home.smoke, cell) : Neighbourhood64{0};
-  const std::span<const glm::uvec2> sets =
-      forms_.corner_sets(form, densities_around(cell_of_brick(brick, cell), densities), smoke);
-  for (std::uint32_t side = 0; side < sets.size(); ++side) {
-    glm::uvec2& held = corner_sets_[record.first_set + side];
-    if (held == sets[side]) continue;
-    held = sets[side];
-    home.sets_changed.add({record.first_set + side, 1});
-  }
+  const CellDensities around = densities_around(cell_of_brick(brick, cell), densities);
+  write_sets(home, record.first_set, forms_.corner_sets(form, around, smoke));
   std::atomic_ref(home.stale[cell >> 6])
       .fetch_and(~(std::uint64_t{1} << (cell & 63)), std::memory_order_release);
 }
@@ -313,9 +334,11 @@ void WallCells::publish() {
     brick.table_stale = false;
     if (brick.changed_hands) dirty_slots_.push_back(slot);
     if (!brick.home) continue;
-    const Changes &cells = brick.home->cells_changed, &sets = brick.home->sets_changed;
-    if (cells.low < cells.high) dirty_boundary_cells_.push_back({cells.low, cells.high - cells.low});
-    if (sets.low < sets.high) dirty_corner_sets_.push_back({sets.low, sets.high - sets.low});
+    const auto list = [](const Changes& changes, std::vector<volume::IndexRange>& ranges) {
+      if (changes.low < changes.high) ranges.push_back({changes.low, changes.high - changes.low});
+    };
+    list(brick.home->cells_changed, dirty_boundary_cells_);
+    for (const SetChunk& chunk : brick.home->chunks) list(chunk.changed, dirty_corner_sets_);
   }
   sort_and_merge(dirty_boundary_cells_);
   sort_and_merge(dirty_corner_sets_);
@@ -331,7 +354,7 @@ std::uint64_t WallCells::bytes() const {
       boundary_cells_.bytes() + corner_sets_.bytes() + forms_.bytes() + bricks_.capacity() * sizeof(Brick);
   for (const Brick& brick : bricks_) {
     if (brick.cells) sum += sizeof(CellTable);
-    if (brick.home) sum += sizeof(Home);
+    if (brick.home) sum += sizeof(Home) + brick.home->chunks.capacity() * sizeof(SetChunk);
   }
   return sum;
 }

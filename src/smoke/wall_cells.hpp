@@ -96,14 +96,21 @@ class WallCells {
       high = std::max(high, range.first + range.count);
     }
   };
+  /// Corner sets of a brick's cells.
+  struct SetChunk {
+    volume::IndexRange range;
+    std::uint32_t used = 0;
+    Changes changed;  // since begin_update
+  };
   /// A brick with boundary cells.
   struct Home {
     std::array<std::uint32_t, 512> entries{};
     std::array<std::uint32_t, 512> forms{};  // number + 1 of a cell's form; 0: not known
     BrickBits cells{}, stale{};              // boundary cells; those that have to be computed
     VoxelWindow solid{}, smoke{};
-    volume::IndexRange cell_range, set_range;
-    Changes cells_changed, sets_changed;  // since begin_update
+    volume::IndexRange cell_range;
+    Changes cells_changed;         // since begin_update
+    std::vector<SetChunk> chunks;  // corner sets of its cells, in the order in which they were computed
   };
   struct Brick {
     std::unique_ptr<CellTable> cells;  // null: all 0
@@ -113,11 +120,16 @@ class WallCells {
     bool listed = false;               // in changed_
   };
   static constexpr std::array<std::uint32_t, 512> kNoEntries{};
+  /// BoundaryCell::first_set of a cell that was never computed.
+  static constexpr std::uint32_t kNoSets = ~std::uint32_t{0};
 
   void note(std::uint32_t slot);
   void drop(std::uint32_t slot);
   void mark_tables(glm::ivec3 brick);
   void list_cells(glm::ivec3 brick, const BrickBits& cells, Home& home);
+  void give_back(Home& home);
+  std::uint32_t take_sets(Home& home, std::uint32_t count);
+  void write_sets(Home& home, std::uint32_t first, std::span<const glm::uvec2> sets);
   void compute(glm::ivec3 brick, Home& home, std::uint32_t cell, std::span<const std::uint8_t> densities,
                const CellFormer::Sealed& sealed);
   std::uint32_t form_of(glm::ivec3 brick, Home& home, std::uint32_t cell, const CellFormer::Sealed& sealed);
