@@ -45,7 +45,8 @@ void main() {
   for (uint i = 0u; i < kProbeRays; ++i) {
     const vec3 direction = probe_direction(i, phase);
     const uint hit = hits[i * params.probe_count + probe];
-    vec3 light = hit_patch(hit) == kSkyPatch ? frame.sky.ambient * sky_shape(direction.y) : unpacked(radiance[hit_patch(hit)]);
+    vec3 light = hit_patch(hit) == kSkyPatch ? frame.sky.ambient * sky_shape(direction.y)
+                                             : unpacked(radiance[hit_patch(hit)]);
     if (kMediaInCells != 0u) {
       const vec3 start = start_of(i);
       const vec4 media = through_media(vec3(cell) + 0.5 + start, direction, hit_cells(hit) - dot(start, direction));

@@ -13,7 +13,9 @@ ivec3 texel_in_atlas(uint slot, uint local) {
 }
 
 /// Its centre in voxel space.
-vec3 texel_position(uint slot, uint local) { return vec3(unpacked(slot_bricks[slot]) * kBrickVoxels + local_texel(local)) - 0.5; }
+vec3 texel_position(uint slot, uint local) {
+  return vec3(unpacked(slot_bricks[slot]) * kBrickVoxels + local_texel(local)) - 0.5;
+}
 
 vec3 world_from_voxel(vec3 p_voxel) { return frame.smoke.origin_world + p_voxel * frame.smoke.voxel_size; }
 
