@@ -89,7 +89,7 @@ class SmokeSources {
   Exchange<SmokeSink> take_sinks(const sim::State& state);
 
   /// Brings clouds and sinks to a tick. Appends the clouds with another phase, the slots in which their
-  /// densities may differ, and the bricks in which those of sinks do; both with repeats.
+  /// densities may differ, and the bricks in which sinks changed; both with repeats.
   void advance_to(std::uint32_t tick, std::vector<const SmokeSource*>& moved,
                   std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks);
 
