@@ -9,8 +9,7 @@
 // - `float padding SHARED_ZERO;` fills a gap.
 //
 // The build refuses shaders with other layouts, and says which struct is wrong (cmake/BrumeShaders.cmake). Members are
-// float, int, uint, vecN, ivecN, uvecN, the types of this file, and structs of them. A SHARED_SIZE follows each struct
-// that lies in buffers.
+// float, int, uint, vecN, ivecN, uvecN, the types of this file, and structs of them. A SHARED_SIZE follows each struct.
 //
 // SHARED_BINDING(kBindPages, 1u) declares where a resource is bound: `layout(binding = kBindPages)` in GLSL,
 // `{shared::kBindPages, gpu::read(pages)}` in C++. What several passes read has one number in all of them:
@@ -86,15 +85,19 @@ struct BindingIndex final {
 struct PackedVec2 {
   float x, y;
 };
+SHARED_SIZE(PackedVec2, 8);
 struct PackedVec3 {
   float x, y, z;
 };
+SHARED_SIZE(PackedVec3, 12);
 struct PackedVec4 {
   float x, y, z, w;
 };
+SHARED_SIZE(PackedVec4, 16);
 struct PackedIvec3 {
   int x, y, z;
 };
+SHARED_SIZE(PackedIvec3, 12);
 vec2 unpacked(PackedVec2 v) { return vec2(v.x, v.y); }
 vec3 unpacked(PackedVec3 v) { return vec3(v.x, v.y, v.z); }
 vec4 unpacked(PackedVec4 v) { return vec4(v.x, v.y, v.z, v.w); }

@@ -156,7 +156,7 @@ class SmokeVolume final : public SmokeBricks {
   CellFormer::Sealed sealed_for(glm::ivec3 brick) const;
 
   voxel::GridLayout grid_layout_;
-  const voxel::BitGrid* grid_ = nullptr;  // of the last update
+  const voxel::BitGrid* grid_ = nullptr;  // the last update's
   SmokeSources sources_;
   std::shared_ptr<const sim::EditBlocks> edits_;  // in the last state
   std::vector<Box<float>> cloud_bounds_;

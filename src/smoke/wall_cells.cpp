@@ -249,7 +249,7 @@ std::uint32_t WallCells::form_of(glm::ivec3 brick, Home& home, std::uint32_t cel
 
 /// The densities of the 4^3 voxels around a cell.
 CellDensities WallCells::densities_around(glm::ivec3 cell, std::span<const std::uint8_t> densities) const {
-  // Of up to two bricks an axis.
+  // Up to two bricks an axis.
   CellDensities around{};
   const glm::ivec3 low = cell - 1, first = low >> 3, steps = ((low + 3) >> 3) - first;
   std::array<const std::uint8_t*, 8> bricks{};

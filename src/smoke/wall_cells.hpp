@@ -148,7 +148,7 @@ class WallCells {
   volume::RangeArena cell_arena_, set_arena_;
   GrowingArray<shared::BoundaryCell> boundary_cells_;
   GrowingArray<glm::uvec2> corner_sets_;
-  std::uint64_t cell_count_ = 0;        // of all bricks
+  std::uint64_t cell_count_ = 0;        // in all bricks
   std::vector<std::uint32_t> changed_;  // slots with something to report since begin_update
   std::vector<std::uint32_t> dirty_slots_;
   std::vector<volume::IndexRange> dirty_boundary_cells_, dirty_corner_sets_;
