@@ -35,7 +35,7 @@ float slope(ivec2 px, float here, ivec2 along) {
   return change;
 }
 
-/// Of the plane n (p - eye) = near_z the depth is n (forward + x right + y up): its derivatives are the parts of n
+/// On the plane n (p - eye) = near_z the depth is n (forward + x right + y up): its derivatives are the parts of n
 /// along right and up. In a parallel view so they are of the n whose part along forward is 1.
 vec3 normal_of_depth(ivec2 px, float here) {
   const Camera camera = frame.camera;

@@ -42,7 +42,7 @@ struct SurfacePatch {
   PackedVec3 position_world;
   PackedVec3 normal;    // unit, towards the cell
   PackedVec3 albedo;    // of diffuse reflection
-  PackedVec3 emission;  // radiance, but that of small emitters
+  PackedVec3 emission;  // radiance; small emitters are left out
 };
 SHARED_SIZE(SurfacePatch, 48);
 

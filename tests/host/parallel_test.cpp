@@ -198,7 +198,7 @@ TEST_F(ParallelTest, VolumesAndDecalsAreTheLimit) {
   EXPECT_OK(brume_decal_destroy(decal));
 }
 
-// The picture may be three steps of a display off that of the full march.
+// The picture may differ from the full march by three steps of a display.
 TEST_F(ParallelTest, AReducedMarchIsTheLimit) {
   ASSERT_OK(brume_renderer_set_march_scale(renderer_, 2));
   EXPECT_LT(apart(draw_view({}).smoke, draw_view({1600}).smoke), 3 / 255.0);
