@@ -24,7 +24,7 @@ struct Dda {
   float t;      // where it entered the cell
   float t_end;  // where it leaves the box
 };
-SHARED_SIZE(Dda, 84);
+SHARED_LOCAL(Dda);
 
 /// Where the ray crosses the low planes of a cell.
 SHARED_FUNCTION vec3 dda_plane_t(Dda d, ivec3 cell) {

@@ -45,7 +45,7 @@ struct HoleOpening {
   float radius;
   float strength;
 };
-SHARED_SIZE(HoleOpening, 8);
+SHARED_LOCAL(HoleOpening);
 
 /// `age`: time since the front passed [s], above 0; the other times as in Hole.
 SHARED_FUNCTION HoleOpening hole_opening(float age, float time_to_expand, float time_to_stay_open, float time_to_fade) {
@@ -73,7 +73,7 @@ struct HoleCut {
   float strength;  // fraction of the smoke that it removes, [0, 1]; of a mask: where its image is white
   vec2 uv;         // position in the mask atlas; masks only
 };
-SHARED_SIZE(HoleCut, 12);
+SHARED_LOCAL(HoleCut);
 
 /// `time` is on the clock of Hole::time_start. Removes nothing before the front has passed, nor at depths below 0 or
 /// above distance_to_far. rim_noise_metres widens (above 0) or narrows the hole at this point.

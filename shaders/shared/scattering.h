@@ -12,7 +12,7 @@ SHARED_BEGIN
 struct ManyFit {
   float decay, held, scale, scale_g, closure, even, even_g;
 };
-SHARED_SIZE(ManyFit, 28);
+SHARED_LOCAL(ManyFit);
 
 /// Fitted by tests/light to random walks in slabs, spheres and boxes.
 SHARED_FUNCTION ManyFit many_fit() {
@@ -33,7 +33,7 @@ struct ManyScatterings {
   vec3 fraction;  // of the light's irradiance
   float g;        // of the outgoing light
 };
-SHARED_SIZE(ManyScatterings, 28);
+SHARED_LOCAL(ManyScatterings);
 
 /// `g`: mean cosine, [0, 1); negative values count as 0. `escape`: mean transmittance out of the smoke over all
 /// directions.

@@ -9,7 +9,8 @@
 // - `float padding SHARED_ZERO;` fills a gap.
 //
 // The build refuses shaders with other layouts, and says which struct is wrong (cmake/BrumeShaders.cmake). Members are
-// float, int, uint, vecN, ivecN, uvecN, the types of this file, and structs of them. A SHARED_SIZE follows each struct.
+// float, int, uint, vecN, ivecN, uvecN, the types of this file, and structs of them. A SHARED_SIZE follows each struct
+// that lies in buffers, SHARED_LOCAL(type) one that only functions use: its members may lie anyhow.
 //
 // SHARED_BINDING(kBindPages, 1u) declares where a resource is bound: `layout(binding = kBindPages)` in GLSL,
 // `{shared::kBindPages, gpu::read(pages)}` in C++. What several passes read has one number in all of them:
@@ -72,6 +73,7 @@ struct BindingIndex final {
 #define SHARED_CONST constexpr
 #define SHARED_ZERO = {}
 #define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
+#define SHARED_LOCAL(type) struct type
 #define SHARED_BINDING(name, number) constexpr BindingIndex name{number, #name}
 #else
 #define portable_exp exp
@@ -81,23 +83,20 @@ struct BindingIndex final {
 #define SHARED_CONST const
 #define SHARED_ZERO
 #define SHARED_SIZE(type, bytes)
+#define SHARED_LOCAL(type)
 #define SHARED_BINDING(name, number) const uint name = number
 struct PackedVec2 {
   float x, y;
 };
-SHARED_SIZE(PackedVec2, 8);
 struct PackedVec3 {
   float x, y, z;
 };
-SHARED_SIZE(PackedVec3, 12);
 struct PackedVec4 {
   float x, y, z, w;
 };
-SHARED_SIZE(PackedVec4, 16);
 struct PackedIvec3 {
   int x, y, z;
 };
-SHARED_SIZE(PackedIvec3, 12);
 vec2 unpacked(PackedVec2 v) { return vec2(v.x, v.y); }
 vec3 unpacked(PackedVec3 v) { return vec3(v.x, v.y, v.z); }
 vec4 unpacked(PackedVec4 v) { return vec4(v.x, v.y, v.z, v.w); }

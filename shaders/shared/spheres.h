@@ -69,7 +69,7 @@ struct NearestIds {
   vec4 powers;  // ascending; kNoPower behind the last
   uint count;   // of all that were added
 };
-SHARED_SIZE(NearestIds, 36);
+SHARED_LOCAL(NearestIds);
 
 /// Above the power of any point in a tank.
 SHARED_CONST float kNoPower = 3.0e38f;

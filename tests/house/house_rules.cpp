@@ -75,7 +75,7 @@ std::vector<std::string> vulkan_calls(std::string_view text) {
 
 std::vector<std::string> unsized_structs(std::string_view text) {
   static const std::regex declared(R"re(\bstruct\s+(\w+)\s*\{)re");
-  static const std::regex sized(R"re(\bSHARED_SIZE\(\s*(\w+)\s*,)re");
+  static const std::regex sized(R"re(\bSHARED_(?:SIZE|LOCAL)\(\s*(\w+)\s*[,)])re");
   const std::vector<std::string> with_size = matches(text, sized);
   std::vector<std::string> found;
   for (const std::string& name : matches(text, declared)) {

@@ -22,7 +22,7 @@ std::vector<std::string> upward_includes(std::string_view folder, std::string_vi
 /// The calls of Vulkan functions, `vkName(`, and includes of its headers.
 std::vector<std::string> vulkan_calls(std::string_view text);
 
-/// The structs of a shared header without SHARED_SIZE.
+/// The structs of a shared header without SHARED_SIZE or SHARED_LOCAL.
 std::vector<std::string> unsized_structs(std::string_view text);
 
 /// A length that a file or function has, and where it begins.

@@ -39,7 +39,8 @@ TEST(HouseRules, DetectACallOfVulkan) {
 }
 
 TEST(HouseRules, DetectAStructWithoutASize) {
-  EXPECT_EQ(unsized_structs("struct A {\n float x;\n};\nSHARED_SIZE(A, 4);\nstruct B { int y; };"),
+  EXPECT_EQ(unsized_structs("struct A {\n float x;\n};\nSHARED_SIZE(A, 4);\nstruct B { int y; };\n"
+                            "struct C {};\nSHARED_LOCAL(C);"),
             Strings{"B"});
 }
 
@@ -100,6 +101,7 @@ TEST(House, OnlyTheGpuFolderCallsVulkan) {
 
 TEST(House, SharedStructsHaveASize) {
   const int count = for_each_source(kRoot / "shaders/shared", [](const auto& path, const std::string& text) {
+    if (path.filename() == "shim.h") return;  // the types of the languages
     for (const auto& name : unsized_structs(text))
       ADD_FAILURE() << path << ": " << name << " has no SHARED_SIZE";
   });
