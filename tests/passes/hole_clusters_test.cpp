@@ -56,7 +56,7 @@ class HoleClustersTest : public MarchFixture {
 
   const SmokeRoom room_{context(),  runner(), walls(), {{26, 17, 33}, 0.5f, {-6.5f, -4, -8}},
                         {0, 0, -1}, 1u << 22, 4000};
-  const MarchPass march_{context(), {}}, plain_{context(), {false, true}};
+  const MarchPass march_{context(), {}}, plain_{context(), {.brute_force_holes = true}};
 };
 
 TEST_F(HoleClustersTest, GivesTheImageOfTestingEveryHole) {

@@ -46,7 +46,7 @@ class MarchTest : public MarchFixture {
     return from_half(read_back<Half4>(target));
   }
 
-  const MarchPass march_{context(), {true, false}};
+  const MarchPass march_{context(), {.count_samples = true}};
   std::uint32_t samples_ = 0;
 };
 
@@ -105,7 +105,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
   const auto plain = march(room_, frame, kDistance);
   const std::uint32_t all = samples_;
 
-  const MarchPass counting(context(), {false, true, false});
+  const MarchPass counting(context(), {.count_steps = true});
   const ResolvePass resolve(context());
   const auto depth =
       upload_image(context(), runner(), kImageSize, VK_FORMAT_R32_SFLOAT,

@@ -96,8 +96,9 @@ void MarchPart::reserve(const FramePlan& plan) {
   march_pass_.reserve(media, rays);
   if (plan.input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
-      counting_march_.emplace(context_,
-                              passes::MarchPass::Options{false, true, options_.brute_force_holes, false, 0});
+      counting_march_.emplace(
+          context_, passes::MarchPass::Options{
+                        .count_steps = true, .brute_force_holes = options_.brute_force_holes, .media = 0});
     counting_march_->reserve(media, rays);
   }
 
