@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "gpu/read_back.hpp"
@@ -24,6 +25,10 @@ class GpuTest : public testing::Test {
     for (const std::string& message : context().take_validation_messages()) ADD_FAILURE() << message;
   }
 
+  /// The grid to which the device snaps vertices [px].
+  static double snapping_px() {
+    return std::exp2(-static_cast<double>(context().limits().subPixelPrecisionBits));
+  }
   template <typename T>
   static Buffer upload(const std::vector<T>& values,
                        VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |

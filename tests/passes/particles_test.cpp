@@ -255,6 +255,7 @@ TEST_F(ParticlesTest, OverdrawCountsQuads) {
   const glm::dvec3 right = glm::normalize(glm::dvec3(scene_.camera.right));
   const glm::dvec3 up = glm::normalize(glm::dvec3(scene_.camera.up));
   const double pixel = 2 * glm::length(glm::dvec3(scene_.camera.right)) / scene_.size_px.x;
+  const double unsure = std::max(0.01, snapping_px()) * pixel;  // at 1 m
   float most = 0;
   for (std::size_t i = 0; i < scene_.pixels(); ++i) {
     int at_least = 0, at_most = 0;
@@ -263,8 +264,8 @@ TEST_F(ParticlesTest, OverdrawCountsQuads) {
       const glm::dvec3 away = scene_.at(i, view_m) - glm::dvec3(particle.centre_world);
       const double off = std::max(std::abs(glm::dot(away, right)), std::abs(glm::dot(away, up))) -
                          double{scene_.systems[0].radius};
-      at_least += off < -0.01 * pixel * view_m;
-      at_most += off < 0.01 * pixel * view_m;
+      at_least += off < -unsure * view_m;
+      at_most += off < unsure * view_m;
     }
     ASSERT_GE(drawn.pixels[i].x, at_least) << i;
     ASSERT_LE(drawn.pixels[i].x, at_most) << i;
