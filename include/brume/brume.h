@@ -590,6 +590,25 @@ BRUME_API brume_result brume_state_hash(const brume_state* state, uint64_t* hash
 /// states give equal bytes. The first call encodes, further calls copy.
 BRUME_API brume_result brume_state_save(const brume_state* state, void* buffer, size_t capacity,
                                         size_t* size) BRUME_NOEXCEPT;
+/// A box in the world, closed.
+typedef struct brume_box {
+  brume_point low, high;  ///< Its corners [m], each coordinate within +-16384, `low` not above `high`.
+} brume_box;
+
+/// Creates the part of a state that reaches one of the boxes: what a client may know whose players see into
+/// these boxes alone. Give each team or client a sender of its own, and push to it what its boxes leave:
+/// packets, answers and checks work as ever, whatever enters the boxes and leaves them.
+///
+/// Clouds and cavities with a voxel within two voxels of a box at any tick are kept whole, and so are holes
+/// that pass there, with their muzzle; grenades and bodies while they are there. Edits of the level and the
+/// number of events are kept. Without boxes nothing else is.
+///
+/// A line within a box has the whole state's optical depth, except for rounding, and beside a thin wall that
+/// hides smoke in a closed space of fewer than 4096 voxels. A field of the filtered state has the client's
+/// results bit for bit. Not for clients that simulate, as their world would lack the rest. At most 4096
+/// boxes.
+BRUME_API brume_result brume_state_filter(const brume_state* state, const brume_box* boxes, size_t box_count,
+                                          brume_state** filtered) BRUME_NOEXCEPT;
 /// Creates a state from the bytes that brume_state_save wrote. At most 16 MiB and 2^26 voxels. The bytes need
 /// not be trusted. Errors: BRUME_ERROR_DATA when they are damaged or describe a state that no world can have.
 BRUME_API brume_result brume_state_load(brume_context* context, const void* bytes, size_t size,

@@ -189,6 +189,11 @@ class State : public detail::Handle<brume_state, brume_state_destroy> {
   std::uint64_t hash() const {
     return detail::value_of<std::uint64_t>([&](std::uint64_t* out) { return brume_state_hash(get(), out); });
   }
+  /// The part that reaches one of the boxes: brume_state_filter.
+  State filtered(const std::vector<brume_box>& boxes) const {
+    return State(detail::created<brume_state>(
+        [&](brume_state** out) { return brume_state_filter(get(), boxes.data(), boxes.size(), out); }));
+  }
   /// The state as bytes, for the constructor.
   Bytes save() const {
     return detail::bytes_of([&](void* buffer, std::size_t capacity, std::size_t* size) {

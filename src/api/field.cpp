@@ -41,11 +41,6 @@ void update(brume_field& field, const sim::State& state) {
   field.field->update(state);
 }
 
-bool is_point(const brume_point& p) {
-  const auto within = [](float c) { return std::abs(c) <= smoke::kMaxSightMetres; };  // false for NaN
-  return within(p.x) && within(p.y) && within(p.z);
-}
-
 smoke::Segment to_segment(const brume_segment& s) {
   return {{s.a.x, s.a.y, s.a.z}, {s.b.x, s.b.y, s.b.z}};
 }
@@ -57,7 +52,7 @@ void check_queries(const brume_segment* segments, std::size_t count, const Out* 
   required(segments, "segments");
   required(out, "the output");
   for (std::size_t i = 0; i < count; ++i)
-    if (!is_point(segments[i].a) || !is_point(segments[i].b))
+    if (!is_in_world(segments[i].a) || !is_in_world(segments[i].b))
       refuse("segment " + std::to_string(i) +
              " must have finite coordinates within 16384 m of the world's origin");
 }

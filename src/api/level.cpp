@@ -173,6 +173,12 @@ glm::ivec3 to_ivec3(const brume_voxel& v) {
   return {v.x, v.y, v.z};
 }
 
+bool is_in_world(const brume_point& p) {
+  constexpr float kMostMetres = 16384;
+  const auto within = [](float c) { return std::abs(c) <= kMostMetres; };  // false for NaN
+  return within(p.x) && within(p.y) && within(p.z);
+}
+
 std::size_t checked_box(const GridLayout& layout, const brume_voxel& low, const brume_voxel& high,
                         std::size_t count) {
   const glm::ivec3 from = to_ivec3(low), to = to_ivec3(high);

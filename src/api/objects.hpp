@@ -33,6 +33,8 @@ struct LevelData {
 };
 
 glm::ivec3 to_ivec3(const brume_voxel& v);
+/// Whether a point is finite and within 16384 m of the world's origin.
+bool is_in_world(const brume_point& p);
 /// The number of voxels of a box; throws a CallFailure unless it lies in the grid, has a voxel, and `count`
 /// is right.
 std::size_t checked_box(const voxel::GridLayout& layout, const brume_voxel& low, const brume_voxel& high,

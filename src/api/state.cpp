@@ -1,10 +1,13 @@
 #include <limits>
 
 #include "api/objects.hpp"
+#include "sim/state_filter.hpp"
 #include "wire/packet.hpp"
 
 namespace brume::api {
 namespace {
+
+constexpr std::size_t kMostBoxes = 4096;
 
 brume_state_info info_of(const sim::State& state) {
   const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
@@ -23,6 +26,26 @@ sim::State load_state(const void* bytes, std::size_t size) {
   const wire::PacketHead head = unwrap(wire::read_head(data), BRUME_ERROR_DATA);
   if (head.kind != wire::PacketKind::keyframe) fail(BRUME_ERROR_DATA, "not a saved state");
   return unwrap(wire::read_keyframe(head), BRUME_ERROR_DATA);
+}
+
+sim::State filter_state(const sim::State& state, const brume_box* boxes, std::size_t count) {
+  require(count <= kMostBoxes, "at most 4096 boxes");
+  if (count > 0) required(boxes, "boxes");
+  const auto voxel_of = [&](const brume_point& p) {
+    const glm::dvec3 at =
+        (glm::dvec3(p.x, p.y, p.z) - glm::dvec3(state.layout.origin_world)) / double{state.layout.voxel_size};
+    return glm::ivec3(glm::floor(at));
+  };
+  std::vector<Box<int>> voxels;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [low, high] = boxes[i];
+    if (!is_in_world(low) || !is_in_world(high) || low.x > high.x || low.y > high.y || low.z > high.z)
+      refuse(
+          "box " + std::to_string(i) +
+          " must have finite coordinates within 16384 m of the world's origin, and `low` not above `high`");
+    voxels.push_back({voxel_of(low), voxel_of(high) + 1});
+  }
+  return sim::filtered(state, voxels);
 }
 
 brume_voxel to_voxel(const glm::ivec3& v) {
@@ -115,6 +138,15 @@ brume_result brume_state_hash(const brume_state* state, uint64_t* hash) BRUME_NO
 brume_result brume_state_save(const brume_state* state, void* buffer, size_t capacity,
                               size_t* size) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) { save_state(call.handle(state), buffer, capacity, size); });
+}
+
+brume_result brume_state_filter(const brume_state* state, const brume_box* boxes, size_t box_count,
+                                brume_state** filtered) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_state& whole = call.handle(state);
+    required(filtered, "filtered");
+    create(filtered, whole.settings, filter_state(whole.state, boxes, box_count));
+  });
 }
 
 brume_result brume_state_load(brume_context* context, const void* bytes, size_t size,

@@ -300,6 +300,57 @@ TEST_F(FieldTest, ReceivedStatesGiveTheSameField) {
   EXPECT_EQ(other.visible(segments, 1), field.visible(segments, 1));
 }
 
+TEST_F(FieldTest, FilteredStatesHaveTheDepthsOfTheirBoxes) {
+  // Lines start where they meet the bounds of all smoke, and their places within a cell are floats: of at
+  // most `kVoxels` voxels, in at most as many cells for each axis.
+  constexpr float kVoxels = 80, kPerVoxel = 3 * 0.5f;
+  constexpr float kRounding = kPerVoxel * 3 * kVoxels * kVoxels / (1u << 24);
+  World world = this->world();
+  std::mt19937 random(12);
+  std::size_t dark = 0, fewer = 0;
+  for (const std::uint32_t tick : {60u, 95u, 200u, 280u, 330u}) {
+    const Field field = field_at(world, tick);
+    const State state = world.state();
+    for (int round = 0; round < 6; ++round) {
+      const auto real = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+      };
+      const brume_point low{real(-2, 18), real(-1, 3), real(-2, 15)};
+      const brume_box box{low, {low.x + 7, low.y + 3, low.z + 6}};
+      const State part = state.filtered({box});
+      fewer += part.describe().cloud_count < state.describe().cloud_count;
+      Field other(level_, params_);
+      other.update(part);
+      std::vector<brume_segment> segments(300);
+      for (brume_segment& s : segments)
+        for (brume_point* p : {&s.a, &s.b})
+          *p = {real(box.low.x, box.high.x), real(box.low.y, box.high.y), real(box.low.z, box.high.z)};
+      const auto whole = field.optical_depths(segments), of_part = other.optical_depths(segments);
+      for (std::size_t i = 0; i < segments.size(); ++i) {
+        ASSERT_NEAR(of_part[i], whole[i], kRounding)
+            << "tick " << tick << " round " << round << " line " << i;
+        dark += whole[i] > 1;
+      }
+    }
+  }
+  EXPECT_GT(dark, 300u);
+  EXPECT_GT(fewer, 5u);
+}
+
+TEST_F(FieldTest, FiltersCheckTheirBoxes) {
+  World world = this->world();
+  world.advance_to(200);
+  const State state = world.state();
+  EXPECT_EQ(state.filtered({}).describe().cloud_count, 0u);
+  EXPECT_EQ(state.filtered({{{-1000, -1000, -1000}, {1000, 1000, 1000}}}).hash(), state.hash());
+  for (const brume_box& box : {brume_box{{0, 0, 0}, {1, -1, 1}}, brume_box{{0, 0, 0}, {1, 1, std::nanf("")}},
+                               brume_box{{-16385, 0, 0}, {1, 1, 1}}}) {
+    brume_state* out = nullptr;
+    EXPECT_EQ(brume_state_filter(state.get(), &box, 1, &out), BRUME_ERROR_ARGUMENT);
+    EXPECT_EQ(out, nullptr);
+  }
+}
+
 TEST_F(FieldTest, IsReadWhileItsWorldAdvancesAndItIsUpdated) {
   World world = this->world();
   Field field = field_at(world, 200);

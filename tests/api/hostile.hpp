@@ -121,6 +121,7 @@ class Hostile {
   void world_state();
   void world_restore();
   void state_read();
+  void state_filter();
   void state_save();
   void state_load();
   void state_destroy();

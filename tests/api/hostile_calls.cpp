@@ -14,13 +14,13 @@ const std::vector<Hostile::Step>& Hostile::steps() {
                                      &H::world_move,        &H::world_move,           &H::world_move,
                                      &H::world_read,        &H::world_state,          &H::world_state,
                                      &H::world_restore,     &H::state_read,           &H::state_save,
-                                     &H::state_load,        &H::state_destroy,        &H::sender_create,
-                                     &H::sender_push,       &H::sender_push,          &H::sender_packets,
-                                     &H::sender_packets,    &H::sender_destroy,       &H::receiver_create,
-                                     &H::receiver_receive,  &H::receiver_receive,     &H::receiver_read,
-                                     &H::receiver_destroy,  &H::field_create,         &H::field_update,
-                                     &H::field_update,      &H::field_query,          &H::field_query,
-                                     &H::field_query,       &H::field_destroy};
+                                     &H::state_filter,      &H::state_load,           &H::state_destroy,
+                                     &H::sender_create,     &H::sender_push,          &H::sender_push,
+                                     &H::sender_packets,    &H::sender_packets,       &H::sender_destroy,
+                                     &H::receiver_create,   &H::receiver_receive,     &H::receiver_receive,
+                                     &H::receiver_read,     &H::receiver_destroy,     &H::field_create,
+                                     &H::field_update,      &H::field_update,         &H::field_query,
+                                     &H::field_query,       &H::field_query,          &H::field_destroy};
   return all;
 }
 
@@ -190,6 +190,19 @@ void Hostile::state_read() {
   read_list("brume_state_blasts", states_, brume_state_blasts);
   read_list("brume_state_holes", states_, brume_state_holes);
   read_list("brume_state_bodies", states_, brume_state_bodies);
+}
+
+void Hostile::state_filter() {
+  std::vector<brume_box> boxes(below(3));
+  for (brume_box& box : boxes) {
+    box.low = point(20);
+    box.high = chance(0.9) ? brume_point{box.low.x + 5, box.low.y + 3, box.low.z} : point(20);
+  }
+  auto out = output<brume_state*>();
+  keep("brume_state_filter",
+       brume_state_filter(handle(states_), chance(0.03) ? nullptr : boxes.data(), count(boxes.size()),
+                          out.pointer()),
+       out, states_, brume_state_destroy);
 }
 
 void Hostile::state_save() {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <deque>
 
+#include "sim/state_filter.hpp"
 #include "tests/wire/busy_world.hpp"
 #include "wire/receiver.hpp"
 #include "wire/sender.hpp"
@@ -109,6 +110,37 @@ TEST(Link, WithoutLossEveryTickArrives) {
       play(level, busy_match(level, 4, 400, 400), 400, 0, Network(1, 0, 0, 0), Network(2, 0, 0, 0));
   EXPECT_EQ(outcome.ticks_equal, 530u);
   EXPECT_EQ(outcome.requests, 0u);
+}
+
+// Each team has a sender, to which what its box leaves is pushed; the box follows a player.
+TEST(Link, AFilteredClientHasItsPartBitEqual) {
+  const voxel::BitGrid level = rooms(5);
+  sim::World world = world_of(level, busy_match(level, 5, 400, 400));
+  Sender sender;
+  Receiver receiver;
+  std::mt19937 random(8);
+  std::size_t came = 0, went = 0, clouds = 0, hidden = 0;
+  for (std::uint32_t tick = 0; tick < 500; ++tick) {
+    world.advance_to(tick);
+    const glm::ivec3 player(static_cast<int>(tick) / 6, 3, 40 + static_cast<int>(tick % 100) / 4);
+    const Box<int> box{player - 12, player + 12};
+    const sim::State part = sim::filtered(world.state(), std::span(&box, 1));
+    const Bytes packet = *sender.push(part);
+    if (random() % 10 == 0) continue;  // lost
+    ASSERT_TRUE(receiver.receive(packet));
+    if (receiver.behind()) {
+      ASSERT_TRUE(receiver.receive(*sender.answer(receiver.request())));
+    }
+    ASSERT_TRUE(receiver.state() != nullptr);
+    expect_same(*receiver.state(), part);
+    came += part.clouds.size() > clouds;
+    went += part.clouds.size() < clouds;
+    clouds = part.clouds.size();
+    hidden += part.clouds.size() < world.state().clouds.size();
+  }
+  EXPECT_GT(came, 1u);
+  EXPECT_GT(went, 1u);
+  EXPECT_GT(hidden, 100u);
 }
 
 // SPEC K10: a late joiner, 5 % of all packets lost, including requests.

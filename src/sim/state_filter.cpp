@@ -1,0 +1,92 @@
+#include "sim/state_filter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "sim/walk.hpp"
+
+namespace brume::sim {
+namespace {
+
+bool meets(const BlockSet& set, const Box<int>& box) {
+  if (set.empty() || intersection({set.low(), set.high() + 1}, box).empty()) return false;
+  return std::ranges::any_of(set.blocks(), [&](const VoxelBlock& block) {
+    const glm::ivec3 low = glm::ivec3(block.at) * kBlockSize;
+    const Box<int> all{low, low + kBlockSize};
+    if (intersection(all, box).empty()) return false;
+    if (box.contains(all)) return true;
+    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1)
+      if (box.contains(voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits)))) return true;
+    return false;
+  });
+}
+
+/// Whether items of a state reach a box of voxels.
+class Reach {
+ public:
+  Reach(const State& state, const Box<int>& box)
+      : ruler_(state.layout), tick_(state.tick), box_{box.low - kFilterReach, box.high + kFilterReach} {}
+
+  bool operator()(const LiveCloud& live) const { return meets(live.cloud->voxels(), box_); }
+  template <typename Field>
+  bool operator()(const Live<Field>& live) const {
+    return meets(live.field->reached(), box_);
+  }
+  bool operator()(const Flight& flight) const {
+    const auto passed = static_cast<std::int64_t>(tick_ - flight.throw_tick),
+               all = static_cast<std::int64_t>(flight.detonation_tick - flight.throw_tick);
+    const glm::i64vec3 path = glm::i64vec3(ruler_.centre(flight.landing)) - glm::i64vec3(flight.from);
+    return has(flight.from + Position(path * passed / all));
+  }
+  bool operator()(const Body& body) const { return has(body.position) || has(body.previous); }
+  bool operator()(const BulletHole& hole) const;
+
+ private:
+  bool has(Position position) const {
+    return box_.contains(glm::ivec3(ruler_.subvoxel(position) >> std::int64_t{10}));
+  }
+
+  VoxelRuler ruler_;
+  std::uint32_t tick_;
+  Box<int> box_;
+};
+
+/// Whether the bore's axis meets the box larger by its radius, or by the half diagonal of a square, which is
+/// less than twice the half edge.
+bool Reach::operator()(const BulletHole& hole) const {
+  constexpr double kVoxel = 1024;
+  const glm::dvec3 from(ruler_.subvoxel(hole.shot.origin));
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(hole.shot.toward - hole.shot.origin));
+  const auto wide = static_cast<double>(ruler_.subvoxels(2 * std::int64_t{hole.shot.radius}) + 1);
+  double begin = 0, end = static_cast<double>(ruler_.subvoxels(static_cast<std::int64_t>(hole.distance)) + 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = kVoxel * box_.low[axis] - wide - from[axis],
+                 high = kVoxel * box_.high[axis] + wide - from[axis];
+    if (direction[axis] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    const double a = low / direction[axis], b = high / direction[axis];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
+}
+
+}  // namespace
+
+State filtered(const State& state, std::span<const Box<int>> boxes) {
+  std::vector<Reach> reaches_box;
+  for (const Box<int>& box : boxes)
+    if (!box.empty()) reaches_box.emplace_back(state, box);
+  State part = state;
+  for_each_state_list([&](const char*, auto list) {
+    std::erase_if(part.*list, [&](const auto& item) {
+      return std::ranges::none_of(reaches_box, [&](const Reach& reaches) { return reaches(item); });
+    });
+  });
+  return part;
+}
+
+}  // namespace brume::sim
