@@ -127,6 +127,30 @@ function(brume_thorough_test name program what)
                  COMMAND ${CMAKE_COMMAND} -E env BRUME_THOROUGH=${what} ${link} --gtest_filter=${arg_FILTER})
 endfunction()
 
+# The two drivers of Debian 12 that draw on any CPU: Mesa's, and the one in chromium-common.
+find_file(BRUME_LAVAPIPE lvp_icd.x86_64.json PATHS /usr/share/vulkan/icd.d NO_DEFAULT_PATH)
+find_file(BRUME_SWIFTSHADER vk_swiftshader_icd.json PATHS /usr/lib/chromium NO_DEFAULT_PATH)
+
+# brume_devices_test(PROGRAMS...): GPU programs of brume_test once more, on other devices than that of their first run:
+# PROGRAM_swiftshader, and PROGRAM_lavapipe_4 on lavapipe with four threads in a subgroup. With 16 threads Mesa 22.3.6
+# crashes.
+function(brume_devices_test)
+  foreach(program IN LISTS ARGN)
+    if(BRUME_SWIFTSHADER)
+      brume_link_test(${program}_swiftshader ${program} link)
+      brume_add_test(${program}_swiftshader ${program} LABELS gpu slow TIMEOUT 7200
+                     COMMAND ${CMAKE_COMMAND} -E env VK_DRIVER_FILES=${BRUME_SWIFTSHADER} ${link})
+    endif()
+    if(BRUME_LAVAPIPE)
+      # Mesa's cache does not know the width.
+      brume_link_test(${program}_lavapipe_4 ${program} link)
+      brume_add_test(${program}_lavapipe_4 ${program} LABELS gpu slow TIMEOUT 7200
+                     COMMAND ${CMAKE_COMMAND} -E env VK_DRIVER_FILES=${BRUME_LAVAPIPE} LP_NATIVE_VECTOR_WIDTH=128
+                             MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/mesa_4 ${link})
+    endif()
+  endforeach()
+endfunction()
+
 # The rooms of a target: its own folder below src or apps, and the folders of everything that it links or runs.
 function(brume_rooms_of target result)
   set(aliased "")

@@ -25,6 +25,9 @@ class GpuTest : public testing::Test {
     for (const std::string& message : context().take_validation_messages()) ADD_FAILURE() << message;
   }
 
+  /// How much farther than to the nearest number devices round where they store 8 bits: hardware for Direct3D
+  /// may be 0.6 of a step off.
+  static constexpr double kStoreError = 0.1;
   /// The grid to which the device snaps vertices [px].
   static double snapping_px() {
     return std::exp2(-static_cast<double>(context().limits().subPixelPrecisionBits));

@@ -115,8 +115,8 @@ TEST_F(GreyRampTest, ShowsNoBand) {
   // Noise of a whole step, evenly distributed, has no bias; what is left of 1,024 samples of blue noise is
   // below a twentieth of a step. A column has 64 of white noise at worst, of a deviation of at most half a
   // step: four standard errors are a quarter of a step.
-  EXPECT_LT(farthest_off(shown, 16), 0.05);
-  EXPECT_LT(farthest_off(shown, 1), 0.25);
+  EXPECT_LT(farthest_off(shown, 16), 0.05 + kStoreError);
+  EXPECT_LT(farthest_off(shown, 1), 0.25 + kStoreError);
   // A column d pixels from where the ramp is a whole number, in steps of w pixels, is even with the
   // probability (1 - d / w)^64 at most. For all up to d = m on both sides that is about exp(-64 m^2 / w):
   // e^-30 here.
