@@ -14,6 +14,7 @@ layout(constant_id = 0) const uint kMedia = 0u;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSun) uniform Views { ShadowView sun; };
 layout(binding = kBindShadowMaps) uniform sampler2DArray shadow_maps;
+layout(binding = kBindSunMap) uniform sampler2D sun_map;
 layout(binding = kBindSmokeShadows, r16f) uniform writeonly image2D smoke_shadows;
 layout(scalar, binding = kBindSmokeShadowFaces) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
@@ -52,13 +53,14 @@ vec3 face_ray(uint face, vec2 uv) {
 
 /// The segment from a light through a point of one of its faces to the first surface.
 RaySegment light_segment(Light light, uint face, vec2 uv) {
-  const bool by_voxels = light.shadow_layer == kShadowByVoxels;
-  const float depth = by_voxels ? 0.0 : textureLod(shadow_maps, vec3(uv, float(light.shadow_layer + face)), 0.0).r;
   if (light.kind == kLightDirectional) {
     const vec2 ndc = uv * 2.0 - 1.0;
+    const float depth = textureLod(sun_map, uv, 0.0).r;
     return RaySegment((sun.world_from_clip * vec4(ndc, 1.0, 1.0)).xyz,
                       (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz);
   }
+  const bool by_voxels = light.shadow_layer == kShadowByVoxels;
+  const float depth = by_voxels ? 0.0 : textureLod(shadow_maps, vec3(uv, float(light.shadow_layer + face)), 0.0).r;
   const vec3 far = light.position_world + face_ray(face, uv) * min(kShadowNear / max(depth, 1e-6), light.range);
   const vec3 to = by_voxels ? first_solid(light.position_world, far) : far, along = to - light.position_world;
   return RaySegment(light.position_world + along * min(light.radius / max(length(along), 1e-6), 1.0), to);

@@ -90,9 +90,11 @@ vec4 face_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world
 }
 
 /// Fraction of the light that its shadow map lets through; 1 where it has none.
-float shadow_at(sampler2DArrayShadow maps, Light light, vec4 on_face) {
+float shadow_at(sampler2DArrayShadow maps, sampler2DShadow sun_map, Light light, vec4 on_face) {
   const bool mapped = light.shadow_layer < kShadowByVoxels && on_face.xy == clamp(on_face.xy, 0.0, 1.0);
-  return mapped ? texture(maps, vec4(on_face.xy, float(light.shadow_layer) + on_face.z, on_face.w)) : 1.0;
+  if (!mapped) return 1.0;
+  if (light.kind == kLightDirectional) return textureLod(sun_map, on_face.xyw, 0.0);
+  return texture(maps, vec4(on_face.xy, float(light.shadow_layer) + on_face.z, on_face.w));
 }
 
 #endif

@@ -29,7 +29,7 @@ LightOnSurface light_on_surface(Light light, vec3 position_world, vec3 normal) {
 /// Fraction of the light that surfaces let through.
 float visibility_on_surface(Light light, LightOnSurface on) {
   return on.by_voxels ? segment_visibility(on.off_world, light.position_world)
-                      : shadow_at(shadow_maps, light, on.on_face);
+                      : shadow_at(shadow_maps, sun_map, light, on.on_face);
 }
 
 #endif

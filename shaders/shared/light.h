@@ -7,6 +7,7 @@ SHARED_BEGIN
 SHARED_BINDING(kBindLights, 18u);
 SHARED_BINDING(kBindSun, 19u);
 SHARED_BINDING(kBindShadowMaps, 20u);
+SHARED_BINDING(kBindSunMap, 77u);
 
 SHARED_CONST uint kLightPoint = 0u;
 SHARED_CONST uint kLightSpot = 1u;
@@ -22,7 +23,8 @@ struct Light {
   vec3 direction;   // of the emitted light, unit
   float cos_inner;
   float cos_outer;
-  // First layer in the shadow array (six faces, one for a directional light), or one of the constants above.
+  // First of six layers in the shadow array, 0 where the directional light has the sun's map, or one of the constants
+  // above.
   uint shadow_layer;
   float radius;   // of a ball that shines like the point [m]: inside of it all is lit as at its edge, and nothing casts
                   // shadows
@@ -35,7 +37,7 @@ SHARED_FUNCTION float light_range(float intensity) {
   return sqrt(100.0f * intensity);
 }
 
-/// Orthographic view of the shadow layer of a directional light.
+/// Orthographic view of the sun's map: the shadows of a directional light.
 struct ShadowView {
   mat4 clip_from_world;
   mat4 world_from_clip;

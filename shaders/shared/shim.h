@@ -26,6 +26,7 @@
 //   53 - 54  their transfer functions and colours
 //   55       volumes as slices            slice_texture.h
 //   56 - 59  particles                    particles.h
+//   77       the sun's shadow map         light.h
 //   80 - 81  light paths of tanks         photons.h
 //   82 - 91  indirect light               indirect_light.h
 //   94       fine shadows in smoke        light_side.h

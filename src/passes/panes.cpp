@@ -69,10 +69,11 @@ void PanePass::prepare(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shi
   recorder.prepare_for_draws(
       {gpu::uniform(in.frame), gpu::read(scene.vertices), gpu::read(scene.lights),
        gpu::uniform(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
-       gpu::sampled(in.smoke_shadows.atlas, linear_), gpu::read(in.smoke_shadows.faces),
-       gpu::sampled(in.smoke, nearest_), gpu::sampled(layers_of(in), nearest_),
-       gpu::sampled(layer_depth_of(in), nearest_), gpu::sampled(in.level.sky.light(), linear_),
-       gpu::sampled(in.level.indirect_cube, linear_), gpu::sampled(in.level.solid.texels(), linear_)});
+       gpu::sampled(in.shadows.sun_map, compare_), gpu::sampled(in.smoke_shadows.atlas, linear_),
+       gpu::read(in.smoke_shadows.faces), gpu::sampled(in.smoke, nearest_),
+       gpu::sampled(layers_of(in), nearest_), gpu::sampled(layer_depth_of(in), nearest_),
+       gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.indirect_cube, linear_),
+       gpu::sampled(in.level.solid.texels(), linear_)});
   recorder.prepare_for_draws(shine, {in.media.bindings()}, {});
   maps_.prepare_for_draws(recorder, scene);
   recorder.prepare_indices(scene.indices);
@@ -123,6 +124,7 @@ void PanePass::draw(gpu::Recorder& recorder, const gpu::GraphicsPipeline& shine,
                               {shared::kBindLights, gpu::read(scene.lights)},
                               {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                               {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                              {shared::kBindSunMap, gpu::sampled(in.shadows.sun_map, compare_)},
                               {shared::kBindSmokeShadows, gpu::sampled(in.smoke_shadows.atlas, linear_)},
                               {shared::kBindSmokeShadowFaces, gpu::read(in.smoke_shadows.faces)},
                               {shared::kBindSmoke, gpu::sampled(in.smoke, nearest_)},

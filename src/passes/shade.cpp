@@ -34,6 +34,7 @@ void ShadePass::record(gpu::Recorder& recorder, const Needs& needs, const Inputs
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                    {shared::kBindSunMap, gpu::sampled(in.shadows.sun_map, compare_)},
                     {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
                     {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
                     {shared::kBindEmission, gpu::sampled(in.gbuffer.emission, nearest_)},

@@ -1,6 +1,7 @@
 #include "passes/shadow.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "brume_shaders.hpp"
 
@@ -15,8 +16,8 @@ constexpr std::size_t kLayersOfSubmission = 32;
 std::uint32_t layer_count(const SceneResources& scene) {
   std::uint32_t count = 0;
   for (const shared::Light& light : scene.light_list) {
-    if (light.shadow_layer == shared::kNoShadow) continue;
-    count = std::max(count, light.shadow_layer + (light.kind == shared::kLightDirectional ? 1u : 6u));
+    if (light.shadow_layer == shared::kNoShadow || light.kind == shared::kLightDirectional) continue;
+    count = std::max(count, light.shadow_layer + 6);
   }
   return count;
 }
@@ -34,10 +35,14 @@ glm::mat4 face_clip_from_world(const shared::Light& light, std::uint32_t face) {
   return glm::transpose(rows);
 }
 
+float radius_of(const SceneResources& scene) {
+  return std::max(1.0f, 0.5f * glm::length(scene.bounds_max - scene.bounds_min));
+}
+
 /// The whole scene along a direction: depth 1 at the near side, 0 at the far side.
 glm::mat4 sun_view(const SceneResources& scene, glm::vec3 direction) {
   const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
-  const float radius = std::max(1.0f, 0.5f * glm::length(scene.bounds_max - scene.bounds_min));
+  const float radius = radius_of(scene);
   const glm::vec3 helper = std::abs(direction.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(direction, helper)), down = glm::cross(direction, right);
   glm::mat4 rows(0);
@@ -64,10 +69,20 @@ std::uint32_t shadow_size(std::uint32_t layers) {
   return layers <= 64 ? 512 : layers <= 400 ? 256 : 128;
 }
 
+std::uint32_t sun_map_size(float radius) {
+  constexpr float kTexel = 0.05f;  // [m]
+  return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(2 * radius / kTexel, 512.0f, 4096.0f)));
+}
+
+// Surfaces are pushed away by so many texels of slope. A comparison of 2 x 2 texels needs one, and more in
+// the perspective of a face.
 ShadowPass::ShadowPass(gpu::Context& context)
-    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}),
-      cut_pipeline_(context, {&shaders::shadow_cut_vert, &shaders::shadow_cut_frag, {}, kFormat, 2.0f, 0}),
-      maps_(context, 1) {}
+    : of_faces_(make_pipelines(context, 2)), of_sun_(make_pipelines(context, 1)), maps_(context, 1) {}
+
+ShadowPass::Pipelines ShadowPass::make_pipelines(gpu::Context& context, float slope) {
+  return {{context, {&shaders::shadow_vert, nullptr, {}, kFormat, slope, 0}},
+          {context, {&shaders::shadow_cut_vert, &shaders::shadow_cut_frag, {}, kFormat, slope, 0}}};
+}
 
 ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& scene) const {
   ShadowMaps maps;
@@ -78,12 +93,16 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
   info.layers = std::max(layers, 2u);  // an array, whatever the lights
   info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   maps.layers = gpu::Image(context, info);
+  info.layers = 1;
+  info.size = glm::uvec3(1);
   maps.sun = gpu::Buffer(context, sizeof(shared::ShadowView),
                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   for (const shared::Light& light : scene.light_list) {
     if (light.kind != shared::kLightDirectional || light.shadow_layer == shared::kNoShadow) continue;
     maps.sun_clip_from_world = sun_view(scene, light.direction);
+    info.size = {glm::uvec2(sun_map_size(radius_of(scene))), 1};
   }
+  maps.sun_map = gpu::Image(context, info);
   return maps;
 }
 
@@ -109,7 +128,8 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
                                HiddenObjects hidden, const ShadowMaps& maps,
                                const std::function<bool(const Sees&)>& accepts) const {
   std::vector<Layer> layers;
-  const auto add = [&](std::uint32_t index, const glm::mat4& clip_from_world, const Sees& sees) {
+  const auto add = [&](std::optional<std::uint32_t> index, const glm::mat4& clip_from_world,
+                       const Sees& sees) {
     if (!accepts(sees)) return;
     Layer& layer = layers.emplace_back(Layer{index, clip_from_world});
     for (const Draw& draw : scene.draws)
@@ -119,7 +139,7 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
   for (const shared::Light& light : scene.light_list) {
     if (light.shadow_layer == shared::kNoShadow) continue;
     if (light.kind == shared::kLightDirectional) {
-      add(light.shadow_layer, maps.sun_clip_from_world, [](const Draw&) { return true; });
+      add(std::nullopt, maps.sun_clip_from_world, [](const Draw&) { return true; });
       continue;
     }
     for (std::uint32_t face = 0; face < 6; ++face)
@@ -132,16 +152,20 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
   for (std::size_t first = 0; first < layers.size(); first += kLayersOfSubmission) {
     const auto some = std::span(layers).subspan(first, std::min(kLayersOfSubmission, layers.size() - first));
     views.clear();
-    for (const Layer& layer : some) views.emplace_back(context, maps.layers, layer.index);
+    for (const Layer& layer : some) views.emplace_back(context, maps.layers, layer.index.value_or(0));
     stream.run([&](gpu::Recorder& recorder) {
-      for (std::size_t i = 0; i < some.size(); ++i)
-        record_layer(recorder, scene, maps, some[i], views[i].handle());
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        if (some[i].index)
+          record_layer(recorder, scene, some[i], of_faces_, maps.layers, views[i].handle());
+        else
+          record_layer(recorder, scene, some[i], of_sun_, maps.sun_map, maps.sun_map.view());
+      }
     });
   }
 }
 
-void ShadowPass::record_layer(gpu::Recorder& recorder, const SceneResources& scene, const ShadowMaps& maps,
-                              const Layer& layer, VkImageView view) const {
+void ShadowPass::record_layer(gpu::Recorder& recorder, const SceneResources& scene, const Layer& layer,
+                              const Pipelines& pipelines, const gpu::Image& map, VkImageView view) const {
   const auto draw_one = [&](const gpu::GraphicsPipeline& pipeline, const Draw& draw) {
     const shared::ShadowDraw constants{layer.clip_from_world * draw.world_from_mesh, draw.alpha_cutoff};
     recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
@@ -153,13 +177,13 @@ void ShadowPass::record_layer(gpu::Recorder& recorder, const SceneResources& sce
   recorder.prepare_for_draws({gpu::read(scene.vertices)});
   for (const Draw* const draw : layer.cut) recorder.prepare_for_draws({map_of(*draw)});
   recorder.prepare_indices(scene.indices);
-  recorder.begin_rendering({{}, &maps.layers, view}, glm::uvec2(maps.layers.info().size));
-  recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
-  for (const Draw* const draw : layer.whole) draw_one(pipeline_, *draw);
+  recorder.begin_rendering({{}, &map, view}, glm::uvec2(map.info().size));
+  recorder.bind_for_draws(pipelines.whole, {{shared::kBindVertices, gpu::read(scene.vertices)}});
+  for (const Draw* const draw : layer.whole) draw_one(pipelines.whole, *draw);
   for (const Draw* const draw : layer.cut) {
-    recorder.bind_for_draws(cut_pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)},
+    recorder.bind_for_draws(pipelines.cut, {{shared::kBindVertices, gpu::read(scene.vertices)},
                                             {shared::kBindBaseColorMap, map_of(*draw)}});
-    draw_one(cut_pipeline_, *draw);
+    draw_one(pipelines.cut, *draw);
   }
   recorder.end_rendering();
 }

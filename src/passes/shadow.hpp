@@ -1,18 +1,22 @@
-// Shadow maps: six faces around a light, one view along a directional light.
+// Shadow maps: six faces around a light, and the sun's map, one view along a directional light.
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "passes/map_samplers.hpp"
 
 namespace brume::passes {
 
 struct ShadowMaps {
-  gpu::Image layers;  ///< A 2D array, reverse depth.
-  gpu::Buffer sun;    ///< One ShadowView.
+  gpu::Image layers;   ///< A 2D array, reverse depth.
+  gpu::Image sun_map;  ///< Reverse depth.
+  gpu::Buffer sun;     ///< One ShadowView.
   glm::mat4 sun_clip_from_world{1};
 };
 
+/// Edge of the sun's map in texels, of 5 cm at most in scenes of up to 200 m. `radius`: of the scene [m].
+std::uint32_t sun_map_size(float radius);
 /// Edge of a shadow layer in texels: smaller for more layers, to limit memory.
 std::uint32_t shadow_size(std::uint32_t layer_count);
 
@@ -34,15 +38,20 @@ class ShadowPass {
   void record_layers(gpu::Context& context, gpu::CommandStream& stream, const SceneResources& scene,
                      HiddenObjects hidden, const ShadowMaps& maps,
                      const std::function<bool(const Sees&)>& accepts) const;
-  /// A layer, and what it shows.
+  /// A layer, or the sun's map, and what it shows.
   struct Layer {
-    std::uint32_t index;
+    std::optional<std::uint32_t> index;  ///< None: the sun's map.
     glm::mat4 clip_from_world;
     std::vector<const Draw*> whole = {}, cut = {};  ///< What no texture cuts out, and the rest.
   };
-  void record_layer(gpu::Recorder& recorder, const SceneResources& scene, const ShadowMaps& maps,
-                    const Layer& layer, VkImageView view) const;
-  gpu::GraphicsPipeline pipeline_, cut_pipeline_;  ///< For what no texture cuts out, and for the rest.
+  /// For what no texture cuts out, and for the rest.
+  struct Pipelines {
+    gpu::GraphicsPipeline whole, cut;
+  };
+  void record_layer(gpu::Recorder& recorder, const SceneResources& scene, const Layer& layer,
+                    const Pipelines& pipelines, const gpu::Image& map, VkImageView view) const;
+  static Pipelines make_pipelines(gpu::Context& context, float slope);
+  Pipelines of_faces_, of_sun_;
   MapSamplers maps_;
 };
 

@@ -140,6 +140,7 @@ void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, co
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                    {shared::kBindSunMap, gpu::sampled(in.shadows.sun_map, compare_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
                     {shared::kBindShadowRays, gpu::read(shadow_rays_)},
                     {shared::kBindLightRows, gpu::read(texel_lists_)},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/same_bytes.hpp"
+#include "shared/smoke_shadow.h"
 #include "shared/surface_import.h"
 
 namespace brume::planning {
@@ -25,11 +26,12 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
                     0,
                     0};
     const bool directional = light.kind == scene::LightKind::directional;
-    const std::uint32_t layers = directional ? 1 : 6;
-    // One orthographic view: only the first directional light casts shadows.
-    if (layer + layers <= max_layers && !(directional && has_sun)) {
+    // One map of the sun: only the first directional light casts shadows.
+    if (directional) {
+      if (!has_sun) l.shadow_layer = 0;
+    } else if (layer + shared::kFacesPerLight <= max_layers) {
       l.shadow_layer = layer;
-      layer += layers;
+      layer += shared::kFacesPerLight;
     }
     has_sun = has_sun || directional;
     out.push_back(l);
