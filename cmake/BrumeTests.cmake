@@ -132,8 +132,7 @@ find_file(BRUME_LAVAPIPE lvp_icd.x86_64.json PATHS /usr/share/vulkan/icd.d NO_DE
 find_file(BRUME_SWIFTSHADER vk_swiftshader_icd.json PATHS /usr/lib/chromium NO_DEFAULT_PATH)
 
 # brume_devices_test(PROGRAMS...): GPU programs of brume_test once more, on other devices than that of their first run:
-# PROGRAM_swiftshader, and PROGRAM_lavapipe_4 on lavapipe with four threads in a subgroup. With 16 threads Mesa 22.3.6
-# crashes.
+# PROGRAM_swiftshader, and PROGRAM_lavapipe_4 on lavapipe with four threads in a subgroup (docs/reference/devices.md).
 function(brume_devices_test)
   foreach(program IN LISTS ARGN)
     if(BRUME_SWIFTSHADER)
@@ -142,7 +141,7 @@ function(brume_devices_test)
                      COMMAND ${CMAKE_COMMAND} -E env VK_DRIVER_FILES=${BRUME_SWIFTSHADER} ${link})
     endif()
     if(BRUME_LAVAPIPE)
-      # Mesa's cache does not know the width.
+      # Mesa's cache does not distinguish numbers of threads.
       brume_link_test(${program}_lavapipe_4 ${program} link)
       brume_add_test(${program}_lavapipe_4 ${program} LABELS gpu slow TIMEOUT 7200
                      COMMAND ${CMAKE_COMMAND} -E env VK_DRIVER_FILES=${BRUME_LAVAPIPE} LP_NATIVE_VECTOR_WIDTH=128

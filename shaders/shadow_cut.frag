@@ -1,4 +1,4 @@
-// Leaves out of a shadow layer what a texture cuts out of a surface, as gbuffer.frag does.
+// Leaves out of a shadow layer or the sun's map what a texture cuts out of a surface, as gbuffer.frag does.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// Transforms a mesh to the clip space of a shadow layer, for materials that a texture cuts out.
+// Transforms a mesh to the clip space of a shadow layer or the sun's map, for materials that a texture cuts out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

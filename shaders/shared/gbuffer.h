@@ -49,7 +49,7 @@ struct DrawConstants {
 };
 SHARED_SIZE(DrawConstants, 100);
 
-/// A draw into a shadow layer.
+/// A draw into a shadow layer or the sun's map.
 struct ShadowDraw {
   mat4 clip_from_mesh;
   float alpha_cutoff;

@@ -23,8 +23,7 @@ struct Light {
   vec3 direction;   // of the emitted light, unit
   float cos_inner;
   float cos_outer;
-  // First of six layers in the shadow array, 0 where the directional light has the sun's map, or one of the constants
-  // above.
+  // The first of six layers in the shadow array; 0: a directional light with the sun's map; or a constant from above.
   uint shadow_layer;
   float radius;   // of a ball that shines like the point [m]: inside of it all is lit as at its edge, and nothing casts
                   // shadows

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "brume_shaders.hpp"
 
@@ -9,6 +10,7 @@ namespace brume::passes {
 namespace {
 
 constexpr VkFormat kFormat = VK_FORMAT_D32_SFLOAT;
+constexpr float kSunTexel = 0.05f;  ///< Edge of a texel of the sun's map, where memory allows [m].
 /// Layers that are drawn in one submission: waiting for each would take longer than to draw it, and the
 /// commands of all at once could take any memory.
 constexpr std::size_t kLayersOfSubmission = 32;
@@ -39,8 +41,15 @@ float radius_of(const SceneResources& scene) {
   return std::max(1.0f, 0.5f * glm::length(scene.bounds_max - scene.bounds_min));
 }
 
+/// Whether anything can cast a shadow.
+bool has_surfaces(const SceneResources& scene) {
+  return glm::all(glm::lessThanEqual(scene.bounds_min, scene.bounds_max));
+}
+
 /// The whole scene along a direction: depth 1 at the near side, 0 at the far side.
 glm::mat4 sun_view(const SceneResources& scene, glm::vec3 direction) {
+  // All points in the middle of the map, at the far side.
+  if (!has_surfaces(scene)) return glm::mat4(glm::vec4(0), glm::vec4(0), glm::vec4(0), glm::vec4(0, 0, 0, 1));
   const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
   const float radius = radius_of(scene);
   const glm::vec3 helper = std::abs(direction.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
@@ -70,14 +79,17 @@ std::uint32_t shadow_size(std::uint32_t layers) {
 }
 
 std::uint32_t sun_map_size(float radius) {
-  constexpr float kTexel = 0.05f;  // [m]
-  return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(2 * radius / kTexel, 512.0f, 4096.0f)));
+  return std::bit_ceil(
+      static_cast<std::uint32_t>(std::ceil(std::clamp(2 * radius / kSunTexel, 512.0f, 4096.0f))));
 }
 
-// Surfaces are pushed away by so many texels of slope. A comparison of 2 x 2 texels needs one, and more in
-// the perspective of a face.
+// Surfaces are pushed away from the light by so many texels of their slope. A comparison of 2 x 2 texels
+// needs two where they slope along both axes of the map; with fine texels one is enough, as lookups are 7 cm
+// off the surface (lib/surface_lights.glsl).
 ShadowPass::ShadowPass(gpu::Context& context)
-    : of_faces_(make_pipelines(context, 2)), of_sun_(make_pipelines(context, 1)), maps_(context, 1) {}
+    : pipelines_(make_pipelines(context, 2)),
+      fine_pipelines_(make_pipelines(context, 1)),
+      maps_(context, 1) {}
 
 ShadowPass::Pipelines ShadowPass::make_pipelines(gpu::Context& context, float slope) {
   return {{context, {&shaders::shadow_vert, nullptr, {}, kFormat, slope, 0}},
@@ -100,7 +112,7 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
   for (const shared::Light& light : scene.light_list) {
     if (light.kind != shared::kLightDirectional || light.shadow_layer == shared::kNoShadow) continue;
     maps.sun_clip_from_world = sun_view(scene, light.direction);
-    info.size = {glm::uvec2(sun_map_size(radius_of(scene))), 1};
+    if (has_surfaces(scene)) info.size = {glm::uvec2(sun_map_size(radius_of(scene))), 1};
   }
   maps.sun_map = gpu::Image(context, info);
   return maps;
@@ -147,6 +159,9 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
           [&](const Draw& draw) { return face_sees(light, face, draw); });
   }
 
+  const float sun_texel = 2 * radius_of(scene) / static_cast<float>(maps.sun_map.info().size.x);
+  const Pipelines& sun_pipelines = sun_texel <= 2 * kSunTexel ? fine_pipelines_ : pipelines_;
+
   // The views of a submission live until the device is done with it.
   std::vector<gpu::LayerView> views;
   for (std::size_t first = 0; first < layers.size(); first += kLayersOfSubmission) {
@@ -156,9 +171,9 @@ void ShadowPass::record_layers(gpu::Context& context, gpu::CommandStream& stream
     stream.run([&](gpu::Recorder& recorder) {
       for (std::size_t i = 0; i < some.size(); ++i) {
         if (some[i].index)
-          record_layer(recorder, scene, some[i], of_faces_, maps.layers, views[i].handle());
+          record_layer(recorder, scene, some[i], pipelines_, maps.layers, views[i].handle());
         else
-          record_layer(recorder, scene, some[i], of_sun_, maps.sun_map, maps.sun_map.view());
+          record_layer(recorder, scene, some[i], sun_pipelines, maps.sun_map, maps.sun_map.view());
       }
     });
   }

@@ -10,8 +10,8 @@
 
 namespace brume::planning {
 
-/// Lights for the device: ranges cut off less than scene::Light::least; shadow layers are assigned in order,
-/// up to `max_layers`.
+/// Lights for the device: ranges cut off less than scene::Light::least; point lights and spots get six shadow
+/// layers each, in order, up to `max_layers`; the first sun has a map of its own, and layer 0.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
 
 /// The places in a frame's plan of up to four lights, which are numbered through the scene's and then the

@@ -34,10 +34,11 @@ class Reach {
     return meets(live.field->reached(), box_);
   }
   bool operator()(const Flight& flight) const {
-    const auto passed = static_cast<std::int64_t>(tick_ - flight.throw_tick),
-               all = static_cast<std::int64_t>(flight.detonation_tick - flight.throw_tick);
-    const glm::i64vec3 path = glm::i64vec3(ruler_.centre(flight.landing)) - glm::i64vec3(flight.from);
-    return has(flight.from + Position(path * passed / all));
+    // States that were received may have grenades that should have detonated.
+    const auto all = static_cast<std::int64_t>(flight.detonation_tick - flight.throw_tick),
+               passed = std::min(static_cast<std::int64_t>(tick_ - flight.throw_tick), all);
+    const glm::i64vec3 from(flight.from), path = glm::i64vec3(ruler_.centre(flight.landing)) - from;
+    return has(Position(from + path * passed / all));
   }
   bool operator()(const Body& body) const { return has(body.position) || has(body.previous); }
   bool operator()(const BulletHole& hole) const;
@@ -52,8 +53,9 @@ class Reach {
   Box<int> box_;
 };
 
-/// Whether the bore's axis meets the box larger by its radius, or by the half diagonal of a square, which is
-/// less than twice the half edge.
+/// Whether the bore's axis meets the box, made larger by two radii: more than shared::kHoleWidest, the
+/// farthest that a hole reaches from its axis. In doubles, which a server alone decides by, and whose sums,
+/// products, quotients and roots are the same everywhere.
 bool Reach::operator()(const BulletHole& hole) const {
   constexpr double kVoxel = 1024;
   const glm::dvec3 from(ruler_.subvoxel(hole.shot.origin));

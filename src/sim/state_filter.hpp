@@ -8,8 +8,8 @@
 
 namespace brume::sim {
 
-/// How far outside of a box what is kept may lie [voxels]: densities between the centres of voxels, and in
-/// the cells of walls, are found from those around.
+/// How far outside of a box kept items may lie [voxels]: densities between voxel centres and in wall cells
+/// depend on the voxels around them.
 constexpr int kFilterReach = 2;
 
 /// The state with only the items that reach one of the boxes of voxels, each larger by kFilterReach on every

@@ -25,8 +25,7 @@ class GpuTest : public testing::Test {
     for (const std::string& message : context().take_validation_messages()) ADD_FAILURE() << message;
   }
 
-  /// How much farther than to the nearest number devices round where they store 8 bits: hardware for Direct3D
-  /// may be 0.6 of a step off.
+  /// How far beyond half a step devices may round 8-bit numbers: Direct3D 11 allows 0.6 steps in all.
   static constexpr double kStoreError = 0.1;
   /// The grid to which the device snaps vertices [px].
   static double snapping_px() {

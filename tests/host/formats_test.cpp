@@ -192,12 +192,14 @@ TEST_F(FormatsTest, EveryFormatOfDepthGivesOnePicture) {
                                         {VK_FORMAT_X8_D24_UNORM_PACK32, kDepth},
                                         {VK_FORMAT_D32_SFLOAT_S8_UINT, kDepthStencil},
                                         {VK_FORMAT_D24_UNORM_S8_UINT, kDepthStencil}}) {
-    if (!has_format(format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT))
+    if (!has_format(format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                VK_FORMAT_FEATURE_TRANSFER_DST_BIT))
       continue;
     EXPECT_LT(most_apart(draw_smoke(format, aspects), expected), 1 / 255.0) << "format " << format;
     ++formats;
   }
-  EXPECT_GE(formats, 3) << "Vulkan has D16, one of D24 and D32, and one of the two with stencil";
+  EXPECT_GE(formats, 1) << "Vulkan requires D16 to be sampled and drawn";
 }
 
 TEST_F(FormatsTest, EveryProjectionOfDepthGivesOnePicture) {
@@ -239,12 +241,14 @@ const std::array kPictureFormats{
 
 TEST_F(FormatsTest, EveryFormatOfPicturesGetsTheSmoke) {
   constexpr glm::dvec3 kBefore(0.5, 0.25, 0.125);
-  for (const PictureFormat& of : kPictureFormats) {
-    ASSERT_TRUE(has_format(of.format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) << of.format;
-    const HostImage picture(gpu_, of.format, kColour,
+  int formats = 0;
+  for (const PictureFormat& wanted : kPictureFormats) {
+    if (!has_format(wanted.format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) continue;
+    ++formats;
+    const HostImage picture(gpu_, wanted.format, kColour,
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    const std::size_t texel_bytes = of.format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
+    const std::size_t texel_bytes = wanted.format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
     const gpu::Buffer copy = gpu::readback_buffer(gpu_, texel_bytes * kSize.x * kSize.y);
     const auto record = [&](VkCommandBuffer commands, brume_frame_params& params) {
       const gpu::Functions& vk = gpu_.vk();
@@ -255,7 +259,7 @@ TEST_F(FormatsTest, EveryFormatOfPicturesGetsTheSmoke) {
                             &all);
       picture.transition(commands, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-      params.picture = {picture.view(), of.format, 1};
+      params.picture = {picture.view(), wanted.format, 1};
       ASSERT_OK(brume_renderer_record(renderer_, field_, &params));
       picture.transition(commands, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
       host_.copy(commands, picture.handle(), {kSize.x, kSize.y}, copy.handle());
@@ -266,17 +270,18 @@ TEST_F(FormatsTest, EveryFormatOfPicturesGetsTheSmoke) {
     const auto texels = gpu::values_of<std::byte>(copy);
     double changed = 0;
     for (std::size_t i = 0; i < smoke.size(); ++i) {
-      const glm::dvec3 got = of.decode(&texels[i * texel_bytes]);
+      const glm::dvec3 got = wanted.decode(&texels[i * texel_bytes]);
       for (int c = 0; c < 3; ++c) {
-        const double expected = smoke[i][c] + smoke[i].a * kBefore[c], step = std::exp2(-of.bits[c]);
-        const double most = of.is_float ? 2 * step * expected : 2 * step;
-        ASSERT_NEAR(got[c], of.is_float ? expected : std::min(expected, 1.0), most + expected / 1024)
-            << "format " << of.format << " pixel " << i << " channel " << c;
+        const double expected = smoke[i][c] + smoke[i].a * kBefore[c], step = std::exp2(-wanted.bits[c]);
+        const double most = wanted.is_float ? 2 * step * expected : 2 * step;
+        ASSERT_NEAR(got[c], wanted.is_float ? expected : std::min(expected, 1.0), most + expected / 1024)
+            << "format " << wanted.format << " pixel " << i << " channel " << c;
         changed = std::max(changed, std::abs(got[c] - kBefore[c]));
       }
     }
     EXPECT_GT(changed, 0.1);
   }
+  EXPECT_GE(formats, 3) << "Vulkan leaves B10G11R11 alone open";
 }
 
 TEST_F(FormatsTest, SecondaryCommandBuffersGiveTheSame) {

@@ -81,6 +81,11 @@ float HostileFrames::within(float low, float high) {
   return chance(0.004) ? real(3) : low + (high - low) * std::abs(std::min(real(1), 1.0f));
 }
 
+std::uint32_t HostileFrames::above(std::uint32_t most) {
+  const std::uint32_t any = number(9);
+  return any > most ? any : most + 1 + any;
+}
+
 template <typename Number>
 void HostileFrames::spoil(Number& number, double probability) {
   if (!chance(probability)) return;
@@ -142,7 +147,7 @@ void HostileFrames::renderer_create() {
   params.motion = chance(0.7);
   lights_.assign(below(3), light());
   params.lights = chance(0.05) ? nullptr : lights_.data();
-  params.light_count = chance(0.1) ? 1025 + number(9) : lights_.size();
+  params.light_count = chance(0.1) ? above(1024) : lights_.size();
   const std::array<brume_point, 3> points{point(9), point(9), point(9)};
   const std::array<std::uint32_t, 3> indices{0, 1, chance(0.1) ? number(9) : 2};
   params.points = chance(0.05) ? nullptr : points.data();
@@ -165,7 +170,7 @@ void HostileFrames::renderer_create() {
 
 void HostileFrames::renderer_change() {
   const bool is_wrong = chance(0.5);
-  const std::uint32_t width = is_wrong ? (chance(0.5) ? 0 : 16385 + number(9)) : kSize.x;
+  const std::uint32_t width = is_wrong ? (chance(0.5) ? 0 : above(16384)) : kSize.x;
   checked("brume_renderer_resize", brume_renderer_resize(handle(renderers_), width, kSize.y), true);
   // Of full resolution alone: the others become numbers that are refused.
   std::uint32_t scale = number(5);
@@ -244,7 +249,7 @@ void HostileFrames::decal_create() {
   if (!params.file && chance(0.5)) params.down = values.data();
   for (std::uint32_t& along : params.size) along = 2;
   // Fewer values than are there, or more than an image holds.
-  if (chance(0.2)) params.size[below(3)] = chance(0.5) ? below(2) : (1u << 26) + number(9);
+  if (chance(0.2)) params.size[below(3)] = chance(0.5) ? below(2) : above(1u << 26);
   if (chance(0.1)) params.size[below(3)] = 1u << 31;
   spoil(params.low.y, 0.1);
   if (chance(0.1)) params.high = params.low;
@@ -339,7 +344,7 @@ void HostileFrames::tank_change() {
   }
   lighting.lights = chance(0.05) ? nullptr : lights.data();
   lighting.light_count = below(4);
-  if (chance(0.05)) lighting.light_count = 17 + number(99);
+  if (chance(0.05)) lighting.light_count = above(16);
   spoil(lighting.ambient[1]);
   lighting.bounces = below(4);
   spoil(lighting.bounces);
@@ -350,7 +355,7 @@ void HostileFrames::tank_change() {
   lighting.glass_position = point(1);
   spoil(lighting.glass_radii.y, 0.05);
   lighting.photons = below(64);
-  if (chance(0.05)) lighting.photons = (1u << 22) + 1 + number(99);
+  if (chance(0.05)) lighting.photons = above(1u << 22);
   checked("brume_tank_set_lighting", brume_tank_set_lighting(handle(tanks_), spoiled(lighting)), true);
   checked("brume_tank_destroy", brume_tank_destroy(wrong_handle<brume_tank>()), true);
 }
@@ -413,9 +418,9 @@ void HostileFrames::spoil(brume_frame_params& params) {
   if (chance(0.02)) params.volume_count = count(shown_.size());
   if (chance(0.02)) params.decal_count = chance(0.5) ? 33 : count(shown_decals_.size());
   if (chance(0.02)) params.tank_count = count(shown_tanks_.size());
-  if (chance(kRarely)) params.bounces = 17 + number(9);
+  if (chance(kRarely)) params.bounces = above(16);
   spoil(params.shadow_lights[1], 0.02);
-  if (chance(0.02)) params.shadow_light_count = 5 + number(9);
+  if (chance(0.02)) params.shadow_light_count = above(4);
   // Wrong numbers of frames.
   if (chance(0.02)) params.frame_number = below(2) * (params.frame_number - 1);
   if (chance(0.02)) params.completed_frame = params.frame_number + number(9);

@@ -39,6 +39,8 @@ class HostileFrames : public api::Hostile {
 
   /// Mostly in a range.
   float within(float low, float high);
+  /// A number that is refused: `most` is allowed.
+  std::uint32_t above(std::uint32_t most);
   template <typename Number>
   void spoil(Number& number, double probability = 0.01);
   brume_light light();

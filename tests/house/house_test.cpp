@@ -103,7 +103,7 @@ TEST(House, SharedStructsHaveASize) {
   const int count = for_each_source(kRoot / "shaders/shared", [](const auto& path, const std::string& text) {
     if (path.filename() == "shim.h") return;  // the types of the languages
     for (const auto& name : unsized_structs(text))
-      ADD_FAILURE() << path << ": " << name << " has no SHARED_SIZE";
+      ADD_FAILURE() << path << ": " << name << " has neither SHARED_SIZE nor SHARED_LOCAL";
   });
   EXPECT_GT(count, 1);
 }

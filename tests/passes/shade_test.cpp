@@ -33,7 +33,7 @@ class ShadeTest : public gpu::GpuTest {
       light.cos_outer = light.cos_inner - 0.9f * share(random_);
     }
     lights[5].intensity = glm::vec3(0);
-    scene_.light_list = planning::device_lights(lights, 12);  // the first two lights have shadows
+    scene_.light_list = planning::device_lights(lights, 12);  // the first two lights and the sun have shadows
     scene_.lights = upload(scene_.light_list);
     scene_.vertices = upload(std::vector<shared::Vertex>(3));  // nothing is drawn of them
     scene_.indices = upload(std::vector<std::uint32_t>(3), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);

@@ -51,5 +51,17 @@ TEST_F(ShadowTest, LayersShareSubmissions) {
   EXPECT_EQ(stream.count, 1) << "two lights see it";
 }
 
+TEST_F(ShadowTest, ASunWithoutSurfacesTakesNoMap) {
+  scene::Scene scene;
+  scene.lights.emplace_back().kind = scene::LightKind::directional;
+  const SceneResources resources = upload_scene(context(), runner(), scene);
+  const ShadowPass pass(context());
+  const ShadowMaps maps = pass.make_maps(context(), resources);
+  EXPECT_EQ(maps.sun_map.info().size, glm::uvec3(1));
+  pass.record(context(), runner(), resources, {}, maps);
+  const glm::vec4 place = maps.sun_clip_from_world * glm::vec4(3, -5, 7, 1);
+  EXPECT_EQ(place, glm::vec4(0, 0, 0, 1)) << "in the middle of the map, at its far side";
+}
+
 }  // namespace
 }  // namespace brume::passes
