@@ -131,7 +131,7 @@ endfunction()
 find_file(BRUME_LAVAPIPE lvp_icd.x86_64.json PATHS /usr/share/vulkan/icd.d NO_DEFAULT_PATH)
 find_file(BRUME_SWIFTSHADER vk_swiftshader_icd.json PATHS /usr/lib/chromium NO_DEFAULT_PATH)
 
-# brume_devices_test(PROGRAMS...): GPU programs of brume_test once more, on other devices than that of their first run:
+# brume_devices_test(PROGRAMS...): runs GPU programs of brume_test on two more devices, as tests of their own:
 # PROGRAM_swiftshader, and PROGRAM_lavapipe_4 on lavapipe with four threads in a subgroup (docs/reference/devices.md).
 function(brume_devices_test)
   foreach(program IN LISTS ARGN)
