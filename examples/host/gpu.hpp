@@ -90,7 +90,8 @@ struct Gpu {
     check(vkCreateImage(device, &info, nullptr, &image.handle), "vkCreateImage");
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device, image.handle, &needs);
-    check(vkBindImageMemory(device, image.handle, allocate(needs, 0), 0), "vkBindImageMemory");
+    check(vkBindImageMemory(device, image.handle, allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), 0),
+          "vkBindImageMemory");
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view.image = image.handle;

@@ -137,13 +137,6 @@ static inline brume_device_params brume_device_defaults(void) {
 /// BRUME_ERROR_ARGUMENT for a queue family that does not exist or lacks graphics or compute.
 BRUME_API brume_result brume_device_create(brume_context* context, const brume_device_params* params,
                                            brume_device** device) BRUME_NOEXCEPT;
-/// Compiles all pipelines of smoke, of its shadows on surfaces and of decals, for all march scales and
-/// qualities, so that frames need not. `picture_format` is the brume_picture::format of your frames;
-/// VK_FORMAT_UNDEFINED: they have no picture. The call records nothing and may run in another thread, while
-/// renderers of the device are created and record: they wait at most for a pipeline that they need and that
-/// is being compiled. It allocates some MB of device memory, and frees them; your memory functions may then
-/// be called by both threads at once. Volumes and tanks compile more, in their first frame.
-BRUME_API brume_result brume_device_compile(brume_device* device, VkFormat picture_format) BRUME_NOEXCEPT;
 /// Destroys a device; null is ignored. The GPU must have completed all frames, which is not checked. Errors:
 /// BRUME_ERROR_ORDER unless all renderers of the device have been destroyed.
 BRUME_API brume_result brume_device_destroy(brume_device* device) BRUME_NOEXCEPT;
@@ -467,6 +460,20 @@ static inline brume_frame_params brume_frame_defaults(void) {
   params.normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   return params;
 }
+
+/// Compiles all pipelines that frames like `frame` need in renderers like `renderer`: at all march scales and
+/// qualities, with smoke and without, with decals, shadows on surfaces and multisampled depth. `renderer`
+/// counts by its size, lights and flags; null: the defaults. `frame` counts by its `picture.format`
+/// (VK_FORMAT_UNDEFINED: no picture), `parallel`, and the volumes and tanks that its camera sees: another set
+/// of volumes may need more pipelines. Its `commands`, numbers and image views are ignored; null: a frame of
+/// smoke without a picture.
+///
+/// The call records nothing and may run in another thread, while renderers of the device are created and
+/// record: they wait at most for a pipeline that they need and that is being compiled. Meanwhile it takes
+/// some MB of device memory, and as much as the volumes and tanks need; your memory functions may then be
+/// called by both threads at once. Errors: as brume_renderer_create and brume_renderer_record.
+BRUME_API brume_result brume_device_compile(brume_device* device, const brume_renderer_params* renderer,
+                                            const brume_frame_params* frame) BRUME_NOEXCEPT;
 
 /// Records the smoke of a field as of its last update, volumes and tanks in front of your surfaces, and
 /// blends them over your picture p: exposure * radiance + transmittance * p; with decals exposure * radiance

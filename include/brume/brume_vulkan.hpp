@@ -83,7 +83,10 @@ class Device : public detail::Handle<brume_device, brume_device_destroy> {
         [&](std::uint64_t* out) { return brume_device_allocated_memory(get(), out); });
   }
   /// brume_device_compile.
-  void compile(VkFormat picture_format) { check(brume_device_compile(get(), picture_format)); }
+  void compile(const brume_renderer_params& renderer = brume_renderer_defaults(),
+               const brume_frame_params& frame = brume_frame_defaults()) {
+    check(brume_device_compile(get(), &renderer, &frame));
+  }
   /// brume_device_set_memory_limit.
   void set_memory_limit(std::uint64_t bytes) { check(brume_device_set_memory_limit(get(), bytes)); }
 };

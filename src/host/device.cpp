@@ -1,5 +1,5 @@
 #include "gpu/device_features.hpp"
-#include "gpu/dropped_commands.hpp"
+#include "host/compile.hpp"
 #include "host/frame.hpp"
 #include "host/objects.hpp"
 
@@ -36,24 +36,6 @@ HostDevice host_device(const brume_device_params& params) {
           .allocator = params.allocation_callbacks};
 }
 
-/// Makes what a renderer of smoke has, without a frame, in a context of its own: the device's other contexts
-/// go on meanwhile.
-void compile(DeviceData& device, VkFormat picture_format) {
-  if (picture_format != VK_FORMAT_UNDEFINED)
-    require(can_blend(device.context, picture_format),
-            "`picture_format` must be one that the device can blend");
-  gpu::Context context(device.host, &device.context);
-  gpu::DroppedCommands commands(context);
-  const scene::Scene nothing;
-  render::RendererOptions options;
-  options.size_px = {1, 1};
-  options.media_alone = true;
-  options.smoke.prepare_all = true;
-  options.smoke.temporal = true;
-  render::Renderer renderer(context, commands, nothing, options);
-  renderer.reserve_over({.decals = true, .shadows = true, .samples = true, .picture = picture_format});
-}
-
 static_assert(sizeof(brume_feature_storage) == sizeof(gpu::FeatureStructs) &&
               alignof(brume_feature_storage) >= alignof(gpu::FeatureStructs));
 
@@ -85,10 +67,12 @@ brume_result brume_device_create(brume_context* context, const brume_device_para
   });
 }
 
-brume_result brume_device_compile(brume_device* device, VkFormat picture_format) BRUME_NOEXCEPT {
+brume_result brume_device_compile(brume_device* device, const brume_renderer_params* renderer,
+                                  const brume_frame_params* frame) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     const std::shared_ptr<brume::host::DeviceData> data = call.handle(device).data;
-    brume::host::compile(*data, picture_format);
+    brume::host::compile(call, *data, params_or(renderer, brume_renderer_defaults()),
+                         params_or(frame, brume_frame_defaults()));
   });
 }
 

@@ -14,6 +14,8 @@ using api::require;
 
 constexpr std::size_t kMostLights = 1024;
 constexpr float kMostMetres = 16384;
+/// Bricks of smoke to begin with, 8 x 8 x 8 voxels each: 16 MiB in all images.
+constexpr std::uint32_t kReservedBricks = 512;
 
 glm::vec3 unit(const brume_point& direction, const char* name) {
   const glm::dvec3 v(vec3_of(direction));
@@ -233,6 +235,30 @@ scene::Scene to_scene(const brume_renderer_params& params) {
       scene_of_triangles({params.points, params.point_count}, {params.indices, params.index_count});
   scene.lights = scene_lights(params.lights, params.light_count);
   return scene;
+}
+
+glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height) {
+  require(width >= 1 && width <= kMostPixels && height >= 1 && height <= kMostPixels,
+          "`width` and `height` must be from 1 to 16384");
+  return {width, height};
+}
+
+std::uint32_t checked_scale(std::uint32_t march_scale) {
+  require(march_scale == 1 || march_scale == 2 || march_scale == 4, "`march_scale` must be 1, 2 or 4");
+  return march_scale;
+}
+
+render::RendererOptions renderer_options(const brume_renderer_params& params) {
+  render::RendererOptions options;
+  options.size_px = checked_size(params.width, params.height);
+  options.smoke.march_scale = checked_scale(params.march_scale);
+  options.smoke.prepare_all = params.prepare_all != 0;
+  options.smoke.temporal = params.temporal != 0;
+  options.smoke.reserved_bricks = kReservedBricks;
+  options.smoke.memory_follows_view = true;
+  options.media_alone = true;
+  options.motion = options.smoke.record_entries = params.motion != 0;
+  return options;
 }
 
 passes::HostDepthRange depth_range(const brume_frame_params& params) {

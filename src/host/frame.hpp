@@ -32,6 +32,8 @@ inline constexpr std::array kEarlierSizes<brume_frame_params>{
 
 namespace brume::host {
 
+constexpr std::uint32_t kMostPixels = 16384;  ///< Along each side of a picture.
+
 /// False for what is not a number.
 bool is_within(float value, float low, float high);
 bool is_within(glm::vec3 v, float low, float high);
@@ -55,6 +57,10 @@ struct HostArray {
 scene::Scene scene_of_triangles(const HostArray<brume_point>& points,
                                 const HostArray<std::uint32_t>& indices);
 scene::Scene to_scene(const brume_renderer_params& params);
+glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height);
+std::uint32_t checked_scale(std::uint32_t march_scale);
+/// Without masks.
+render::RendererOptions renderer_options(const brume_renderer_params& params);
 passes::HostDepthRange depth_range(const brume_frame_params& params);
 /// Normals for decals; the caller sets the image, where there is a view.
 passes::HostNormals host_normals(const brume_normals& normals);

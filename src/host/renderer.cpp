@@ -30,38 +30,15 @@ brume_renderer::~brume_renderer() {
 namespace brume::host {
 namespace {
 
-constexpr std::uint32_t kMostPixels = 16384;
-/// Bricks of smoke to begin with, 8 x 8 x 8 voxels each: 16 MiB in all images.
-constexpr std::uint32_t kReservedBricks = 512;
-
 static_assert(BRUME_MAX_SHADOW_LIGHTS == shared::kMaxSurfaceShadows);
 static_assert(BRUME_MAX_VIEWS == planning::kMaxViews);
-
-glm::uvec2 checked_size(std::uint32_t width, std::uint32_t height) {
-  require(width >= 1 && width <= kMostPixels && height >= 1 && height <= kMostPixels,
-          "`width` and `height` must be from 1 to 16384");
-  return {width, height};
-}
-
-std::uint32_t checked_scale(std::uint32_t march_scale) {
-  require(march_scale == 1 || march_scale == 2 || march_scale == 4, "`march_scale` must be 1, 2 or 4");
-  return march_scale;
-}
 
 void create_renderer(Call& call, brume_device* device, const brume_renderer_params* given,
                      brume_renderer** renderer) {
   const brume_device& owner = call.handle(device);
   required(renderer, "renderer");
   const brume_renderer_params params = params_or(given, brume_renderer_defaults());
-  render::RendererOptions options;
-  options.size_px = checked_size(params.width, params.height);
-  options.smoke.march_scale = checked_scale(params.march_scale);
-  options.smoke.prepare_all = params.prepare_all != 0;
-  options.smoke.temporal = params.temporal != 0;
-  options.smoke.reserved_bricks = kReservedBricks;
-  options.smoke.memory_follows_view = true;
-  options.media_alone = true;
-  options.motion = options.smoke.record_entries = params.motion != 0;
+  const render::RendererOptions options = renderer_options(params);
   const std::scoped_lock lock(owner.data->mutex);
   create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options,
          params.timings != 0);

@@ -29,7 +29,7 @@ gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::Shader
 
 /// Behind the depth of all surfaces, for what does not glow.
 gpu::GraphicsInfo dull_info() {
-  gpu::GraphicsInfo info = pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag);
+  gpu::GraphicsInfo info = pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_dull_frag);
   info.colours.pop_back();
   info.writes_depth = false;
   return info;

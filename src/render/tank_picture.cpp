@@ -34,6 +34,7 @@ bool TankPicture::show(const planning::TankPlan& plan, const planning::TankDispl
   if (has_begun && planning::same_samples(plan, sampler_.plan())) return false;
   reserve(plan.constants.size_px);
   sampler_.set_view(plan);
+  sampler_.reserve(false);
   return true;
 }
 

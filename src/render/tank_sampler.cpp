@@ -61,6 +61,13 @@ void TankSampler::set_view(const planning::TankPlan& plan, std::uint32_t index) 
     voxels_->light_pass.reserve(volume_, plan_.lights, plan_.lighting);
 }
 
+void TankSampler::reserve(bool over_surfaces) {
+  if (plan_.view == scene::TankView::voxels)
+    voxels_->pass.reserve(over_surfaces);
+  else
+    spheres_pass_.reserve(volume_, over_surfaces);
+}
+
 void TankSampler::set_photons(const spheres::LightPaths& paths) {
   restart();
   replace_photons(paths);

@@ -32,6 +32,9 @@ class TankSampler {
   /// What the samples from the next one on show; voxels need more memory than spheres. `index`: of the first
   /// one; samples of other indices have other noise.
   void set_view(const planning::TankPlan& plan, std::uint32_t index = 0);
+  /// Compiles what samples of the view need, which their recording would otherwise do. `over_surfaces`: they
+  /// are recorded with `surfaces`.
+  void reserve(bool over_surfaces);
   /// Light of the view's lights that comes through the glass, from the next picture on.
   void set_photons(const spheres::LightPaths& paths);
   /// Other paths of the same light, for the samples from now on: the picture goes on.

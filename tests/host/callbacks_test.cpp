@@ -71,7 +71,9 @@ TEST_F(CallbacksTest, TheDriverTakesAndFreesMemoryOfTheHost) {
   make({32, 16, 32}, 0.25f);
   smoke(1, {3, 0.6f, 3}, 500, 100);
   advance(40);
-  ASSERT_OK(brume_device_compile(device_, VK_FORMAT_R16G16B16A16_SFLOAT));
+  brume_frame_params like = brume_frame_defaults();
+  like.picture.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  ASSERT_OK(brume_device_compile(device_, nullptr, &like));
   for (int frame = 0; frame < 6; ++frame) {
     draw({1, 2, 1}, {1, -0.1f, 1}, 0.7);
     if (frame == 3) resize({33, 17});

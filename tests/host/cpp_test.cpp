@@ -37,7 +37,9 @@ TEST(CppInterface, IsTheCInterface) {
     EXPECT_EQ(std::string(error.what()), brume_last_error());
   }
   device.set_memory_limit(1 << 20);
-  EXPECT_THROW(device.compile(VK_FORMAT_R32_UINT), api::Error);
+  brume_frame_params refused = brume_frame_defaults();
+  refused.picture.format = VK_FORMAT_R32_UINT;
+  EXPECT_THROW(device.compile(brume_renderer_defaults(), refused), api::Error);
 
   // Assets.
   const cli::WorkFolder folder;

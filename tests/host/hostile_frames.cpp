@@ -109,8 +109,7 @@ void HostileFrames::device() {
     const brume_result result = brume_device_create(handle(contexts_), spoiled(params), out.pointer());
     if (checked("brume_device_create", result, out.untouched())) devices_.push_back(out.value());
   }
-  const VkFormat format = chance(0.1) ? VK_FORMAT_UNDEFINED : VK_FORMAT_R32_UINT;
-  checked("brume_device_compile", brume_device_compile(handle(devices_), format), true);
+  compile();
   read<std::uint64_t>("brume_device_memory", devices_, brume_device_memory);
   read<std::uint64_t>("brume_device_allocated_memory", devices_, brume_device_allocated_memory);
   const std::uint64_t limit = chance(0.5) ? UINT64_MAX : static_cast<std::uint64_t>(below(100)) << 20;
@@ -427,15 +426,14 @@ void HostileFrames::spoil(brume_frame_params& params) {
   if (chance(0.02) && params.completed_frame > 0) params.completed_frame = 0;
 }
 
-void HostileFrames::record() {
+brume_frame_params HostileFrames::frame_params() {
   brume_frame_params params = brume_frame_defaults();
   params.commands = commands_;
   params.frame_number = ++number_;
   params.completed_frame = completed_;
   params.camera.position = {within(1, 5), within(1, 3), within(5, 12)};
   params.depth = {depth_.view(), VK_IMAGE_LAYOUT_GENERAL, 0.1f, INFINITY, 1};
-  const bool draws = !has_drawn_ && chance(0.3);
-  if (draws) params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+  if (!has_drawn_ && chance(0.3)) params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
   lights_.clear();
   for (std::uint32_t i = below(4); i > 0; --i) lights_.push_back(light());
   std::erase_if(lights_,
@@ -469,6 +467,25 @@ void HostileFrames::record() {
   if (chance(0.3)) params.part = {below(8), below(4), 1 + below(8), 1 + below(5)};
   params.seconds = within(0, 9);
   spoil(params);
+  return params;
+}
+
+void HostileFrames::compile() {
+  brume_renderer_params renderer = brume_renderer_defaults();
+  renderer.width = chance(0.1) ? 0 : kSize.x;
+  spoil(renderer.march_scale, 0.1);
+  renderer.temporal = below(2);
+  renderer.light_count = chance(0.1) ? above(1024) : 0;
+  brume_frame_params frame = frame_params();
+  // It is seldom worth the time.
+  if (!chance(0.05)) frame.picture.format = VK_FORMAT_R32_UINT;
+  checked("brume_device_compile", brume_device_compile(handle(devices_), spoiled(renderer), spoiled(frame)),
+          true);
+}
+
+void HostileFrames::record() {
+  brume_frame_params params = frame_params();
+  const bool draws = params.picture.view != VK_NULL_HANDLE;
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);
   const brume_result result = brume_renderer_record(handle(renderers_), field, spoiled(params));
   has_drawn_ |= checked("brume_renderer_record", result, true) && draws;

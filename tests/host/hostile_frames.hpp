@@ -36,6 +36,7 @@ class HostileFrames : public api::Hostile {
   void tank_create();
   void tank_change();
   void record();
+  void compile();
 
   /// Mostly in a range.
   float within(float low, float high);
@@ -49,6 +50,8 @@ class HostileFrames : public api::Hostile {
   brume_normals normals();
   brume_shown_tank shown_tank();
   void spoil(brume_frame_params& params);
+  /// Of the next frame.
+  brume_frame_params frame_params();
 
   gpu::HostApplication host_{1};
   gpu::Context gpu_;

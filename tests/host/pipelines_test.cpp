@@ -5,7 +5,10 @@
 #include <set>
 #include <thread>
 
+#include "grids/files/grid_files.hpp"
+#include "grids/generate.hpp"
 #include "tests/host/yard.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::host {
 namespace {
@@ -71,6 +74,13 @@ class PipelinesTest : public YardTest {
   }
   void draw_some() {
     for (int frame = 0; frame < 3; ++frame) draw({1, 2, 1}, {1, -0.1f, 1}, 0.7);
+  }
+  brume_result compile_ahead(const brume_frame_params* frame = nullptr) {
+    brume_renderer_params renderer = brume_renderer_defaults();
+    renderer.temporal = 1;
+    renderer.lights = &kLight;
+    renderer.light_count = 1;
+    return brume_device_compile(device_, &renderer, frame);
   }
   void destroy() {
     host_.wait();
@@ -142,7 +152,7 @@ TEST_F(PipelinesTest, ACompiledDeviceLeavesNoneToFrames) {
   for (std::uint32_t& along : decal_params.size) along = 1;
   const api::Decal decal(context_, decal_params);
   const brume_shown_decal shown = decal.shown();
-  ASSERT_OK(brume_device_compile(device_, VK_FORMAT_UNDEFINED));
+  ASSERT_OK(compile_ahead());
   const int compiled = Compiled::count;
   EXPECT_GT(compiled, 10);
   brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 45);
@@ -164,18 +174,108 @@ TEST_F(PipelinesTest, ACompiledDeviceLeavesNoneToFrames) {
         });
   }
   EXPECT_EQ(Compiled::count, compiled);
-  ASSERT_OK(brume_device_compile(device_, VK_FORMAT_R8G8B8A8_UNORM));
+  brume_frame_params frame = brume_frame_defaults();
+  frame.picture.format = VK_FORMAT_R8G8B8A8_UNORM;
+  ASSERT_OK(compile_ahead(&frame));
   EXPECT_EQ(Compiled::count, compiled + 1) << "the layer over the picture";
-  expect_refused(brume_device_compile(device_, VK_FORMAT_R32_UINT), BRUME_ERROR_ARGUMENT, "picture_format");
+  frame.picture.format = VK_FORMAT_R32_UINT;
+  expect_refused(compile_ahead(&frame), BRUME_ERROR_ARGUMENT, "picture.format");
   destroy();
   EXPECT_EQ(Compiled::destroyed, compiled + 1);
+}
+
+class CompiledFramesTest : public PipelinesTest {
+ protected:
+  void SetUp() override {
+    make_yard();
+    shown_.push_back(show("cloud.brv", false));
+    shown_.push_back(show("fire.brv", true));
+    shown_[1].kelvin = 1900;
+    shown_[1].position.z = 3.5f;
+  }
+  /// A volume ahead of the camera.
+  brume_shown_volume show(const std::string& name, bool is_hot) {
+    grids::GridFile file;
+    for (const char* grid : {"density", "temperature"}) {
+      file.grids.push_back(grids::generate_cloud(
+          {.kind = grids::CloudKind::sphere, .edge = 16, .voxel_size = 0.1, .radius = 0.6}));
+      file.grids.back().name = grid;
+      if (!is_hot) break;
+    }
+    const std::string path = (folder_.path() / name).string();
+    grids::save_grid_file(path, file).value_or_throw();
+    brume_volume_params params = brume_volume_defaults();
+    params.file = path.c_str();
+    brume_shown_volume shown = volumes_.emplace_back(context_, params).shown();
+    shown.position = {2.2f, 1.3f, 2.2f};
+    return shown;
+  }
+  /// Compiles for frames as `change` makes them; these, with smoke and without, then compile none.
+  void expect_no_more(const std::function<void(brume_frame_params&)>& change) {
+    brume_frame_params like = brume_frame_defaults();
+    like.camera.position = {1, 2, 1};
+    like.camera.forward = {1, -0.1f, 1};
+    change(like);
+    const int before = Compiled::count;
+    ASSERT_OK(compile_ahead(&like));
+    const int compiled = Compiled::count;
+    EXPECT_GT(compiled, before);
+    for (const brume_field* field : {static_cast<const brume_field*>(field_), (const brume_field*)nullptr})
+      for (const std::uint32_t scale : {1u, 2u})
+        draw({1, 2, 1}, {1, -0.1f, 1}, 0.7, [&](brume_frame_params& params) {
+          change(params);
+          ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
+          ASSERT_OK(brume_renderer_record(renderer_, field, &params));
+        });
+    EXPECT_EQ(Compiled::count, compiled);
+  }
+  void show_volumes(brume_frame_params& params, std::size_t count) const {
+    params.volumes = shown_.data();
+    params.volume_count = count;
+  }
+
+  cli::WorkFolder folder_;
+  std::vector<api::Volume> volumes_;
+  std::vector<brume_shown_volume> shown_;
+};
+
+TEST_F(CompiledFramesTest, WithVolumesOfWhichOneGlows) {
+  expect_no_more([&](brume_frame_params& params) { show_volumes(params, 2); });
+}
+
+TEST_F(CompiledFramesTest, WithAVolumeInAParallelView) {
+  expect_no_more([&](brume_frame_params& params) {
+    show_volumes(params, 1);
+    params.parallel = 1;
+    params.frustum = {-3, 3, -2, 2};
+    params.depth.far_plane = 100;
+  });
+}
+
+TEST_F(CompiledFramesTest, WithATank) {
+  const float sphere[] = {4, 4, 4, 3};
+  const std::uint32_t colour = 0xff80c0ffu;
+  brume_tank_params params = brume_tank_defaults();
+  for (std::uint32_t& along : params.size) along = 8;
+  params.voxel = 0.1f;
+  params.spheres = sphere;
+  params.colors = &colour;
+  params.sphere_count = 1;
+  const api::Tank tank(context_, params);
+  std::vector<brume_shown_tank> shown(2, tank.shown());
+  shown[1].view = BRUME_TANK_VOXELS;
+  for (brume_shown_tank& one : shown) one.position = {2.5f, 1.5f, 2.5f};
+  expect_no_more([&](brume_frame_params& frame) {
+    frame.tanks = shown.data();
+    frame.tank_count = shown.size();
+  });
 }
 
 TEST_F(PipelinesTest, FramesAreDrawnWhileAnotherThreadCompiles) {
   make_yard();
   brume_result result = BRUME_ERROR_INTERNAL;
   {
-    const std::jthread thread([&] { result = brume_device_compile(device_, VK_FORMAT_UNDEFINED); });
+    const std::jthread thread([&] { result = compile_ahead(); });
     draw_some();
   }
   EXPECT_EQ(result, BRUME_OK);

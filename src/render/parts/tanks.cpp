@@ -67,6 +67,7 @@ void TanksPart::add(const planning::TankInput& tank, const planning::View& view,
   slot.light = tank.light;
   if (!continues || !planning::same_samples(plan, slot.sampler.plan()))
     slot.sampler.set_view(plan, tank.index);
+  slot.sampler.reserve(true);
   slot.samples = std::min(tank.samples, kMostSamples - slot.sampler.samples());
 }
 
