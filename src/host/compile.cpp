@@ -17,7 +17,8 @@ glm::vec3 middle_of_view(const planning::View& view) {
   const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up_world));
   const scene::Frustum frustum = camera.frustum.value_or(scene::Frustum{});
   const float ahead = 2, scale = view.projection == planning::Projection::parallel ? 1 : ahead;
-  const float across = scale / 2 * (frustum.left + frustum.right), up = scale / 2 * (frustum.down + frustum.up);
+  const float across = scale / 2 * (frustum.left + frustum.right),
+              up = scale / 2 * (frustum.down + frustum.up);
   return camera.position_world + ahead * forward + across * right + up * glm::cross(right, forward);
 }
 
