@@ -140,14 +140,16 @@ struct Smoke {
     params.look.erosion = 0.7f;
     params.seconds = seconds;
     // The first view updates light and lists; the others share them.
+    std::vector<brume_frame_params> parts;
     for (const View& view : views) {
       const Camera& camera = view.camera;
       params.view = static_cast<std::uint32_t>(&view - views.data());
       params.part = {view.x, view.y, view.width, view.height};
       params.camera.position = {camera.position.x, camera.position.y, camera.position.z};
       params.camera.forward = {camera.forward.x, camera.forward.y, camera.forward.z};
-      renderer.record(&field, params);
+      parts.push_back(params);
     }
+    renderer.record(&field, parts);
   }
 
   std::vector<brume_point> points;

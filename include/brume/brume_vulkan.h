@@ -485,6 +485,14 @@ BRUME_API brume_result brume_device_compile(brume_device* device, const brume_re
 BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* field,
                                              const brume_frame_params* params) BRUME_NOEXCEPT;
 
+/// Records up to BRUME_MAX_VIEWS views of one frame, each as brume_renderer_record does, in their order. They
+/// have different `view`s, and the same `commands`, `frame_number` and `completed_frame`. All are recorded,
+/// or none: where one fails, be it for want of memory, no view of the frame has smoke, and the next frame
+/// computes all light again. The images that the renderer returns show the last view.
+BRUME_API brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_field* field,
+                                                   const brume_frame_params* const* views,
+                                                   size_t view_count) BRUME_NOEXCEPT;
+
 /// Writes the image of smoke, volumes and tanks of the last recorded frame, for your own compositing: half
 /// floats with premultiplied radiance, before any exposure, and transmittance in alpha, in
 /// VK_IMAGE_LAYOUT_GENERAL, written by compute shaders. It has the renderer's size at any march_scale, with

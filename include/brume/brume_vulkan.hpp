@@ -131,6 +131,13 @@ class Renderer : public detail::Handle<brume_renderer, brume_renderer_destroy> {
   void record(const Field* field, const brume_frame_params& params) {
     check(brume_renderer_record(get(), field ? field->get() : nullptr, &params));
   }
+  /// brume_renderer_record_views.
+  void record(const Field* field, const std::vector<brume_frame_params>& views) {
+    std::vector<const brume_frame_params*> pointers;
+    for (const brume_frame_params& view : views) pointers.push_back(&view);
+    check(
+        brume_renderer_record_views(get(), field ? field->get() : nullptr, pointers.data(), pointers.size()));
+  }
   /// brume_renderer_smoke.
   Image smoke() const { return image(brume_renderer_smoke); }
   /// brume_renderer_shadows.

@@ -31,35 +31,48 @@ void HostRecording::begin(VkCommandBuffer commands, std::uint64_t frame, std::ui
   commands_ = commands;
   frame_ = frame;
   completed_ = completed;
-  if (preparations_) preparations_->slot->frame = frame;
+  view_ = views_.begin();
+  if (view_->preparations) view_->preparations->slot->frame = frame;
   if (is_timed_) read_timings();
 }
 
 Recorder& HostRecording::recorder() {
   BRUME_ASSERT(commands_, "commands outside of a frame");
-  if (!own_) own_.emplace(context_, take_slot(true));
-  return own_->recorder;
+  if (!view_->own) view_->own.emplace(context_, take_slot(true));
+  return view_->own->recorder;
 }
 
 void HostRecording::run(const std::function<void(Recorder&)>& record) {
-  BRUME_ASSERT(commands_ && !own_, "preparations outside of a frame, or behind its commands");
-  if (!preparations_) preparations_.emplace(context_, take_slot(false));
-  preparations_->recorder.collect(record);
+  BRUME_ASSERT(commands_ && !view_->own, "preparations outside of a frame, or behind its commands");
+  if (!view_->preparations) view_->preparations.emplace(context_, take_slot(false));
+  view_->preparations->recorder.collect(record);
+}
+
+void HostRecording::begin_view() {
+  BRUME_ASSERT(commands_, "a view outside of a frame");
+  if (std::next(view_) == views_.end()) views_.emplace_back();
+  ++view_;
 }
 
 void HostRecording::end() {
-  for (std::optional<Part>* part : {&preparations_, &own_}) {
-    if (!*part) continue;
-    (*part)->recorder.record(commands_);
-    (*part)->recorder.keep();
-    part->reset();
-  }
+  for (View& view : views_)
+    for (std::optional<Part>* part : {&view.preparations, &view.own}) {
+      if (!*part) continue;
+      (*part)->recorder.record(commands_);
+      (*part)->recorder.keep();
+      part->reset();
+    }
+  view_ = views_.begin();
   commands_ = VK_NULL_HANDLE;
 }
 
 void HostRecording::discard() noexcept {
-  own_.reset();
-  if (preparations_) context_.defer_frame();
+  for (View& view : views_) {
+    view.own.reset();
+    if (has_several_views()) view.preparations.reset();
+  }
+  view_ = views_.begin();
+  if (view_->preparations) context_.defer_frame();
   commands_ = VK_NULL_HANDLE;
 }
 

@@ -24,16 +24,21 @@ class HostRecording : public CommandStream {
   /// never fall, and their commands are submitted in that order to one queue, or not at all together with all
   /// that follow.
   void begin(VkCommandBuffer commands, std::uint64_t frame, std::uint64_t completed);
-  /// Ends the frame: records its commands, which belong to the host again.
+  /// Begins one more view of the frame, behind the commands collected so far.
+  void begin_view();
+  /// Ends the frame: records the commands of its views, which belong to the host again.
   void end();
-  /// Ends the frame after a failure: nothing of it is recorded. What `run` collected comes with the next
-  /// frame.
+  /// Ends the frame after a failure: nothing of it is recorded. What `run` collected for its only view comes
+  /// with the next frame; of several views that is lost, too, and what relied on it must be made again.
   void discard() noexcept;
+  /// Whether begin_view was called in this frame.
+  bool has_several_views() const { return view_ != views_.begin(); }
 
   /// Between begin and end.
   Recorder& recorder();
-  /// Collects preparations of the frame at once, between begin and the first call of recorder(). Like on a
-  /// device of our own they will be executed once this returns, whatever becomes of the frame.
+  /// Collects preparations of a view at once, between its begin and the first call of recorder(). Like on a
+  /// device of our own they will be executed once this returns, whatever becomes of the frame; but see
+  /// discard().
   void run(const std::function<void(Recorder&)>& record) override;
 
   /// GPU times of the newest frame that the device had completed when the present one began. Empty: there was
@@ -53,6 +58,9 @@ class HostRecording : public CommandStream {
     Slot* slot;
     Recorder recorder;
   };
+  struct View {
+    std::optional<Part> preparations, own;
+  };
   Slot& take_slot(bool is_frame);
   void read_timings();
 
@@ -61,7 +69,8 @@ class HostRecording : public CommandStream {
   std::list<Slot> slots_;                      // as many as frames and preparations were in flight, and one
   VkCommandBuffer commands_ = VK_NULL_HANDLE;  // the frame's; null: outside of a frame
   std::uint64_t frame_ = 0, completed_ = 0;
-  std::optional<Part> preparations_, own_;  // the frame's
+  std::list<View> views_ = std::list<View>(1);       // as many as a frame has had
+  std::list<View>::iterator view_ = views_.begin();  // the one that is collected
   std::vector<Timings::Scope> timings_;
 };
 

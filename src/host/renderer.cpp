@@ -94,8 +94,35 @@ void reserve(brume_renderer& renderer, const brume_frame_params& params) {
        .picture = params.picture.view ? params.picture.format : VK_FORMAT_UNDEFINED});
 }
 
-void draw(brume_renderer& renderer, const brume_frame_params& params, const passes::HostDepthRange& range,
-          passes::HostNormals normals) {
+void check_shadow_lights(const brume_renderer& renderer, const brume_frame_params& params) {
+  require(params.shadow_light_count <= BRUME_MAX_SHADOW_LIGHTS, "`shadow_light_count` must be at most 4");
+  const std::size_t lights = renderer.scene.lights.size() + params.light_count;
+  for (std::uint32_t i = 0; i < params.shadow_light_count; ++i)
+    if (params.shadow_lights[i] >= lights)
+      refuse("`shadow_lights` has " + std::to_string(params.shadow_lights[i]) + ", but there are " +
+             std::to_string(lights) + " lights");
+}
+
+/// A frame of one view, checked; its input is the renderer's.
+struct CheckedView {
+  passes::HostDepthRange range;
+  passes::HostNormals normals;
+  ShownVolumes volumes;
+};
+CheckedView checked_view(Call& call, brume_renderer& renderer, const brume_field* field,
+                         const brume_frame_params& params) {
+  check_frame(renderer, field, params);
+  CheckedView view{depth_range(params), host_normals(params.normals), {}};
+  planning::FrameInput& input = renderer.input;
+  set_frame_input(params, field ? &*field->field : nullptr, input);
+  check_shadow_lights(renderer, params);
+  view.volumes = add_volumes(call, params, input);
+  add_decals(call, params, renderer);
+  add_tanks(call, params, input);
+  return view;
+}
+
+void draw(brume_renderer& renderer, const brume_frame_params& params, const CheckedView& view) {
   reserve(renderer, params);
   const planning::FrameInput& input = renderer.input;
   const std::uint64_t volume = input.smoke.volume ? input.smoke.volume->id() : 0;
@@ -113,45 +140,60 @@ void draw(brume_renderer& renderer, const brume_frame_params& params, const pass
       {VK_NULL_HANDLE, params.normals.view, VK_FORMAT_R16G16B16A16_SFLOAT, size_px, params.normals.layout});
   const gpu::Image picture({VK_NULL_HANDLE, params.picture.view, params.picture.format, size_px,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
+  passes::HostNormals normals = view.normals;
   if (params.normals.view) normals.image = &normal_image;
   renderer.renderer->record_over(renderer.recording.recorder(), plan,
-                                 {.surfaces = {depth, range, {params.part.x, params.part.y}, normals},
+                                 {.surfaces = {depth, view.range, {params.part.x, params.part.y}, normals},
                                   .shadow_lights = {params.shadow_lights, params.shadow_light_count},
                                   .picture = params.picture.view ? &picture : nullptr,
                                   .exposure = params.picture.exposure});
 }
 
-void check_shadow_lights(const brume_renderer& renderer, const brume_frame_params& params) {
-  require(params.shadow_light_count <= BRUME_MAX_SHADOW_LIGHTS, "`shadow_light_count` must be at most 4");
-  const std::size_t lights = renderer.scene.lights.size() + params.light_count;
-  for (std::uint32_t i = 0; i < params.shadow_light_count; ++i)
-    if (params.shadow_lights[i] >= lights)
-      refuse("`shadow_lights` has " + std::to_string(params.shadow_lights[i]) + ", but there are " +
-             std::to_string(lights) + " lights");
+/// Checks views of one frame, of which none is recorded unless all are right.
+void check_views(Call& call, brume_renderer& renderer, const brume_field* field,
+                 std::span<const brume_frame_params> views) {
+  std::uint32_t seen = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    try {
+      (void)checked_view(call, renderer, field, views[i]);
+      require((seen >> views[i].view & 1) == 0, "an earlier one has the same `view`");
+      require(views[i].commands == views[0].commands && views[i].frame_number == views[0].frame_number &&
+                  views[i].completed_frame == views[0].completed_frame,
+              "`commands`, `frame_number` and `completed_frame` must be those of the first one");
+    } catch (const CallFailure& failure) {
+      fail(failure.result, "view " + std::to_string(i) + ": " + failure.message);
+    }
+    seen |= 1u << views[i].view;
+  }
+}
+
+/// Nothing of a frame is recorded; the next one works.
+void discard(brume_renderer& renderer) {
+  const bool has_several = renderer.recording.has_several_views();
+  renderer.recording.discard();
+  if (has_several) renderer.renderer.reset();  // earlier views count as drawn in it
+  renderer.input.slices.reset();               // with spare decals, which may not fit
+  renderer.sliced.clear();
 }
 
 void record(Call& call, brume_renderer& renderer, const brume_field* field,
-            const brume_frame_params& params) {
-  check_frame(renderer, field, params);
-  const passes::HostDepthRange range = depth_range(params);
-  const passes::HostNormals normals = host_normals(params.normals);
-  planning::FrameInput& input = renderer.input;
-  set_frame_input(params, field ? &*field->field : nullptr, input);
-  check_shadow_lights(renderer, params);
-  const ShownVolumes volumes = add_volumes(call, params, input);
-  add_decals(call, params, renderer);
-  add_tanks(call, params, input);
+            std::span<const brume_frame_params> views) {
+  if (views.size() > 1) check_views(call, renderer, field, views);
+  CheckedView view = checked_view(call, renderer, field, views[0]);
   // Taken even where the frame fails: the next one has a higher number.
-  renderer.device->frame = params.frame_number;
-  renderer.device->completed = params.completed_frame;
-  renderer.recording.begin(params.commands, params.frame_number, params.completed_frame);
+  renderer.device->frame = views[0].frame_number;
+  renderer.device->completed = views[0].completed_frame;
+  renderer.recording.begin(views[0].commands, views[0].frame_number, views[0].completed_frame);
   try {
-    draw(renderer, params, range, normals);
+    draw(renderer, views[0], view);
+    for (const brume_frame_params& next : views.subspan(1)) {
+      renderer.recording.begin_view();
+      view = checked_view(call, renderer, field, next);
+      draw(renderer, next, view);
+    }
     renderer.recording.end();
   } catch (...) {
-    renderer.recording.discard();
-    renderer.input.slices.reset();  // with spare decals, which may not fit
-    renderer.sliced.clear();
+    discard(renderer);
     throw;
   }
 }
@@ -267,7 +309,24 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
     const brume_field* from = field ? &call.handle(field) : nullptr;
     const brume_frame_params frame = required_params(params, brume_frame_defaults());
     const std::scoped_lock lock(object.mutex, object.device->mutex);
-    const auto record = [&] { brume::host::record(call, object, from, frame); };
+    const auto record = [&] { brume::host::record(call, object, from, {&frame, 1}); };
+    from ? call.read(*from, record) : record();
+  });
+}
+
+brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_field* field,
+                                         const brume_frame_params* const* views,
+                                         size_t view_count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_renderer& object = call.handle(renderer);
+    const brume_field* from = field ? &call.handle(field) : nullptr;
+    require(view_count >= 1 && view_count <= BRUME_MAX_VIEWS, "`view_count` must be from 1 to 4");
+    const brume_frame_params* const* given = &required(views, "views");
+    std::array<brume_frame_params, BRUME_MAX_VIEWS> frames;
+    for (std::size_t i = 0; i < view_count; ++i)
+      frames[i] = required_params(given[i], brume_frame_defaults());
+    const std::scoped_lock lock(object.mutex, object.device->mutex);
+    const auto record = [&] { brume::host::record(call, object, from, {frames.data(), view_count}); };
     from ? call.read(*from, record) : record();
   });
 }

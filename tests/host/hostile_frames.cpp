@@ -489,6 +489,21 @@ void HostileFrames::record() {
   const brume_field* field = chance(0.1) ? nullptr : handle(fields_);
   const brume_result result = brume_renderer_record(handle(renderers_), field, spoiled(params));
   has_drawn_ |= checked("brume_renderer_record", result, true) && draws;
+  if (!chance(0.2)) return;
+  std::array<brume_frame_params, 3> views;
+  std::array<const brume_frame_params*, 3> pointers{};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i] = params;
+    views[i].frame_number = number_;
+    views[i].picture = {};
+    views[i].view = chance(0.9) ? static_cast<std::uint32_t>(i) : below(5);
+    if (!chance(0.05)) pointers[i] = &views[i];
+  }
+  const std::uint32_t count = chance(0.9) ? 1 + below(3) : above(4);
+  checked(
+      "brume_renderer_record_views",
+      brume_renderer_record_views(handle(renderers_), field, chance(0.05) ? nullptr : pointers.data(), count),
+      true);
 }
 
 }  // namespace brume::host

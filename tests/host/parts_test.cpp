@@ -103,13 +103,23 @@ class PartsTest : public YardTest {
       params.seconds = 160 / 64.0;
       params.jitter_index = jitter;
       params.continues_previous = continues_ ? 1 : 0;
+      std::vector<brume_frame_params> views;
       for (const Part& part : parts) {
         params.part = part.part;
         params.frustum = part.frustum;
         params.view = part.view;
+        views.push_back(params);
+        if (in_one_call_) continue;
         ASSERT_OK(brume_renderer_record(part.by, field_, &params));
       }
+      if (!in_one_call_) return;
+      ASSERT_OK(record_views(views));
     });
+  }
+  brume_result record_views(const std::vector<brume_frame_params>& views) {
+    std::vector<const brume_frame_params*> pointers;
+    for (const brume_frame_params& view : views) pointers.push_back(&view);
+    return brume_renderer_record_views(renderer_, field_, pointers.data(), pointers.size());
   }
   /// What was drawn; empties the picture.
   Pixels picture() {
@@ -135,6 +145,7 @@ class PartsTest : public YardTest {
 
   gpu::Image picture_;
   bool continues_ = true;
+  bool in_one_call_ = false;  ///< All parts, which are the renderer's.
 };
 
 // Tiles are as large as the tile of blue noise, so that rays have the same jitter as in the whole picture.
@@ -316,6 +327,62 @@ TEST_F(DynamicPartsTest, TwoEyesOfOneRendererAreThoseOfTwo) {
   EXPECT_GT(apart(drawn, picture(), {0, 0, 128, 64}), 0.02) << "smoke is in view";
   EXPECT_OK(brume_renderer_destroy(eyes[1]));
   EXPECT_OK(brume_renderer_destroy(third));
+}
+
+TEST_F(DynamicPartsTest, ViewsOfOneCallAreThoseOfSeveralCalls) {
+  std::vector<Part> parts;
+  for (std::uint32_t i = 0; i < BRUME_MAX_VIEWS; ++i) {
+    const brume_rectangle part{64 * (i & 1), 64 * (i >> 1), 64, 64};
+    parts.push_back({renderer_, BRUME_MAX_VIEWS - 1 - i, part, frustum_of(part)});
+  }
+  std::array<Pixels, 2> drawn;
+  for (Pixels& pixels : drawn) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      begin_picture();
+      draw_parts(parts, i);
+    }
+    pixels = picture();
+    in_one_call_ = true;
+    ASSERT_OK(brume_renderer_resize(renderer_, kWhole.x, kWhole.y));
+  }
+  EXPECT_EQ(drawn[0], drawn[1]);
+  EXPECT_GT(apart(drawn[0], picture(), {0, 0, 128, 128}), 0.02) << "smoke is in view";
+}
+
+TEST_F(DynamicPartsTest, AViewThatIsWrongLeavesNone) {
+  draw_part({}, kWide);
+  (void)picture();
+  host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
+    brume_frame_params params = brume_frame_defaults();
+    params.commands = commands;
+    params.frame_number = number;
+    params.completed_frame = completed;
+    params.camera = camera_;
+    params.depth.view = depth_.view();
+    params.depth.layout = depth_.last_use.get(gpu_).layout;
+    params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+    std::vector<brume_frame_params> views(2, params);
+    const auto refuse = [&](const char* words) {
+      expect_refused(record_views(views), BRUME_ERROR_ARGUMENT, words);
+    };
+    refuse("view 1: an earlier one has the same `view`");
+    views[1].view = 9;
+    refuse("view 1: `view` must be below 4");
+    views[1] = params;
+    views[1].view = 1;
+    views[1].frame_number = number + 1;
+    refuse("view 1: `commands`, `frame_number` and `completed_frame` must be");
+    views[1].frame_number = number;
+    views[1].depth.near_plane = -1;
+    refuse("view 1: `depth.near_plane`");
+    views.resize(5, params);
+    refuse("`view_count` must be from 1 to 4");
+    const brume_frame_params* none[] = {&views[0], nullptr};
+    expect_refused(brume_renderer_record_views(renderer_, field_, none, 2), BRUME_ERROR_ARGUMENT, "params");
+    expect_refused(brume_renderer_record_views(renderer_, field_, nullptr, 2), BRUME_ERROR_ARGUMENT, "views");
+  });
+  for (const glm::dvec4& pixel : picture()) ASSERT_EQ(pixel, glm::dvec4(0));
+  draw_part({}, kWide);
 }
 
 }  // namespace

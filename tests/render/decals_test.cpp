@@ -103,17 +103,18 @@ class DecalFramesTest : public VolumeFixture {
     return enter < leave;
   }
   static void expect_cube_at(const Frame& frame, const glm::dmat4& world_from_mesh) {
+    // Its corners are off by what the device snaps them by, in pixels of 10 m / 36, and by rounding.
+    const double off = 1e-3 + snapping_px() * 10 / 36;
     int hits = 0;
     for (std::size_t i = 0; i < frame.depth.size(); ++i) {
       const glm::dvec3 eye(frame.camera.eye_world);
-      // Its outline is drawn to a pixel's sample exactly, but for 1/256 of a pixel: 10 m / 36 pixels / 256.
-      if (meets(world_from_mesh, kEdge - 0.01, eye, frame.ray(i))) {
+      if (meets(world_from_mesh, kEdge - 2 * off, eye, frame.ray(i))) {
         EXPECT_TRUE(frame.moves[i]) << i;
         const glm::dvec3 p =
             glm::abs(glm::dvec3(glm::inverse(world_from_mesh) * glm::dvec4(frame.p_world(i), 1)));
-        EXPECT_NEAR(std::max({p.x, p.y, p.z}), kEdge / 2, 1e-3) << i;
+        EXPECT_NEAR(std::max({p.x, p.y, p.z}), kEdge / 2, off) << i;
         ++hits;
-      } else if (!meets(world_from_mesh, kEdge + 0.01, eye, frame.ray(i))) {
+      } else if (!meets(world_from_mesh, kEdge + 2 * off, eye, frame.ray(i))) {
         EXPECT_FALSE(frame.moves[i]) << i;
       }
     }
