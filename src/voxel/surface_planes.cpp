@@ -317,11 +317,25 @@ bool plausible(const Plane& plane) {
   return std::abs(length - 1) < 1e-3f && std::abs(plane.offset) <= 1;  // False for NaN.
 }
 
-/// Where the search for a key begins. Cells that are neighbours along x share a line of the processor's
-/// cache.
+/// The reverse of key_of, plus 1.
+ivec3 cell_of_key(ivec3 size, std::uint64_t key) {
+  const auto nx = static_cast<std::uint64_t>(size.x) + 1, ny = static_cast<std::uint64_t>(size.y) + 1;
+  return ivec3(glm::u64vec3(key % nx, key / nx % ny, key / nx / ny));
+}
+
+/// Of the brick of a cell + 1.
+std::uint64_t brick_key(ivec3 above) {
+  const glm::u64vec3 brick(above >> 3);
+  return brick.x | brick.y << 21 | brick.z << 42;
+}
+
+/// Where the search for a key begins. Fibonacci hashing: Knuth 1973, 6.4.
 std::uint64_t slot_of(std::uint64_t key) {
-  const std::uint64_t scrambled = (key >> 3) * 0x9e3779b97f4a7c15ull >> 32;  // Fibonacci: Knuth 1973, 6.4.
-  return scrambled << 3 | (key & 7);
+  return key * 0x9e3779b97f4a7c15ull >> 32;
+}
+
+unsigned bit_of(ivec3 above) {
+  return static_cast<unsigned>((above.x & 7) + 8 * (above.y & 7));
 }
 
 }  // namespace
@@ -388,29 +402,74 @@ std::optional<SurfacePlanes> SurfacePlanes::from_parts(ivec3 size, std::vector<s
 }
 
 void SurfacePlanes::build_index() {
-  index_.assign(std::bit_ceil(2 * keys_.size() + 1), 0);
+  // The bricks, each once.
+  const auto above = [&](std::size_t i) { return cell_of_key(size_, keys_[i]); };
+  std::vector<std::uint64_t> found;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
-    std::uint64_t slot = slot_of(keys_[i]);
-    while (index_[slot & (index_.size() - 1)] != 0) ++slot;
-    index_[slot & (index_.size() - 1)] = static_cast<std::uint32_t>(i + 1);
+    const std::uint64_t key = brick_key(above(i));
+    if (found.empty() || found.back() != key) found.push_back(key);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  index_.assign(std::bit_ceil(2 * found.size() + 1), 0);
+  for (const std::uint64_t key : found) add_to_index(key);
+
+  // Their cells, then the places of these. Within a brick keys rise as cells do.
+  const auto number = [&](std::size_t i) {
+    return static_cast<std::size_t>(find_brick(brick_key(above(i))) - bricks_.data());
+  };
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    bricks_[number(i)].cells[static_cast<std::size_t>(above(i).z & 7)] |= std::uint64_t{1}
+                                                                          << bit_of(above(i));
+  std::uint32_t count = 0;
+  for (Brick& brick : bricks_) {
+    brick.first = count;
+    for (std::size_t z = 0; z < 8; ++z) {
+      brick.before[z] = static_cast<std::uint16_t>(count - brick.first);
+      count += static_cast<std::uint32_t>(std::popcount(brick.cells[z]));
+    }
+  }
+  order_.resize(keys_.size());
+  std::vector<std::uint32_t> placed(bricks_.size(), 0);
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+    const std::size_t brick = number(i);
+    order_[bricks_[brick].first + placed[brick]++] = i;
+  }
+}
+
+void SurfacePlanes::add_to_index(std::uint64_t brick_key) {
+  std::uint64_t slot = slot_of(brick_key);
+  while (index_[slot & (index_.size() - 1)] != 0) ++slot;
+  bricks_.push_back({.key = brick_key});
+  index_[slot & (index_.size() - 1)] = static_cast<std::uint32_t>(bricks_.size());
+}
+
+const SurfacePlanes::Brick* SurfacePlanes::find_brick(std::uint64_t brick_key) const {
+  for (std::uint64_t slot = slot_of(brick_key);; ++slot) {
+    const std::uint32_t entry = index_[slot & (index_.size() - 1)];
+    if (entry == 0) return nullptr;
+    if (bricks_[entry - 1].key == brick_key) return &bricks_[entry - 1];
   }
 }
 
 std::span<const Plane> SurfacePlanes::at(ivec3 cell) const {
   if (glm::any(glm::lessThan(cell, ivec3(-1))) || glm::any(glm::greaterThanEqual(cell, size_))) return {};
   if (keys_.empty()) return {};
-  const std::uint64_t key = key_of(size_, cell);
-  for (std::uint64_t slot = slot_of(key);; ++slot) {
-    const std::uint32_t entry = index_[slot & (index_.size() - 1)];
-    if (entry == 0) return {};
-    if (keys_[entry - 1] == key)
-      return std::span(planes_).subspan(first_[entry - 1], first_[entry] - first_[entry - 1]);
-  }
+  const ivec3 above = cell + 1;
+  const Brick* brick = find_brick(brick_key(above));
+  if (!brick) return {};
+  const auto z = static_cast<std::size_t>(above.z & 7);
+  const std::uint64_t cells = brick->cells[z], bit = std::uint64_t{1} << bit_of(above);
+  if ((cells & bit) == 0) return {};
+  const auto rank = static_cast<std::uint32_t>(brick->before[z] + std::popcount(cells & (bit - 1)));
+  const std::uint32_t i = order_[brick->first + rank];
+  return std::span(planes_).subspan(first_[i], first_[i + 1] - first_[i]);
 }
 
 std::uint64_t SurfacePlanes::bytes() const {
   return keys_.size() * sizeof(keys_[0]) + first_.size() * sizeof(first_[0]) +
-         planes_.size() * sizeof(planes_[0]) + index_.size() * sizeof(index_[0]);
+         planes_.size() * sizeof(planes_[0]) + index_.size() * sizeof(index_[0]) +
+         bricks_.size() * sizeof(bricks_[0]) + order_.size() * sizeof(order_[0]);
 }
 
 }  // namespace brume::voxel

@@ -5,6 +5,7 @@
 // one corner is solid, up to three planes tell on which side of the surfaces a point of the cell lies.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -74,13 +75,25 @@ class SurfacePlanes {
   }
 
  private:
+  /// Which of 8^3 cells have planes, a bit each, and where they are: the i-th is keys_[order_[first + i]].
+  struct Brick {
+    std::uint64_t key = 0;
+    std::array<std::uint64_t, 8> cells{};   // by z: x + 8 y
+    std::array<std::uint16_t, 8> before{};  // cells of lower z
+    std::uint32_t first = 0;
+  };
+
   void build_index();
+  void add_to_index(std::uint64_t brick_key);
+  const Brick* find_brick(std::uint64_t brick_key) const;
 
   glm::ivec3 size_{0};
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> first_;  // First plane of each key, and the total at the end.
   std::vector<Plane> planes_;
-  std::vector<std::uint32_t> index_;  // Hash table of 2^k entries: index of the key + 1, 0: none.
+  std::vector<std::uint32_t> index_;  // Hash table of 2^k entries: number of the brick + 1, 0: none.
+  std::vector<Brick> bricks_;
+  std::vector<std::uint32_t> order_;
 };
 
 }  // namespace brume::voxel
