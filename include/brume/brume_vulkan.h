@@ -410,8 +410,7 @@ typedef struct brume_frame_params {
   /// a portal. All 0: the view axis is in the middle.
   brume_frustum frustum;
   /// Which of the renderer's views this is, [0, BRUME_MAX_VIEWS): an eye of a headset, a part of a split
-  /// screen. Record each view of a frame by a call of its own. Views share all light and differ in what
-  /// accumulates over frames.
+  /// screen. Views share all light and differ in what accumulates over frames.
   uint32_t view;
   /// 1: `previous_camera` and `previous_frustum` are set. 0: the previous camera is the one of the view's
   /// last recorded frame.
@@ -463,15 +462,17 @@ static inline brume_frame_params brume_frame_defaults(void) {
 
 /// Compiles all pipelines that frames like `frame` need in renderers like `renderer`: at all march scales and
 /// qualities, with smoke and without, with decals, shadows on surfaces and multisampled depth. `renderer`
-/// counts by its size, lights and flags; null: the defaults. `frame` counts by its `picture.format`
-/// (VK_FORMAT_UNDEFINED: no picture), `parallel`, and the volumes and tanks that its camera sees: another set
-/// of volumes may need more pipelines. Its `commands`, numbers and image views are ignored; null: a frame of
+/// counts by its lights and flags; null: the defaults. `frame` counts by its `picture.format`
+/// (VK_FORMAT_UNDEFINED: no picture), `parallel`, and the volumes and tanks that its camera sees: place it so
+/// that it sees all. Frames may then show all of its volumes, one of them, or none; others that are shown
+/// together may need more pipelines. Its `commands`, numbers and image views are ignored; null: a frame of
 /// smoke without a picture.
 ///
 /// The call records nothing and may run in another thread, while renderers of the device are created and
-/// record: they wait at most for a pipeline that they need and that is being compiled. Meanwhile it takes
-/// some MB of device memory, and as much as the volumes and tanks need; your memory functions may then be
-/// called by both threads at once. Errors: as brume_renderer_create and brume_renderer_record.
+/// record: they wait at most for a pipeline that they need and that is being compiled. It takes seconds where
+/// drivers have no pipelines cached, and meanwhile some MB of device memory and as much as the volumes and
+/// tanks need, which no limit of memory counts; your memory functions may be called by both threads at once.
+/// Errors: as brume_renderer_create and brume_renderer_record, for what counts.
 BRUME_API brume_result brume_device_compile(brume_device* device, const brume_renderer_params* renderer,
                                             const brume_frame_params* frame) BRUME_NOEXCEPT;
 
@@ -488,7 +489,8 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 /// Records up to BRUME_MAX_VIEWS views of one frame, each as brume_renderer_record does, in their order. They
 /// have different `view`s, and the same `commands`, `frame_number` and `completed_frame`. All are recorded,
 /// or none: where one fails, be it for want of memory, no view of the frame has smoke, and the next frame
-/// computes all light again. The images that the renderer returns show the last view.
+/// computes all light again. The images that the renderer returns show the last view, and so does
+/// brume_renderer_coarseness. Errors: as brume_renderer_record; BRUME_ERROR_ARGUMENT names the view.
 BRUME_API brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_field* field,
                                                    const brume_frame_params* const* views,
                                                    size_t view_count) BRUME_NOEXCEPT;
@@ -506,8 +508,9 @@ BRUME_API brume_result brume_renderer_smoke(const brume_renderer* renderer, VkIm
 /// Writes by how much the smoke of the last recorded frame is coarser because memory is short. Its voxels are
 /// 2^level times as wide as the level's voxels and at least as dense, so that it hides no less than it
 /// should; 0: full resolution. `is_smoke_missing`, which may be null, receives 1 when smoke out of view has
-/// been dropped, so that visible smoke may be brighter than it should be. Errors: BRUME_ERROR_ORDER as for
-/// brume_renderer_smoke.
+/// been dropped, so that visible smoke may be brighter than it should be. Before smoke becomes coarser, it
+/// does without the light that is finer than its voxels near the camera, which is not reported. Errors:
+/// BRUME_ERROR_ORDER as for brume_renderer_smoke.
 BRUME_API brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
                                                  uint32_t* is_smoke_missing) BRUME_NOEXCEPT;
 

@@ -1,5 +1,8 @@
 #include "host/compile.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "api/smoke_field.hpp"
 #include "gpu/dropped_commands.hpp"
 #include "host/frame.hpp"
@@ -39,36 +42,63 @@ std::unique_ptr<const api::SmokeField> smoke_around(glm::vec3 middle) {
   return field;
 }
 
+/// The volumes of a frame that others may show together: none, each file's alone, and all.
+std::vector<std::vector<brume_shown_volume>> shown_together(const brume_frame_params& frame) {
+  const std::span<const brume_shown_volume> all(frame.volumes, frame.volume_count);
+  std::vector<std::vector<brume_shown_volume>> sets(1);
+  for (const brume_shown_volume& one : all) {
+    const auto is_same = [&](const auto& set) { return !set.empty() && set[0].volume == one.volume; };
+    if (std::ranges::none_of(sets, is_same)) sets.push_back({one});
+  }
+  if (all.size() > 1) sets.emplace_back(all.begin(), all.end());
+  return sets;
+}
+
+/// A frame that is not drawn.
+struct Shown {
+  planning::FrameInput input;
+  ShownVolumes volumes;  // that `input` points to
+};
+Shown shown(api::Call& call, const brume_frame_params& frame, const api::SmokeField* smoke) {
+  Shown made;
+  set_frame_input(frame, smoke, made.input);
+  made.volumes = add_volumes(call, frame, made.input);
+  add_tanks(call, frame, made.input);
+  made.input.view.size_px = {};
+  return made;
+}
+
 }  // namespace
 
 void compile(api::Call& call, DeviceData& device, const brume_renderer_params& renderer_params,
              const brume_frame_params& frame) {
+  // All that may be wrong, before any work.
   const VkFormat format = frame.picture.format;
   api::require(format == VK_FORMAT_UNDEFINED || can_blend(device.context, format),
                "`picture.format` must be one that the device can blend");
-  planning::FrameInput input;
-  set_frame_input(frame, nullptr, input);
-  const auto smoke = smoke_around(middle_of_view(input.view));
-
-  // A renderer of a small size in the proportions of the host's.
   render::RendererOptions options = renderer_options(renderer_params);
-  options.size_px = glm::max(options.size_px / 16u, glm::uvec2(1));
-  options.smoke.prepare_all = true;
   scene::Scene scene;
   scene.lights = scene_lights(renderer_params.lights, renderer_params.light_count);
+  const auto smoke = smoke_around(middle_of_view(shown(call, frame, nullptr).input.view));
+
+  // A renderer of a small size in the proportions of the host's.
+  options.size_px = glm::max(options.size_px / 16u, glm::uvec2(1));
+  options.smoke.prepare_all = true;
   gpu::Context context(device.host, &device.context);
   gpu::DroppedCommands commands(context);
   render::Renderer renderer(context, commands, scene, options);
   renderer.reserve_over(
       {.decals = true, .shadows = true, .tanks = frame.tank_count > 0, .samples = true, .picture = format});
 
-  // What a frame shows, without and with smoke.
-  for (const api::SmokeField* field : {static_cast<const api::SmokeField*>(nullptr), smoke.get()}) {
-    set_frame_input(frame, field, input);
-    const ShownVolumes volumes = add_volumes(call, frame, input);
-    add_tanks(call, frame, input);
-    input.view.size_px = {};
-    (void)renderer.plan(input);
+  // What frames show, without and with smoke.
+  brume_frame_params like = frame;
+  for (const std::vector<brume_shown_volume>& volumes : shown_together(frame)) {
+    like.volumes = volumes.data();
+    like.volume_count = volumes.size();
+    for (const api::SmokeField* field : {static_cast<const api::SmokeField*>(nullptr), smoke.get()}) {
+      const Shown one = shown(call, like, field);
+      (void)renderer.plan(one.input);
+    }
   }
 }
 

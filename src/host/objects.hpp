@@ -109,5 +109,6 @@ struct brume_renderer : brume::api::Handle {
   std::vector<std::weak_ptr<const brume::host::DecalData>> sliced;
   /// From the first frame on, which uploads.
   std::optional<brume::render::Renderer> renderer;
+  bool has_frame = false;          ///< Whether the last frame was recorded.
   std::uint64_t shown_volume = 0;  ///< SparseVolume::id of the last frame's smoke; 0: none.
 };

@@ -149,20 +149,28 @@ void draw(brume_renderer& renderer, const brume_frame_params& params, const Chec
                                   .exposure = params.picture.exposure});
 }
 
+/// Checks a view of several: failures name it.
+template <typename Check>
+void of_view(std::size_t number, Check check) {
+  try {
+    check();
+  } catch (const CallFailure& failure) {
+    fail(failure.result, "view " + std::to_string(number) + ": " + failure.message);
+  }
+}
+
 /// Checks views of one frame, of which none is recorded unless all are right.
 void check_views(Call& call, brume_renderer& renderer, const brume_field* field,
                  std::span<const brume_frame_params> views) {
   std::uint32_t seen = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    try {
+    of_view(i, [&] {
       (void)checked_view(call, renderer, field, views[i]);
       require((seen >> views[i].view & 1) == 0, "an earlier one has the same `view`");
       require(views[i].commands == views[0].commands && views[i].frame_number == views[0].frame_number &&
                   views[i].completed_frame == views[0].completed_frame,
               "`commands`, `frame_number` and `completed_frame` must be those of the first one");
-    } catch (const CallFailure& failure) {
-      fail(failure.result, "view " + std::to_string(i) + ": " + failure.message);
-    }
+    });
     seen |= 1u << views[i].view;
   }
 }
@@ -183,6 +191,7 @@ void record(Call& call, brume_renderer& renderer, const brume_field* field,
   // Taken even where the frame fails: the next one has a higher number.
   renderer.device->frame = views[0].frame_number;
   renderer.device->completed = views[0].completed_frame;
+  renderer.has_frame = false;
   renderer.recording.begin(views[0].commands, views[0].frame_number, views[0].completed_frame);
   try {
     draw(renderer, views[0], view);
@@ -192,6 +201,7 @@ void record(Call& call, brume_renderer& renderer, const brume_field* field,
       draw(renderer, next, view);
     }
     renderer.recording.end();
+    renderer.has_frame = true;
   } catch (...) {
     discard(renderer);
     throw;
@@ -217,7 +227,7 @@ brume_result write_image(const char* function, const brume_renderer* renderer, c
   return Call(function).run([&](Call& call) {
     const brume_renderer& object = call.handle(renderer);
     call.read(object, [&] {
-      const gpu::Image* const found = object.renderer ? find(*object.renderer) : nullptr;
+      const gpu::Image* const found = object.has_frame ? find(*object.renderer) : nullptr;
       if (!found) fail(BRUME_ERROR_ORDER, missing);
       if (out.image) *out.image = found->handle();
       if (out.view) *out.view = found->view();
@@ -324,7 +334,7 @@ brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_f
     const brume_frame_params* const* given = &required(views, "views");
     std::array<brume_frame_params, BRUME_MAX_VIEWS> frames;
     for (std::size_t i = 0; i < view_count; ++i)
-      frames[i] = required_params(given[i], brume_frame_defaults());
+      brume::host::of_view(i, [&] { frames[i] = required_params(given[i], brume_frame_defaults()); });
     const std::scoped_lock lock(object.mutex, object.device->mutex);
     const auto record = [&] { brume::host::record(call, object, from, {frames.data(), view_count}); };
     from ? call.read(*from, record) : record();
@@ -333,9 +343,8 @@ brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_f
 
 brume_result brume_renderer_smoke(const brume_renderer* renderer, VkImage* image,
                                   VkImageView* view) BRUME_NOEXCEPT {
-  return brume::host::write_image(
-      __func__, renderer, {image, view}, "a frame must be recorded first",
-      [](const auto& from) { return from.has_frame() ? &from.layers() : nullptr; });
+  return brume::host::write_image(__func__, renderer, {image, view}, "a frame must be recorded first",
+                                  [](const auto& from) { return &from.layers(); });
 }
 
 brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t* level,
@@ -344,8 +353,7 @@ brume_result brume_renderer_coarseness(const brume_renderer* renderer, uint32_t*
     const brume_renderer& object = call.handle(renderer);
     std::uint32_t& to = required(level, "level");
     call.read(object, [&] {
-      if (!object.renderer || !object.renderer->has_frame())
-        fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
+      if (!object.has_frame) fail(BRUME_ERROR_ORDER, "a frame must be recorded first");
       to = static_cast<std::uint32_t>(object.renderer->smoke_level());
       if (is_smoke_missing) *is_smoke_missing = object.renderer->is_smoke_missing();
     });
@@ -361,9 +369,9 @@ brume_result brume_renderer_shadows(const brume_renderer* renderer, VkImage* ima
 
 brume_result brume_renderer_motion(const brume_renderer* renderer, VkImage* image,
                                    VkImageView* view) BRUME_NOEXCEPT {
-  return brume::host::write_image(
-      __func__, renderer, {image, view}, "a renderer with `motion` must record a frame first",
-      [](const auto& from) { return from.has_frame() ? from.motion() : nullptr; });
+  return brume::host::write_image(__func__, renderer, {image, view},
+                                  "a renderer with `motion` must record a frame first",
+                                  [](const auto& from) { return from.motion(); });
 }
 
 brume_result brume_renderer_occlusion(const brume_renderer* renderer, VkImage* image,

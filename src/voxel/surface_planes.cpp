@@ -323,7 +323,7 @@ ivec3 cell_of_key(ivec3 size, std::uint64_t key) {
   return ivec3(glm::u64vec3(key % nx, key / nx % ny, key / nx / ny));
 }
 
-/// Of the brick of a cell + 1.
+/// The key of the brick that has a cell + 1.
 std::uint64_t brick_key(ivec3 above) {
   const glm::u64vec3 brick(above >> 3);
   return brick.x | brick.y << 21 | brick.z << 42;

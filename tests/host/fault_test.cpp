@@ -143,8 +143,12 @@ class FaultTest : public testing::Test {
       result = tank_ ? brume_renderer_record_views(smoke.renderer, smoke.field.get(), views, 2)
                      : brume_renderer_record(smoke.renderer, smoke.field.get(), &params);
       EXPECT_EQ(Commands::count > 0, result == BRUME_OK) << "a part of a frame was recorded";
-      if (result != BRUME_OK) return;
       VkImage image = VK_NULL_HANDLE;
+      if (result != BRUME_OK) {
+        EXPECT_STRNE(brume_last_error(), "");
+        EXPECT_EQ(brume_renderer_smoke(smoke.renderer, &image, nullptr), BRUME_ERROR_ORDER);
+        return;
+      }
       EXPECT_OK(brume_renderer_smoke(smoke.renderer, &image, nullptr));
       host_.copy(commands, image, {kFaultSize.x, kFaultSize.y}, picture_.handle());
     });
@@ -232,7 +236,6 @@ void FaultTest::fail_each_call() {
         if (result == BRUME_OK) break;
         ++failures;
         EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
-        EXPECT_STRNE(brume_last_error(), "");
       }
     // A frame that failed costs at most its own calls again, not those of the renderer; but of several views
     // all.

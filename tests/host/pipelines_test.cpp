@@ -220,14 +220,17 @@ class CompiledFramesTest : public PipelinesTest {
     ASSERT_OK(compile_ahead(&like));
     const int compiled = Compiled::count;
     EXPECT_GT(compiled, before);
-    for (const brume_field* field : {static_cast<const brume_field*>(field_), (const brume_field*)nullptr})
-      for (const std::uint32_t scale : {1u, 2u})
-        draw({1, 2, 1}, {1, -0.1f, 1}, 0.7, [&](brume_frame_params& params) {
-          change(params);
-          ASSERT_OK(brume_renderer_set_march_scale(renderer_, scale));
-          ASSERT_OK(brume_renderer_record(renderer_, field, &params));
-        });
-    EXPECT_EQ(Compiled::count, compiled);
+    for (const float ahead : {1.0f, -1.0f})
+      for (const brume_field* field : {static_cast<const brume_field*>(field_), (const brume_field*)nullptr})
+        for (std::size_t first = 0; first <= like.volume_count; ++first)
+          draw({1, 2, 1}, {ahead, -0.1f, ahead}, 0.7, [&](brume_frame_params& params) {
+            change(params);
+            params.volumes += first;
+            params.volume_count -= first;
+            ASSERT_OK(brume_renderer_set_march_scale(renderer_, 1 + first % 2));
+            ASSERT_OK(brume_renderer_record(renderer_, field, &params));
+            EXPECT_EQ(Compiled::count, compiled) << "without the first " << first << ", ahead " << ahead;
+          });
   }
   void show_volumes(brume_frame_params& params, std::size_t count) const {
     params.volumes = shown_.data();

@@ -34,12 +34,16 @@ struct HostMemory {
   std::mutex mutex;
   gpu::Functions vk;
   VkDevice device = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties types{};
   std::map<VkDeviceMemory, VkDeviceSize> blocks;
   VkDeviceSize bytes = 0;
   int allocations = 0;
-  /// Fills new memory with bytes that are no numbers as half floats.
+  /// Fills new memory, where it can be mapped, with bytes that are no numbers as half floats.
   PFN_vkUnmapMemory unmap_to_fill = nullptr;
 
+  bool is_mappable(std::uint32_t type) const {
+    return (types.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+  }
   static VkResult allocate(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory) {
     auto& own = *static_cast<HostMemory*>(user);
     const VkResult result = own.vk.AllocateMemory(own.device, info, nullptr, memory);
@@ -49,7 +53,7 @@ struct HostMemory {
     own.bytes += info->allocationSize;
     ++own.allocations;
     void* bytes = nullptr;
-    if (own.unmap_to_fill &&
+    if (own.unmap_to_fill && own.is_mappable(info->memoryTypeIndex) &&
         own.vk.MapMemory(own.device, *memory, 0, VK_WHOLE_SIZE, 0, &bytes) == VK_SUCCESS) {
       std::memset(bytes, 0xff, info->allocationSize);
       own.unmap_to_fill(own.device, *memory);
@@ -77,6 +81,7 @@ class YardTest : public testing::Test {
       : first_(first), host_(3, kind), gpu_(host_.device()), recording_(gpu_) {
     memory_.vk = gpu_.vk();
     memory_.device = host_.device().device;
+    gpu_.vk().GetPhysicalDeviceMemoryProperties(host_.device().physical_device, &memory_.types);
   }
   ~YardTest() override {
     host_.wait();

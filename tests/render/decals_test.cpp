@@ -85,8 +85,9 @@ class DecalFramesTest : public VolumeFixture {
     frame.media = texels_of(renderer.media());
     if (renderer.occlusion()) frame.occlusion = texels_of(*renderer.occlusion());
     frame.depth = read_back<float>(renderer.targets().gbuffer.depth);
+    // Without a surface there is no normal.
     for (const glm::vec4& texel : texels_of(renderer.targets().gbuffer.normal_metallic))
-      frame.moves.push_back(shared::moves_of(texel.a));
+      frame.moves.push_back(frame.depth[frame.moves.size()] > 0 && shared::moves_of(texel.a));
     return frame;
   }
 
