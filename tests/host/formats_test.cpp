@@ -88,9 +88,7 @@ class FormatsTest : public YardTest {
  protected:
   void SetUp() override {
     is_temporal_ = false;
-    make({40, 16, 28}, 0.25f);
-    smoke(1, {6, 1, 3.5f}, 3000, 2000);
-    advance(160);
+    make_smoky();
   }
   ~FormatsTest() override { host_.wait(); }
 

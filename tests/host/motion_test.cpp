@@ -34,9 +34,7 @@ class MotionTest : public YardTest {
  protected:
   void begin(std::uint32_t march_scale) {
     has_motion_ = true;
-    make({40, 16, 28}, 0.25f, march_scale);
-    smoke(1, {6, 1, 3.5f}, 3000, 2000);
-    advance(160);
+    make_smoky(march_scale);
   }
   /// The motion image of a frame, by a previous camera of the host's own.
   Pixels motion(const MotionCamera& camera, bool continues, const MotionCamera* previous = nullptr) {

@@ -20,13 +20,7 @@ class ParallelTest : public YardTest {
 
   void SetUp() override {
     has_motion_ = true;
-    make({40, 16, 28}, 0.25f);
-    smoke(1, {6, 1, 3.5f}, 3000, 2000);
-    brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 150);
-    shot.u.shot.origin = position_of(sim::position_from_metres({1, 1.5, 3}));
-    shot.u.shot.toward = position_of(sim::position_from_metres({9, 1.2, 3.6}));
-    append(shot);
-    advance(160);
+    make_shot();
   }
   static glm::dvec3 forward() { return glm::normalize(glm::dvec3(1, -0.35, 0.3)); }
   static glm::dvec3 right() { return glm::normalize(glm::cross(forward(), glm::dvec3(0, 1, 0))); }
@@ -52,15 +46,7 @@ class ParallelTest : public YardTest {
         const double d = !parallel ? 0.1 / (z - kEye + as.distance) : as.reversed ? 1 - linear : linear;
         depths.push_back(static_cast<float>(y < 4 ? (as.reversed ? 0 : 1) : d));
       }
-    const gpu::Recorder::Region all{std::as_bytes(std::span(depths)), {}, {kSize, 1}};
-    const gpu::Sampler nearest(gpu_, {});
-    host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
-      recording_.begin(commands, number, completed);
-      recording_.recorder().upload(depth_, {&all, 1});
-      recording_.recorder().prepare_for_draws({gpu::sampled(depth_, nearest)});  // into its layout
-      recording_.end();
-      host_.wait_for_compute(commands);
-    });
+    upload_depths(depths);
   }
   static brume_frustum frustum_of(const Projection& as) {
     const glm::vec2 half(as.distance > 0 ? kHalf / as.distance : kHalf);

@@ -27,13 +27,7 @@ class PartsTest : public YardTest {
     is_temporal_ = is_temporal;
   }
   void SetUp() override {
-    make({40, 16, 28}, 0.25f, 1);
-    smoke(1, {6, 1, 3.5f}, 3000, 2000);
-    brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 150);
-    shot.u.shot.origin = position_of(sim::position_from_metres({1, 1.5, 3}));
-    shot.u.shot.toward = position_of(sim::position_from_metres({9, 1.2, 3.6}));
-    append(shot);
-    advance(160);
+    make_shot();
     picture_ =
         gpu::Image(gpu_, {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                           .size = {kWhole, 1},
@@ -47,12 +41,7 @@ class PartsTest : public YardTest {
     for (std::uint32_t y = 0; y < kWhole.y; ++y)
       for (std::uint32_t x = 0; x < kWhole.x; ++x)
         reverse.push_back(0.1f / (3 + slope * static_cast<float>(x + 10 * (y % 3))));
-    const gpu::Recorder::Region all{std::as_bytes(std::span(reverse)), {}, {kWhole, 1}};
-    const gpu::Sampler nearest(gpu_, {});
-    frame([&](gpu::Recorder& recorder) {
-      recorder.upload(depth_, {&all, 1});
-      recorder.prepare_for_draws({gpu::sampled(depth_, nearest)});  // into its layout
-    });
+    upload_depths(reverse);
   }
   void begin_picture() {
     frame([&](gpu::Recorder& recorder) {

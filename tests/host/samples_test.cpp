@@ -38,9 +38,7 @@ class SamplesTest : public YardTest {
   SamplesTest() : YardTest(gpu::HostKind::validated) {}
   void SetUp() override {
     is_temporal_ = false;
-    make({40, 16, 28}, 0.25f);
-    smoke(1, {6, 1, 3.5f}, 3000, 2000);
-    advance(160);
+    make_smoky();
     gpu::HostDevice on = host_.device();
     on.get_instance_proc_addr = gpu::Interposer::over(
         on.get_instance_proc_addr,
@@ -117,15 +115,7 @@ class SamplesTest : public YardTest {
   }
   /// Over one depth for each pixel.
   Texels draw_resolved(const std::vector<float>& reverse) {
-    const gpu::Recorder::Region all{std::as_bytes(std::span(reverse)), {}, {kSize, 1}};
-    const gpu::Sampler nearest(gpu_, {});
-    host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
-      recording_.begin(commands, number, completed);
-      recording_.recorder().upload(depth_, {&all, 1});
-      recording_.recorder().prepare_for_draws({gpu::sampled(depth_, nearest)});  // into its layout
-      recording_.end();
-      host_.wait_for_compute(commands);
-    });
+    upload_depths(reverse);
     return draw_smoke({depth_.view(), VK_IMAGE_LAYOUT_GENERAL, false});
   }
   template <typename Choose>

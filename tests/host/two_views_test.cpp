@@ -39,9 +39,7 @@ class TwoViewsTest : public YardTest {
 
 // From the second frame on: the first one draws shadow maps.
 TEST_F(TwoViewsTest, DepthIsImportedWithoutAWaitForPictures) {
-  make({40, 16, 28}, 0.25f);
-  smoke(1, {6, 1, 3.5f}, 3000, 2000);
-  advance(160);
+  make_smoky();
   std::array<gpu::Image, 2> pictures;
   for (gpu::Image& picture : pictures)
     picture = gpu::Image(gpu_, {.format = VK_FORMAT_R16G16B16A16_SFLOAT,

@@ -163,6 +163,34 @@ class YardTest : public testing::Test {
                                         VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     ASSERT_OK(brume_renderer_resize(renderer_, size.x, size.y));
   }
+  /// A yard of 10 x 4 x 7 m, mostly in smoke.
+  void make_smoky(std::uint32_t march_scale = 1) {
+    make({40, 16, 28}, 0.25f, march_scale);
+    smoke(1, {6, 1, 3.5f}, 3000, 2000);
+    advance(160);
+  }
+  /// The same, 10 ticks after a shot.
+  void make_shot() {
+    make({40, 16, 28}, 0.25f);
+    smoke(1, {6, 1, 3.5f}, 3000, 2000);
+    brume_event shot = brume_event_defaults(BRUME_EVENT_SHOT, 150);
+    shot.u.shot.origin = position_of(sim::position_from_metres({1, 1.5, 3}));
+    shot.u.shot.toward = position_of(sim::position_from_metres({9, 1.2, 3.6}));
+    append(shot);
+    advance(160);
+  }
+  /// The host's depth, one for each pixel, which frames may then sample.
+  void upload_depths(const std::vector<float>& depths) {
+    const gpu::Recorder::Region all{std::as_bytes(std::span(depths)), {}, depth_.info().size};
+    const gpu::Sampler nearest(gpu_, {});
+    host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
+      recording_.begin(commands, number, completed);
+      recording_.recorder().upload(depth_, {&all, 1});
+      recording_.recorder().prepare_for_draws({gpu::sampled(depth_, nearest)});  // into its layout
+      recording_.end();
+      host_.wait_for_compute(commands);
+    });
+  }
   void append(const brume_event& event) { ASSERT_OK(brume_world_append(world_, &event, 1)); }
   void smoke(std::uint32_t tick, glm::vec3 at, std::uint32_t voxels, std::uint32_t hold) {
     brume_event event = brume_event_defaults(BRUME_EVENT_SMOKE, tick);
