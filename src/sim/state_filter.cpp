@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 #include <vector>
 
 #include "sim/walk.hpp"
@@ -9,17 +10,34 @@
 namespace brume::sim {
 namespace {
 
+bool meets(const VoxelBlock& block, const Box<int>& box) {
+  const glm::ivec3 low = glm::ivec3(block.at) * kBlockSize;
+  const Box<int> all{low, low + kBlockSize};
+  if (intersection(all, box).empty()) return false;
+  if (box.contains(all)) return true;
+  for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1)
+    if (box.contains(voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits)))) return true;
+  return false;
+}
+
+/// Whether a voxel of the set is in the box. Visits rows of blocks in it, or all where those are fewer.
 bool meets(const BlockSet& set, const Box<int>& box) {
-  if (set.empty() || intersection({set.low(), set.high() + 1}, box).empty()) return false;
-  return std::ranges::any_of(set.blocks(), [&](const VoxelBlock& block) {
-    const glm::ivec3 low = glm::ivec3(block.at) * kBlockSize;
-    const Box<int> all{low, low + kBlockSize};
-    if (intersection(all, box).empty()) return false;
-    if (box.contains(all)) return true;
-    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1)
-      if (box.contains(voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits)))) return true;
-    return false;
-  });
+  const Box<int> common = intersection({set.low(), set.high() + 1}, box);
+  if (set.empty() || common.empty()) return false;
+  const glm::ivec3 low = common.low >> 2, high = (common.high - 1) >> 2;
+  const std::span<const VoxelBlock> blocks = set.blocks();
+  if (std::int64_t{high.z - low.z + 1} * (high.y - low.y + 1) > std::ssize(blocks))
+    return std::ranges::any_of(blocks, [&](const VoxelBlock& block) { return meets(block, box); });
+  const auto key = [](glm::ivec3 at) { return std::tuple(at.z, at.y, at.x); };
+  auto block = blocks.begin();
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y) {
+      block = std::ranges::lower_bound(block, blocks.end(), key({low.x, y, z}), {},
+                                       [&](const VoxelBlock& one) { return key(glm::ivec3(one.at)); });
+      for (; block != blocks.end() && key(glm::ivec3(block->at)) <= key({high.x, y, z}); ++block)
+        if (meets(*block, box)) return true;
+    }
+  return false;
 }
 
 /// Whether items of a state reach a box of voxels.
