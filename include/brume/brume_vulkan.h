@@ -51,7 +51,7 @@
 // Frames      You number your frames, with numbers that never fall, and report the last frame of which the
 //             device has completed all commands. Any number of frames may be in flight. The library destroys
 //             resources of a frame after that frame has completed.
-// Failures    After an error of brume_renderer_record nothing was added to the command buffer. Unless
+// Failures    After an error of a frame nothing was added to the command buffer. Unless
 //             arguments were wrong, the images of the last frame are gone, and the next one uploads
 //             everything again.
 // Positions   Coordinates are within +-16384 m.
@@ -463,16 +463,16 @@ static inline brume_frame_params brume_frame_defaults(void) {
 /// Compiles all pipelines that frames like `frame` need in renderers like `renderer`: at all march scales and
 /// qualities, with smoke and without, with decals, shadows on surfaces and multisampled depth. `renderer`
 /// counts by its lights and flags; null: the defaults. `frame` counts by its `picture.format`
-/// (VK_FORMAT_UNDEFINED: no picture), `parallel`, and the volumes and tanks that its camera sees: place it so
-/// that it sees all. Frames may then show all of its volumes, one of them, or none; others that are shown
-/// together may need more pipelines. Its `commands`, numbers and image views are ignored; null: a frame of
-/// smoke without a picture.
+/// (VK_FORMAT_UNDEFINED: no picture), `parallel`, `bounces`, and the volumes and tanks that its camera sees:
+/// place it so that it sees all. Frames may then see all of its volumes, one of them, or none; others that
+/// are seen together may need more pipelines. Its `commands`, numbers and image views are ignored; null: a
+/// frame of smoke without a picture.
 ///
 /// The call records nothing and may run in another thread, while renderers of the device are created and
 /// record: they wait at most for a pipeline that they need and that is being compiled. It takes seconds where
 /// drivers have no pipelines cached, and meanwhile some MB of device memory and as much as the volumes and
 /// tanks need, which no limit of memory counts; your memory functions may be called by both threads at once.
-/// Errors: as brume_renderer_create and brume_renderer_record, for what counts.
+/// Errors: as brume_renderer_create and brume_renderer_record.
 BRUME_API brume_result brume_device_compile(brume_device* device, const brume_renderer_params* renderer,
                                             const brume_frame_params* frame) BRUME_NOEXCEPT;
 
@@ -488,9 +488,10 @@ BRUME_API brume_result brume_renderer_record(brume_renderer* renderer, const bru
 
 /// Records up to BRUME_MAX_VIEWS views of one frame, each as brume_renderer_record does, in their order. They
 /// have different `view`s, and the same `commands`, `frame_number` and `completed_frame`. All are recorded,
-/// or none: where one fails, be it for want of memory, no view of the frame has smoke, and the next frame
-/// computes all light again. The images that the renderer returns show the last view, and so does
-/// brume_renderer_coarseness. Errors: as brume_renderer_record; BRUME_ERROR_ARGUMENT names the view.
+/// or none: where one fails, be it for want of memory, no view of the frame has smoke; the next frame may
+/// have to compute all light again, and accumulation starts over. The images that the renderer returns show
+/// the last view, and so does brume_renderer_coarseness. Errors: as brume_renderer_record;
+/// BRUME_ERROR_ARGUMENT names the view.
 BRUME_API brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_field* field,
                                                    const brume_frame_params* const* views,
                                                    size_t view_count) BRUME_NOEXCEPT;

@@ -209,10 +209,12 @@ void Context::begin_frame(std::uint64_t frame, std::uint64_t completed) {
   BRUME_ASSERT(!owns_device() && frame >= frame_ && completed < frame && completed >= completed_,
                std::to_string(frame) + ", " + std::to_string(completed));
   const std::scoped_lock lock(retired_mutex_);
-  if (is_deferred_)
+  // Until the number rises: other renderers may draw the same frame.
+  if (is_deferred_ && frame > frame_) {
     for (RetiredFrame& retired : retired_)
       if (retired.frame == frame_) retired.frame = frame;
-  is_deferred_ = false;
+    is_deferred_ = false;
+  }
   frame_ = frame;
   completed_ = completed;
   const auto end =

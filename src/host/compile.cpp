@@ -22,7 +22,11 @@ glm::vec3 middle_of_view(const planning::View& view) {
   const float ahead = 2, scale = view.projection == planning::Projection::parallel ? 1 : ahead;
   const float across = scale / 2 * (frustum.left + frustum.right),
               up = scale / 2 * (frustum.down + frustum.up);
-  return camera.position_world + ahead * forward + across * right + up * glm::cross(right, forward);
+  // With room for a smoke within the world.
+  const glm::vec3 room(16384 - 8);
+  return glm::clamp(
+      camera.position_world + ahead * forward + across * right + up * glm::cross(right, forward), -room,
+      room);
 }
 
 /// A smoke in the open around a point.
@@ -42,15 +46,12 @@ std::unique_ptr<const api::SmokeField> smoke_around(glm::vec3 middle) {
   return field;
 }
 
-/// The volumes of a frame that others may show together: none, each file's alone, and all.
-std::vector<std::vector<brume_shown_volume>> shown_together(const brume_frame_params& frame) {
+/// The volumes of a frame that others may see together: none, each alone, and all.
+std::vector<std::span<const brume_shown_volume>> seen_together(const brume_frame_params& frame) {
   const std::span<const brume_shown_volume> all(frame.volumes, frame.volume_count);
-  std::vector<std::vector<brume_shown_volume>> sets(1);
-  for (const brume_shown_volume& one : all) {
-    const auto is_same = [&](const auto& set) { return !set.empty() && set[0].volume == one.volume; };
-    if (std::ranges::none_of(sets, is_same)) sets.push_back({one});
-  }
-  if (all.size() > 1) sets.emplace_back(all.begin(), all.end());
+  std::vector<std::span<const brume_shown_volume>> sets(1);
+  for (std::size_t i = 0; i < all.size(); ++i) sets.push_back(all.subspan(i, 1));
+  if (all.size() > 1) sets.push_back(all);
   return sets;
 }
 
@@ -64,7 +65,7 @@ Shown shown(api::Call& call, const brume_frame_params& frame, const api::SmokeFi
   set_frame_input(frame, smoke, made.input);
   made.volumes = add_volumes(call, frame, made.input);
   add_tanks(call, frame, made.input);
-  made.input.view.size_px = {};
+  made.input.view.size_px = {};  // all of a renderer that may be smaller than the part
   return made;
 }
 
@@ -72,14 +73,17 @@ Shown shown(api::Call& call, const brume_frame_params& frame, const api::SmokeFi
 
 void compile(api::Call& call, DeviceData& device, const brume_renderer_params& renderer_params,
              const brume_frame_params& frame) {
-  // All that may be wrong, before any work.
+  // What may be wrong, before any work.
   const VkFormat format = frame.picture.format;
   api::require(format == VK_FORMAT_UNDEFINED || can_blend(device.context, format),
                "`picture.format` must be one that the device can blend");
+  brume_frame_params like = frame;
+  like.picture.view = VK_NULL_HANDLE;
   render::RendererOptions options = renderer_options(renderer_params);
   scene::Scene scene;
   scene.lights = scene_lights(renderer_params.lights, renderer_params.light_count);
-  const auto smoke = smoke_around(middle_of_view(shown(call, frame, nullptr).input.view));
+  const auto smoke = smoke_around(middle_of_view(shown(call, like, nullptr).input.view));
+  (void)shown(call, like, smoke.get());
 
   // A renderer of a small size in the proportions of the host's.
   options.size_px = glm::max(options.size_px / 16u, glm::uvec2(1));
@@ -90,9 +94,8 @@ void compile(api::Call& call, DeviceData& device, const brume_renderer_params& r
   renderer.reserve_over(
       {.decals = true, .shadows = true, .tanks = frame.tank_count > 0, .samples = true, .picture = format});
 
-  // What frames show, without and with smoke.
-  brume_frame_params like = frame;
-  for (const std::vector<brume_shown_volume>& volumes : shown_together(frame)) {
+  // What frames see, without and with smoke.
+  for (const std::span<const brume_shown_volume> volumes : seen_together(frame)) {
     like.volumes = volumes.data();
     like.volume_count = volumes.size();
     for (const api::SmokeField* field : {static_cast<const api::SmokeField*>(nullptr), smoke.get()}) {

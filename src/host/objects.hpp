@@ -96,6 +96,11 @@ struct brume_renderer : brume::api::Handle {
                  std::shared_ptr<const brume::smoke::MaskAtlas> mask_atlas,
                  const brume::render::RendererOptions& renderer_options, bool timed);
   ~brume_renderer();
+  /// What frames have left is gone; the next one makes the renderer again.
+  void drop() {
+    renderer.reset();
+    has_frame = false;
+  }
 
   std::shared_ptr<brume::host::DeviceData> device;
   brume::scene::Scene scene;

@@ -79,7 +79,7 @@ void reserve(brume_renderer& renderer, const brume_frame_params& params) {
     if (renderer.renderer && renderer.change == brume_renderer::Change::triangles)
       renderer.renderer->set_scene(renderer.scene);
   } catch (...) {
-    renderer.renderer.reset();  // some of it has the lights and triangles before
+    renderer.drop();  // some of it has the lights and triangles before
     throw;
   }
   if (!renderer.renderer)
@@ -179,16 +179,15 @@ void check_views(Call& call, brume_renderer& renderer, const brume_field* field,
 void discard(brume_renderer& renderer) {
   const bool has_several = renderer.recording.has_several_views();
   renderer.recording.discard();
-  if (has_several) renderer.renderer.reset();  // earlier views count as drawn in it
-  renderer.input.slices.reset();               // with spare decals, which may not fit
+  if (has_several) renderer.drop();  // earlier views count as drawn in it
+  renderer.input.slices.reset();     // with spare decals, which may not fit
   renderer.sliced.clear();
 }
 
 void record(Call& call, brume_renderer& renderer, const brume_field* field,
             std::span<const brume_frame_params> views) {
-  if (views.size() > 1) check_views(call, renderer, field, views);
   CheckedView view = checked_view(call, renderer, field, views[0]);
-  // Taken even where the frame fails: the next one has a higher number.
+  // Taken even where the frame fails.
   renderer.device->frame = views[0].frame_number;
   renderer.device->completed = views[0].completed_frame;
   renderer.has_frame = false;
@@ -220,7 +219,7 @@ struct ImageOut {
   VkImage* image;
   VkImageView* view;
 };
-/// Writes the image that `find` finds in a renderer after its first frame began; where it is null, fails.
+/// Writes the image that `find` finds in a renderer whose last frame was recorded; where it is null, fails.
 template <typename Find>
 brume_result write_image(const char* function, const brume_renderer* renderer, const ImageOut& out,
                          const char* missing, Find find) {
@@ -265,7 +264,7 @@ brume_result brume_renderer_resize(brume_renderer* renderer, uint32_t width, uin
     try {
       if (object.renderer) object.renderer->resize(size_px);
     } catch (...) {
-      object.renderer.reset();  // some of it has the size before
+      object.drop();  // some of it has the size before
       throw;
     }
   });
@@ -281,7 +280,7 @@ brume_result brume_renderer_set_march_scale(brume_renderer* renderer, uint32_t m
     try {
       if (object.renderer) object.renderer->set_march_scale(scale);
     } catch (...) {
-      object.renderer.reset();
+      object.drop();
       throw;
     }
   });
@@ -333,10 +332,16 @@ brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_f
     require(view_count >= 1 && view_count <= BRUME_MAX_VIEWS, "`view_count` must be from 1 to 4");
     const brume_frame_params* const* given = &required(views, "views");
     std::array<brume_frame_params, BRUME_MAX_VIEWS> frames;
-    for (std::size_t i = 0; i < view_count; ++i)
+    for (std::size_t i = 0; i < view_count; ++i) {
+      if (!given[i]) refuse("`views[" + std::to_string(i) + "]` is null");
       brume::host::of_view(i, [&] { frames[i] = required_params(given[i], brume_frame_defaults()); });
+    }
     const std::scoped_lock lock(object.mutex, object.device->mutex);
-    const auto record = [&] { brume::host::record(call, object, from, {frames.data(), view_count}); };
+    const auto record = [&] {
+      const std::span<const brume_frame_params> all(frames.data(), view_count);
+      brume::host::check_views(call, object, from, all);
+      brume::host::record(call, object, from, all);
+    };
     from ? call.read(*from, record) : record();
   });
 }

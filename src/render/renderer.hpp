@@ -109,8 +109,6 @@ class Renderer {
   /// those surfaces, and what the host asks for: shadows, and the layers over its picture.
   void record_over(gpu::Recorder& recorder, const FramePlan& plan, const HostFrame& host);
 
-  /// Whether a frame was recorded.
-  bool has_frame() const { return recorded_.get(context_).plan > 0; }
   const Targets& targets() const { return targets_; }
   /// FrameConstants of the last frame.
   const gpu::Buffer& frame() const { return frame_; }

@@ -412,15 +412,17 @@ void SurfacePlanes::build_index() {
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   index_.assign(std::bit_ceil(2 * found.size() + 1), 0);
+  bricks_.reserve(found.size());
   for (const std::uint64_t key : found) add_to_index(key);
 
   // Their cells, then the places of these. Within a brick keys rise as cells do.
-  const auto number = [&](std::size_t i) {
-    return static_cast<std::size_t>(find_brick(brick_key(above(i))) - bricks_.data());
+  const auto number = [&](ivec3 cell_above) {
+    return static_cast<std::size_t>(find_brick(brick_key(cell_above)) - bricks_.data());
   };
-  for (std::size_t i = 0; i < keys_.size(); ++i)
-    bricks_[number(i)].cells[static_cast<std::size_t>(above(i).z & 7)] |= std::uint64_t{1}
-                                                                          << bit_of(above(i));
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const ivec3 at = above(i);
+    bricks_[number(at)].cells[static_cast<std::size_t>(at.z & 7)] |= std::uint64_t{1} << bit_of(at);
+  }
   std::uint32_t count = 0;
   for (Brick& brick : bricks_) {
     brick.first = count;
@@ -432,7 +434,7 @@ void SurfacePlanes::build_index() {
   order_.resize(keys_.size());
   std::vector<std::uint32_t> placed(bricks_.size(), 0);
   for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-    const std::size_t brick = number(i);
+    const std::size_t brick = number(above(i));
     order_[bricks_[brick].first + placed[brick]++] = i;
   }
 }

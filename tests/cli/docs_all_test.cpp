@@ -71,12 +71,15 @@ TEST_F(Documents, PicturesOfTanksRender) {
     const auto [same, is_new] = names.emplace(read_text_file(entry.path()).value_or_throw(), name);
     EXPECT_TRUE(is_new) << name << " equals " << same->second;
   }
+  std::size_t found = 0;
   // The pictures of the page, but for the tanks in a level, which its own command renders.
   for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/docs/images")) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("aquaria_") || name == "aquaria_level.png") continue;
+    ++found;
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "pictures" / name)) << name;
   }
+  EXPECT_EQ(found, names.size());
 }
 
 }  // namespace

@@ -260,5 +260,25 @@ TEST_F(FaultTest, EveryCallMayFailOnceInFramesOfAllMedia) {
   fail_each_call();
 }
 
+TEST_F(FaultTest, NoImageIsLeftWhereAResizeFails) {
+  HostedSmoke smoke(faulty_device(), scenario_, 1);
+  std::uint32_t failures = 0;
+  for (std::uint32_t fails_at = 1;; fails_at += 5) {
+    Faults::fails_at = 0;
+    ASSERT_OK(draw(smoke, 2));
+    Faults::calls = 0;
+    Faults::fails_at = fails_at;
+    if (brume_renderer_resize(smoke.renderer, kFaultSize.x, kFaultSize.y) == BRUME_OK) break;
+    ++failures;
+    VkImage image = VK_NULL_HANDLE;
+    std::uint32_t level = 0;
+    EXPECT_EQ(brume_renderer_smoke(smoke.renderer, &image, nullptr), BRUME_ERROR_ORDER);
+    EXPECT_EQ(brume_renderer_occlusion(smoke.renderer, &image, nullptr), BRUME_ERROR_ORDER);
+    EXPECT_EQ(brume_renderer_coarseness(smoke.renderer, &level, nullptr), BRUME_ERROR_ORDER);
+  }
+  Faults::fails_at = 0;
+  EXPECT_GT(failures, 1u);
+}
+
 }  // namespace
 }  // namespace brume::host

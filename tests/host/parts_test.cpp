@@ -368,7 +368,7 @@ TEST_F(DynamicPartsTest, AViewThatIsWrongLeavesNone) {
     refuse("`view_count` must be from 1 to 4");
     const brume_frame_params* none[] = {&views[0], nullptr};
     expect_refused(brume_renderer_record_views(renderer_, field_, none, 2), BRUME_ERROR_ARGUMENT,
-                   "view 1: `params`");
+                   "`views[1]` is null");
     expect_refused(brume_renderer_record_views(renderer_, field_, nullptr, 2), BRUME_ERROR_ARGUMENT, "views");
   });
   for (const glm::dvec4& pixel : picture()) ASSERT_EQ(pixel, glm::dvec4(0));

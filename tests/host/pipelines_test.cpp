@@ -220,16 +220,19 @@ class CompiledFramesTest : public PipelinesTest {
     ASSERT_OK(compile_ahead(&like));
     const int compiled = Compiled::count;
     EXPECT_GT(compiled, before);
+    // All of its volumes, each alone, and none; in view and behind the camera.
+    std::vector<std::pair<std::size_t, std::size_t>> ranges{{0, like.volume_count}, {0, 0}};
+    for (std::size_t i = 0; like.volume_count > 1 && i < like.volume_count; ++i) ranges.emplace_back(i, 1);
     for (const float ahead : {1.0f, -1.0f})
       for (const brume_field* field : {static_cast<const brume_field*>(field_), (const brume_field*)nullptr})
-        for (std::size_t first = 0; first <= like.volume_count; ++first)
-          draw({1, 2, 1}, {ahead, -0.1f, ahead}, 0.7, [&](brume_frame_params& params) {
+        for (const auto& [first, count] : ranges)
+          draw({1, 2, 1}, {ahead, -0.1f, ahead}, 0.7, [&, first = first, count = count](auto& params) {
             change(params);
             params.volumes += first;
-            params.volume_count -= first;
-            ASSERT_OK(brume_renderer_set_march_scale(renderer_, 1 + first % 2));
+            params.volume_count = count;
+            ASSERT_OK(brume_renderer_set_march_scale(renderer_, count == 1 ? 2 : 1));
             ASSERT_OK(brume_renderer_record(renderer_, field, &params));
-            EXPECT_EQ(Compiled::count, compiled) << "without the first " << first << ", ahead " << ahead;
+            EXPECT_EQ(Compiled::count, compiled) << count << " volumes from " << first << ", ahead " << ahead;
           });
   }
   void show_volumes(brume_frame_params& params, std::size_t count) const {
@@ -243,7 +246,10 @@ class CompiledFramesTest : public PipelinesTest {
 };
 
 TEST_F(CompiledFramesTest, WithVolumesOfWhichOneGlows) {
-  expect_no_more([&](brume_frame_params& params) { show_volumes(params, 2); });
+  expect_no_more([&](brume_frame_params& params) {
+    show_volumes(params, 2);
+    params.bounces = 1;
+  });
 }
 
 TEST_F(CompiledFramesTest, WithAVolumeInAParallelView) {
@@ -272,6 +278,20 @@ TEST_F(CompiledFramesTest, WithATank) {
     frame.tanks = shown.data();
     frame.tank_count = shown.size();
   });
+}
+
+// Nothing is in view there, and the camera may look out of the world.
+TEST_F(PipelinesTest, CompilesWhereverTheCameraIs) {
+  make_yard();
+  for (const float side : {-1.0f, 1.0f})
+    for (const std::uint32_t parallel : {0u, 1u}) {
+      brume_frame_params like = brume_frame_defaults();
+      like.camera.position = {16384 * side, 16384 * side, 0};
+      like.camera.forward = {side, side, 0.1f};
+      like.frustum = {999, 1000, -1, 1};
+      like.parallel = parallel;
+      EXPECT_OK(compile_ahead(&like));
+    }
 }
 
 TEST_F(PipelinesTest, FramesAreDrawnWhileAnotherThreadCompiles) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "core/tasks.hpp"
+#include "tests/voxel/random.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::voxel {
@@ -203,6 +205,44 @@ TEST(SurfacePlanes, IsIndependentOfThreadsAndPartsMerge) {
   auto wrong_planes = all;
   wrong_planes[5].normal.x = std::nanf("");
   EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, keys, counts, wrong_planes));
+}
+
+// Every cell with planes has those of its key, and all others have none.
+TEST(SurfacePlanes, AreFoundInEveryCell) {
+  Random random(7);
+  for (const ivec3 size : {ivec3(1), ivec3(7, 70, 131), ivec3(4096, 1, 4096), ivec3(33, 17, 5)}) {
+    const glm::u64vec3 cells(size + 1);
+    std::set<std::uint64_t> wanted{0, cells.x * cells.y * cells.z - 1};
+    while (wanted.size() < std::min<std::uint64_t>(3000, cells.x * cells.y * cells.z / 2))
+      wanted.insert(random() % (cells.x * cells.y * cells.z));
+    const std::vector<std::uint64_t> keys(wanted.begin(), wanted.end());
+    std::vector<std::uint8_t> counts;
+    std::vector<Plane> planes;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      counts.push_back(static_cast<std::uint8_t>(1 + random() % kMaxPlanes));
+      // Each plane is another one.
+      for (int k = 0; k < counts.back(); ++k)
+        planes.push_back({{0, 1, 0}, static_cast<float>(planes.size()) / 16384});
+    }
+    const auto made = SurfacePlanes::from_parts(size, keys, counts, planes);
+    ASSERT_TRUE(made);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i, first += counts[i - 1]) {
+      const std::uint64_t key = keys[i];
+      const ivec3 cell =
+          ivec3(glm::u64vec3(key % cells.x, key / cells.x % cells.y, key / cells.x / cells.y)) - 1;
+      const std::span<const Plane> found = made->at(cell);
+      ASSERT_EQ(found.size(), counts[i]);
+      EXPECT_EQ(found.data(), made->planes().data() + first);
+      for (const std::uint64_t next : {key + 1, key + cells.x, key + cells.x * cells.y})
+        if (!wanted.contains(next) && next < cells.x * cells.y * cells.z) {
+          const glm::u64vec3 at(next % cells.x, next / cells.x % cells.y, next / cells.x / cells.y);
+          EXPECT_TRUE(made->at(ivec3(at) - 1).empty());
+        }
+    }
+    for (const ivec3 outside : {ivec3(-2, 0, 0), ivec3(0, size.y, 0), ivec3(0, 0, size.z + 7)})
+      EXPECT_TRUE(made->at(outside).empty());
+  }
 }
 
 }  // namespace
