@@ -2,78 +2,15 @@
 // buffers.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "tests/host/host_image.hpp"
 #include "tests/host/hosted_pair.hpp"
 #include "tests/host/yard.hpp"
 
 namespace brume::host {
 namespace {
-
-/// An image of a host, of which Brume sees the view alone.
-class HostImage {
- public:
-  HostImage(gpu::Context& gpu, VkFormat format, VkImageAspectFlags aspects, VkImageUsageFlags usage)
-      : gpu_(gpu), aspects_(aspects) {
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format;
-    info.extent = {kSize.x, kSize.y, 1};
-    info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = usage;
-    gpu::check(gpu.vk().CreateImage(gpu.device(), &info, nullptr, &handle_), "vkCreateImage");
-    VkMemoryRequirements needs;
-    gpu.vk().GetImageMemoryRequirements(gpu.device(), handle_, &needs);
-    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
-                                    static_cast<std::uint32_t>(std::countr_zero(needs.memoryTypeBits))};
-    gpu::check(gpu.vk().AllocateMemory(gpu.device(), &allocation, nullptr, &memory_), "vkAllocateMemory");
-    gpu::check(gpu.vk().BindImageMemory(gpu.device(), handle_, memory_, 0), "vkBindImageMemory");
-    VkImageViewCreateInfo view{};
-    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view.image = handle_;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = format;
-    view.subresourceRange = {aspects & ~static_cast<VkImageAspectFlags>(VK_IMAGE_ASPECT_STENCIL_BIT), 0, 1, 0,
-                             1};
-    gpu::check(gpu.vk().CreateImageView(gpu.device(), &view, nullptr, &view_), "vkCreateImageView");
-  }
-  ~HostImage() {
-    gpu_.vk().DestroyImageView(gpu_.device(), view_, nullptr);
-    gpu_.vk().DestroyImage(gpu_.device(), handle_, nullptr);
-    gpu_.vk().FreeMemory(gpu_.device(), memory_, nullptr);
-  }
-  HostImage(const HostImage&) = delete;
-  HostImage& operator=(const HostImage&) = delete;
-
-  VkImage handle() const { return handle_; }
-  VkImageView view() const { return view_; }
-  /// After and before everything.
-  void transition(VkCommandBuffer commands, VkImageLayout from, VkImageLayout to) const {
-    VkImageMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.image = handle_;
-    barrier.subresourceRange = {aspects_, 0, 1, 0, 1};
-    const VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, barrier.srcAccessMask,
-                              barrier.dstAccessMask};
-    gpu_.vk().CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                                 VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &all, 0, nullptr, 1, &barrier);
-  }
-
- private:
-  gpu::Context& gpu_;
-  VkImageAspectFlags aspects_;
-  VkImage handle_ = VK_NULL_HANDLE;
-  VkDeviceMemory memory_ = VK_NULL_HANDLE;
-  VkImageView view_ = VK_NULL_HANDLE;
-};
 
 constexpr VkImageAspectFlags kDepth = VK_IMAGE_ASPECT_DEPTH_BIT,
                              kDepthStencil = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT,
