@@ -32,11 +32,25 @@ class HeapTest : public YardTest {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
   }
 
-  /// After two cycles of the camera the third allocates nothing.
+  brume_result record(const brume_frame_params& params) {
+    if (views_ == 1) return brume_renderer_record(renderer_, field_, &params);
+    std::array<brume_frame_params, BRUME_MAX_VIEWS> views;
+    std::array<const brume_frame_params*, BRUME_MAX_VIEWS> pointers{};
+    for (std::uint32_t i = 0; i < views_; ++i) {
+      views[i] = params;
+      views[i].view = i;
+      views[i].camera.position.x += 0.1f * static_cast<float>(i);
+      pointers[i] = &views[i];
+    }
+    return brume_renderer_record_views(renderer_, field_, pointers.data(), views_);
+  }
+  /// After two cycles of the camera for each view the next one allocates nothing: by then every view has had
+  /// the memory of all frames in flight.
   void expect_steady(std::uint32_t first_tick, const std::function<void(brume_frame_params&)>& add) {
     int allocations = 0, of_device = 0;
     std::vector<double> milliseconds;
-    for (int i = 0; i < 3 * kCycle; ++i) {
+    const int first = 2 * static_cast<int>(views_) * kCycle;
+    for (int i = 0; i < first + kCycle; ++i) {
       const std::uint32_t tick = first_tick + static_cast<std::uint32_t>(i / 4);
       advance(tick);
       const float turn = 0.02f * static_cast<float>(std::abs(i % kCycle - kCycle / 2));
@@ -47,27 +61,36 @@ class HeapTest : public YardTest {
              Heap::allocations = 0;
              Heap::counts = true;
              const double begin = thread_milliseconds();
-             const brume_result result = brume_renderer_record(renderer_, field_, &params);
+             const brume_result result = record(params);
              Heap::counts = false;
              milliseconds.push_back(thread_milliseconds() - begin);
              EXPECT_OK(result);
-             if (i < 2 * kCycle) return;
+             if (i < first) return;
              allocations += Heap::allocations;
              of_device += memory_.allocations - before;
            });
       ASSERT_FALSE(HasFailure());
     }
-    const auto third = milliseconds.end() - kCycle;
-    std::nth_element(third, third + kCycle / 2, milliseconds.end());
-    std::printf("%.3f ms of processor time to record a frame\n", third[kCycle / 2]);
+    const auto last = milliseconds.end() - kCycle;
+    std::nth_element(last, last + kCycle / 2, milliseconds.end());
+    std::printf("%.3f ms of processor time to record a frame\n", last[kCycle / 2]);
     EXPECT_EQ(allocations, 0);
     EXPECT_EQ(of_device, 0);
   }
+
+  std::uint32_t views_ = 1;  ///< Of a frame.
 };
 
 TEST_F(HeapTest, SteadyFramesOfOneSmoke) {
   make({48, 20, 48}, 0.25f);
   smoke(1, {4, 0.6f, 5}, 2500, 6400);
+  expect_steady(300, [](brume_frame_params&) {});
+}
+
+TEST_F(HeapTest, SteadyFramesOfSeveralViews) {
+  make({48, 20, 48}, 0.25f);
+  smoke(1, {4, 0.6f, 5}, 2500, 6400);
+  views_ = 3;
   expect_steady(300, [](brume_frame_params&) {});
 }
 
