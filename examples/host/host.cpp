@@ -112,6 +112,8 @@ class Host {
   void make_pipeline();
   void make_readback();
   void make_frame(Frame& frame) const;
+  /// Where a player's part of the screen begins [px], also for the one beyond the last.
+  std::uint32_t column_of(std::uint32_t player) const { return options_.width * player / options_.players; }
   std::vector<View> views_at(std::uint64_t frame, double seconds) const;
   void draw_boxes(VkCommandBuffer commands, const std::vector<View>& views, Jitter jitter) const;
   void show(VkCommandBuffer commands, const Image& picture, VkImageLayout layout, Use last,
@@ -246,10 +248,10 @@ std::vector<View> Host::views_at(std::uint64_t frame, double seconds) const {
   const auto scaled = [&](std::uint32_t px) {
     return std::max(static_cast<std::uint32_t>(scale * px + 0.5), 1u);
   };
-  const std::uint32_t across = options_.width / options_.players;
   std::vector<View> views;
   for (std::uint32_t i = 0; i < options_.players; ++i)
-    views.push_back({camera_at(seconds, i), i * across, 0, scaled(across), scaled(options_.height)});
+    views.push_back({camera_at(seconds, i), column_of(i), 0, scaled(column_of(i + 1) - column_of(i)),
+                     scaled(options_.height)});
   return views;
 }
 
@@ -260,8 +262,8 @@ void Host::show(VkCommandBuffer commands, const Image& picture, VkImageLayout la
   // The frame before has copied what it showed.
   gpu_.transition(commands, shown_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                   {kCopyReads.stages, 0}, kBlitWrites);
-  const std::uint32_t across = options_.width / options_.players;
-  for (const View& view : views) {
+  for (std::uint32_t i = 0; i < views.size(); ++i) {
+    const View& view = views[i];
     const auto corner = [](std::uint32_t x, std::uint32_t y, std::int32_t z) {
       return VkOffset3D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), z};
     };
@@ -269,7 +271,7 @@ void Host::show(VkCommandBuffer commands, const Image& picture, VkImageLayout la
     blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     blit.srcOffsets[0] = blit.dstOffsets[0] = corner(view.x, view.y, 0);
     blit.srcOffsets[1] = corner(view.x + view.width, view.y + view.height, 1);
-    blit.dstOffsets[1] = corner(view.x + across, options_.height, 1);
+    blit.dstOffsets[1] = corner(column_of(i + 1), options_.height, 1);
     vkCmdBlitImage(commands, picture.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, shown_.handle,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
   }
