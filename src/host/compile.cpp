@@ -22,8 +22,8 @@ glm::vec3 middle_of_view(const planning::View& view) {
   const float ahead = 2, scale = view.projection == planning::Projection::parallel ? 1 : ahead;
   const float across = scale / 2 * (frustum.left + frustum.right),
               up = scale / 2 * (frustum.down + frustum.up);
-  // With room for a smoke within the world.
-  const glm::vec3 room(16384 - 8);
+  // The smoke's grid reaches 3 m farther, and lies within the world.
+  const glm::vec3 room(kMostMetres - 8);
   return glm::clamp(
       camera.position_world + ahead * forward + across * right + up * glm::cross(right, forward), -room,
       room);

@@ -13,7 +13,6 @@ using api::refuse;
 using api::require;
 
 constexpr std::size_t kMostLights = 1024;
-constexpr float kMostMetres = 16384;
 /// Bricks of smoke to begin with, 8 x 8 x 8 voxels each: 16 MiB in all images.
 constexpr std::uint32_t kReservedBricks = 512;
 

@@ -33,6 +33,7 @@ inline constexpr std::array kEarlierSizes<brume_frame_params>{
 namespace brume::host {
 
 constexpr std::uint32_t kMostPixels = 16384;  ///< Along each side of a picture.
+constexpr float kMostMetres = 16384;          ///< From the world's origin, along each axis.
 
 /// False for what is not a number.
 bool is_within(float value, float low, float high);

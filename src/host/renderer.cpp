@@ -169,7 +169,7 @@ void check_views(Call& call, brume_renderer& renderer, const brume_field* field,
       require((seen >> views[i].view & 1) == 0, "an earlier one has the same `view`");
       require(views[i].commands == views[0].commands && views[i].frame_number == views[0].frame_number &&
                   views[i].completed_frame == views[0].completed_frame,
-              "`commands`, `frame_number` and `completed_frame` must be those of the first one");
+              "`commands`, `frame_number` and `completed_frame` must be the same in all views");
     });
     seen |= 1u << views[i].view;
   }

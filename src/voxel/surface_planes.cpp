@@ -415,7 +415,7 @@ void SurfacePlanes::build_index() {
   bricks_.reserve(found.size());
   for (const std::uint64_t key : found) add_to_index(key);
 
-  // Their cells, then the places of these. Within a brick keys rise as cells do.
+  // The cells of each brick, then their places: keys are sorted as the cells within a brick are.
   const auto number = [&](ivec3 cell_above) {
     return static_cast<std::size_t>(find_brick(brick_key(cell_above)) - bricks_.data());
   };

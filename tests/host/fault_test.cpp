@@ -237,8 +237,8 @@ void FaultTest::fail_each_call() {
         ++failures;
         EXPECT_TRUE(result == BRUME_ERROR_LIMIT || result == BRUME_ERROR_DEVICE) << brume_last_error();
       }
-    // A frame that failed costs at most its own calls again, not those of the renderer; but of several views
-    // all.
+    // A failed frame costs at most its own calls again, not the renderer's. A failed frame of several views
+    // makes the renderer again.
     if (fails_at > calls_of_first) {
       EXPECT_LE(Faults::calls, tank_ ? 2 * calls : calls + (calls - calls_of_first));
     }

@@ -50,7 +50,7 @@ class HostileFrames : public api::Hostile {
   brume_normals normals();
   brume_shown_tank shown_tank();
   void spoil(brume_frame_params& params);
-  /// Of the next frame.
+  /// Parameters of the next frame, some of them spoiled.
   brume_frame_params frame_params();
 
   gpu::HostApplication host_{1};

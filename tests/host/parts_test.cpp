@@ -76,20 +76,25 @@ class PartsTest : public YardTest {
     brume_rectangle part;
     brume_frustum frustum;
   };
+  brume_frame_params params_of(VkCommandBuffer commands, std::uint64_t number,
+                               std::uint64_t completed) const {
+    brume_frame_params params = brume_frame_defaults();
+    params.commands = commands;
+    params.frame_number = number;
+    params.completed_frame = completed;
+    params.camera = camera_;
+    params.depth.view = depth_.view();
+    params.depth.layout = depth_.last_use.get(gpu_).layout;
+    params.depth.reversed = 1;
+    params.depth.far_plane = INFINITY;
+    params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+    params.seconds = 160 / 64.0;
+    return params;
+  }
   /// Draws a frame of several parts.
   void draw_parts(const std::vector<Part>& parts, std::uint32_t jitter) {
     host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
-      brume_frame_params params = brume_frame_defaults();
-      params.commands = commands;
-      params.frame_number = number;
-      params.completed_frame = completed;
-      params.camera = camera_;
-      params.depth.view = depth_.view();
-      params.depth.layout = depth_.last_use.get(gpu_).layout;
-      params.depth.reversed = 1;
-      params.depth.far_plane = INFINITY;
-      params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
-      params.seconds = 160 / 64.0;
+      brume_frame_params params = params_of(commands, number, completed);
       params.jitter_index = jitter;
       params.continues_previous = continues_ ? 1 : 0;
       std::vector<brume_frame_params> views;
@@ -342,14 +347,7 @@ TEST_F(DynamicPartsTest, AViewThatIsWrongLeavesNone) {
   draw_part({}, kWide);
   (void)picture();
   host_.frame([&](VkCommandBuffer commands, std::uint64_t number, std::uint64_t completed) {
-    brume_frame_params params = brume_frame_defaults();
-    params.commands = commands;
-    params.frame_number = number;
-    params.completed_frame = completed;
-    params.camera = camera_;
-    params.depth.view = depth_.view();
-    params.depth.layout = depth_.last_use.get(gpu_).layout;
-    params.picture = {picture_.view(), VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+    const brume_frame_params params = params_of(commands, number, completed);
     std::vector<brume_frame_params> views(2, params);
     const auto refuse = [&](const char* words) {
       expect_refused(record_views(views), BRUME_ERROR_ARGUMENT, words);

@@ -207,7 +207,7 @@ TEST(SurfacePlanes, IsIndependentOfThreadsAndPartsMerge) {
   EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, keys, counts, wrong_planes));
 }
 
-// Every cell with planes has those of its key, and all others have none.
+// Each key's planes are found in its cell, and no planes in the cells beside it.
 TEST(SurfacePlanes, AreFoundInEveryCell) {
   Random random(7);
   for (const ivec3 size : {ivec3(1), ivec3(7, 70, 131), ivec3(4096, 1, 4096), ivec3(33, 17, 5)}) {
