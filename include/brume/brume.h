@@ -59,8 +59,8 @@
 //            run in their own floating-point environment: the caller's rounding mode, flushed denormals and
 //            traps have no effect on results.
 // Structs    Parameter structs begin with `struct_size` = sizeof(the struct) and `next` = NULL. Take their
-//            defaults from the *_defaults functions. The size of other structs never changes, nor does the
-//            size of brume_event.
+//            defaults from the *_defaults functions; bindings to other languages call the *_init functions
+//            behind them. The size of other structs never changes, nor does the size of brume_event.
 // Growth     Later versions may add members at the end of a parameter struct, where 0 selects the behaviour
 //            without the member. A shorter struct of an earlier header works: members that it lacks have
 //            their defaults. A longer struct of a later header works as long as every member that this
@@ -84,16 +84,10 @@
 
 #ifdef __cplusplus
 #define BRUME_NOEXCEPT noexcept
-// clang-format off
-#define BRUME_ZERO {}
-// clang-format on
 #define BRUME_CAST(type, value) static_cast<type>(value)
 extern "C" {
 #else
 #define BRUME_NOEXCEPT
-// clang-format off
-#define BRUME_ZERO {0}
-// clang-format on
 #define BRUME_CAST(type, value) ((type)(value))
 #endif
 
@@ -181,10 +175,13 @@ typedef struct brume_context_params {
   void* jobs_user;  ///< Passed to `run_jobs`.
 } brume_context_params;
 
+/// Writes what brume_context_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_context_params_init(brume_context_params* params,
+                                                 uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: one thread per core, no callbacks.
 static inline brume_context_params brume_context_defaults(void) {
-  brume_context_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_context_params);
+  brume_context_params params;
+  brume_context_params_init(&params, sizeof params);
   return params;
 }
 
@@ -240,11 +237,13 @@ typedef struct brume_voxels_params {
   const uint8_t* grille_bits;
 } brume_voxels_params;
 
+/// Writes what brume_voxels_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_voxels_params_init(brume_voxels_params* params,
+                                                uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: voxels of 0.5 m, origin 0. Set `layout.size`, `bits` and `byte_count`.
 static inline brume_voxels_params brume_voxels_defaults(void) {
-  brume_voxels_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_voxels_params);
-  params.layout.voxel_size = 0.5f;
+  brume_voxels_params params;
+  brume_voxels_params_init(&params, sizeof params);
   return params;
 }
 
@@ -266,13 +265,14 @@ typedef struct brume_triangles_params {
   const uint8_t* roles;
 } brume_triangles_params;
 
+/// Writes what brume_triangles_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_triangles_params_init(brume_triangles_params* params,
+                                                   uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: voxels of 0.5 m, a layout around all triangles with a margin of 2 voxels. Set the
 /// points and the indices.
 static inline brume_triangles_params brume_triangles_defaults(void) {
-  brume_triangles_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_triangles_params);
-  params.layout.voxel_size = 0.5f;
-  params.margin = 2;
+  brume_triangles_params params;
+  brume_triangles_params_init(&params, sizeof params);
   return params;
 }
 
@@ -473,33 +473,14 @@ typedef struct brume_event {
   } u;  ///< The contents of the event, by its kind.
 } brume_event;
 
+/// Writes what brume_event_defaults returns: for other languages.
+BRUME_API brume_result brume_event_init(brume_event* event, uint32_t kind, uint32_t tick) BRUME_NOEXCEPT;
 /// Returns an event of a kind (brume_event_kind) at a tick with the defaults of that kind. All positions are
 /// 0: set them. A smoke fills 225 m^3 where voxels have edges of 0.5 m, blooms for 1 s, holds for 18 s and
 /// dissolves for 3 s at 64 ticks per second.
 static inline brume_event brume_event_defaults(uint32_t kind, uint32_t tick) {
-  brume_event event = BRUME_ZERO;
-  for (int i = 0; i < 32; ++i) event.u.reserved[i] = 0;
-  event.struct_size = sizeof(brume_event);
-  event.kind = kind;
-  event.tick = tick;
-  if (kind == BRUME_EVENT_SMOKE) {
-    event.u.smoke.voxels = brume_smoke_voxels(225.0, 0.5);
-    event.u.smoke.bloom_ticks = 64;
-    event.u.smoke.hold_ticks = 18 * 64;
-    event.u.smoke.dissolve_ticks = 3 * 64;
-  } else if (kind == BRUME_EVENT_SHOT) {
-    event.u.shot.radius_1024 = brume_length(0.2);
-    event.u.shot.reach_far_ms = 250;
-    event.u.shot.expand_ms = 50;
-    event.u.shot.stay_open_ms = 1000;
-    event.u.shot.fade_ms = 350;
-  } else if (kind == BRUME_EVENT_BLAST) {
-    event.u.blast.radius_1024 = brume_length(5.0);
-    event.u.blast.speed_1024 = brume_length(32.0);
-    event.u.blast.remaining_255 = 5;
-    event.u.blast.refill_rim_ms = 500;
-    event.u.blast.refill_middle_ms = 5000;
-  }
+  brume_event event;
+  brume_event_init(&event, kind, tick);
   return event;
 }
 
@@ -513,11 +494,13 @@ typedef struct brume_world_params {
   const brume_masks* masks;   ///< The masks that shots may use; null: none.
 } brume_world_params;
 
+/// Writes what brume_world_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_world_params_init(brume_world_params* params,
+                                               uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: 64 ticks per second, no masks.
 static inline brume_world_params brume_world_defaults(void) {
-  brume_world_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_world_params);
-  params.ticks_per_second = 64;
+  brume_world_params params;
+  brume_world_params_init(&params, sizeof params);
   return params;
 }
 
@@ -690,11 +673,13 @@ typedef struct brume_sender_params {
   uint32_t history;
 } brume_sender_params;
 
+/// Writes what brume_sender_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_sender_params_init(brume_sender_params* params,
+                                                uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: a history of 128 states, two seconds at 64 ticks per second.
 static inline brume_sender_params brume_sender_defaults(void) {
-  brume_sender_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_sender_params);
-  params.history = 128;
+  brume_sender_params params;
+  brume_sender_params_init(&params, sizeof params);
   return params;
 }
 
@@ -735,13 +720,13 @@ typedef struct brume_receiver_params {
   uint32_t hold_ticks;
 } brume_receiver_params;
 
+/// Writes what brume_receiver_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_receiver_params_init(brume_receiver_params* params,
+                                                  uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: the largest limits, states of any level, no packets held.
 static inline brume_receiver_params brume_receiver_defaults(void) {
-  brume_receiver_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_receiver_params);
-  params.max_bytes = 16777216u;
-  params.max_voxels = 67108864u;
-  params.max_items = 1048576u;
+  brume_receiver_params params;
+  brume_receiver_params_init(&params, sizeof params);
   return params;
 }
 
@@ -790,11 +775,13 @@ typedef struct brume_field_params {
   const brume_masks* masks;  ///< The masks of the worlds whose states it takes over; null: none.
 } brume_field_params;
 
+/// Writes what brume_field_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_field_params_init(brume_field_params* params,
+                                               uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: an extinction of 3 per metre, no masks.
 static inline brume_field_params brume_field_defaults(void) {
-  brume_field_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_field_params);
-  params.extinction = 3.0f;
+  brume_field_params params;
+  brume_field_params_init(&params, sizeof params);
   return params;
 }
 
@@ -857,16 +844,13 @@ typedef struct brume_drawn_params {
   float rise;        ///< Speed at which the noise rises [m/s], [-10, 10].
 } brume_drawn_params;
 
+/// Writes what brume_drawn_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_drawn_params_init(brume_drawn_params* params,
+                                               uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults, equal to the defaults of brume_frame_params in brume_vulkan.h.
 static inline brume_drawn_params brume_drawn_defaults(void) {
-  brume_drawn_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_drawn_params);
-  params.erosion = 0.5f;
-  params.noise_size = 1.5f;
-  params.detail = 1.0f;
-  params.hole_rim = 0.06f;
-  params.swirl = 0.2f;
-  params.rise = 0.12f;
+  brume_drawn_params params;
+  brume_drawn_params_init(&params, sizeof params);
   return params;
 }
 

@@ -72,11 +72,13 @@ typedef struct brume_volume_params {
   uint32_t no_processes;
 } brume_volume_params;
 
+/// Writes what brume_volume_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_volume_params_init(brume_volume_params* params,
+                                                uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: 24 frames per second, no repetition. Set `file`.
 static inline brume_volume_params brume_volume_defaults(void) {
-  brume_volume_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_volume_params);
-  params.frame_rate = 24.0f;
+  brume_volume_params params;
+  brume_volume_params_init(&params, sizeof params);
   return params;
 }
 
@@ -117,17 +119,13 @@ typedef struct brume_shown_volume {
   float kelvin;
 } brume_shown_volume;
 
+/// Writes what brume_shown_volume_defaults returns: for other languages.
+BRUME_API brume_result brume_shown_volume_init(brume_shown_volume* shown,
+                                               const brume_volume* volume) BRUME_NOEXCEPT;
 /// Returns the defaults: the file's space is the world's, extinction 1, albedo 0.9, time 0.
 static inline brume_shown_volume brume_shown_volume_defaults(const brume_volume* volume) {
-  brume_shown_volume shown = BRUME_ZERO;
-  shown.volume = volume;
-  shown.x_axis.x = shown.y_axis.y = shown.z_axis.z = 1.0f;
-  shown.extinction = 1.0f;
-  shown.albedo[0] = shown.albedo[1] = shown.albedo[2] = 0.9f;
-  shown.anisotropy = 0.2f;
-  shown.multiple_scattering = 1.0f;
-  shown.emission = 1.0f;
-  shown.kelvin = 1000.0f;
+  brume_shown_volume shown;
+  brume_shown_volume_init(&shown, volume);
   return shown;
 }
 
@@ -151,12 +149,13 @@ typedef struct brume_decal_params {
   brume_point high;   ///< High corner, above `low` along each axis [m].
 } brume_decal_params;
 
+/// Writes what brume_decal_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_decal_params_init(brume_decal_params* params,
+                                               uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: a box from (-1, -1, -1) to (1, 1, 1). Set `file`, or `up` and `size`.
 static inline brume_decal_params brume_decal_defaults(void) {
-  brume_decal_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_decal_params);
-  params.low.x = params.low.y = params.low.z = -1.0f;
-  params.high.x = params.high.y = params.high.z = 1.0f;
+  brume_decal_params params;
+  brume_decal_params_init(&params, sizeof params);
   return params;
 }
 
@@ -181,17 +180,13 @@ typedef struct brume_shown_decal {
   float scatter;     ///< Distance by which noise scatters the samples [voxels], [0, 4].
 } brume_shown_decal;
 
+/// Writes what brume_shown_decal_defaults returns: for other languages.
+BRUME_API brume_result brume_shown_decal_init(brume_shown_decal* shown,
+                                              const brume_decal* decal) BRUME_NOEXCEPT;
 /// Returns the defaults: the decal's space is the world's, full strength.
 static inline brume_shown_decal brume_shown_decal_defaults(const brume_decal* decal) {
-  brume_shown_decal shown = BRUME_ZERO;
-  shown.decal = decal;
-  shown.x_axis.x = shown.y_axis.y = shown.z_axis.z = 1.0f;
-  shown.strength = 1.0f;
-  shown.gamma = 1.0f;
-  shown.correction = 1.0f;
-  shown.falloff = 1.0f;
-  shown.fade = 0.05f;
-  shown.scatter = 0.5f;
+  brume_shown_decal shown;
+  brume_shown_decal_init(&shown, decal);
   return shown;
 }
 
@@ -213,12 +208,12 @@ typedef struct brume_tank_params {
   size_t sphere_count;  ///< Number of spheres and colours, at most 2^23; 0 if `file` is set.
 } brume_tank_params;
 
+/// Writes what brume_tank_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_tank_params_init(brume_tank_params* params, uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: a box of one voxel of 5 mm, without spheres. Set `file`, or the box and its spheres.
 static inline brume_tank_params brume_tank_defaults(void) {
-  brume_tank_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_tank_params);
-  params.size[0] = params.size[1] = params.size[2] = 1;
-  params.voxel = 0.005f;
+  brume_tank_params params;
+  brume_tank_params_init(&params, sizeof params);
   return params;
 }
 
@@ -252,16 +247,14 @@ typedef struct brume_tank_lighting {
   uint32_t photons;            ///< Light paths through the glass, [0, 2^22]; 0: no light comes through it.
 } brume_tank_lighting;
 
+/// Writes what brume_tank_lighting_defaults returns into a struct of `struct_size` bytes: for other
+/// languages.
+BRUME_API brume_result brume_tank_lighting_init(brume_tank_lighting* lighting,
+                                                uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: ambient light of radiance 0.6, two bounces, no fog, no glass.
 static inline brume_tank_lighting brume_tank_lighting_defaults(void) {
-  brume_tank_lighting lighting = BRUME_ZERO;
-  lighting.struct_size = sizeof(brume_tank_lighting);
-  lighting.ambient[0] = lighting.ambient[1] = lighting.ambient[2] = 0.6f;
-  lighting.bounces = 2;
-  lighting.fog_color[0] = 0.02f;
-  lighting.fog_color[1] = 0.05f;
-  lighting.fog_color[2] = 0.08f;
-  lighting.glass_radii.x = lighting.glass_radii.y = lighting.glass_radii.z = 0.5f;
+  brume_tank_lighting lighting;
+  brume_tank_lighting_init(&lighting, sizeof lighting);
   return lighting;
 }
 
@@ -289,13 +282,12 @@ typedef struct brume_shown_tank {
   uint32_t continues_previous;
 } brume_shown_tank;
 
+/// Writes what brume_shown_tank_defaults returns: for other languages.
+BRUME_API brume_result brume_shown_tank_init(brume_shown_tank* shown, const brume_tank* tank) BRUME_NOEXCEPT;
 /// Returns the defaults: the tank's space is the world's, its spheres with one sample.
 static inline brume_shown_tank brume_shown_tank_defaults(const brume_tank* tank) {
-  brume_shown_tank shown = BRUME_ZERO;
-  shown.tank = tank;
-  shown.x_axis.x = shown.y_axis.y = shown.z_axis.z = 1.0f;
-  shown.view = BRUME_TANK_SPHERES;
-  shown.samples = 1;
+  brume_shown_tank shown;
+  brume_shown_tank_init(&shown, tank);
   return shown;
 }
 

@@ -125,10 +125,13 @@ typedef struct brume_device_params {
   const VkAllocationCallbacks* allocation_callbacks;
 } brume_device_params;
 
+/// Writes what brume_device_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_device_params_init(brume_device_params* params,
+                                                uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: queue family 0, no memory functions. Set the other members.
 static inline brume_device_params brume_device_defaults(void) {
-  brume_device_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_device_params);
+  brume_device_params params;
+  brume_device_params_init(&params, sizeof params);
   return params;
 }
 
@@ -201,13 +204,13 @@ typedef struct brume_renderer_params {
   uint32_t motion;  ///< 1: each frame has brume_renderer_motion.
 } brume_renderer_params;
 
+/// Writes what brume_renderer_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_renderer_params_init(brume_renderer_params* params,
+                                                  uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: 1280 x 720, a ray per pixel, no accumulation, no lights, no triangles, no timings.
 static inline brume_renderer_params brume_renderer_defaults(void) {
-  brume_renderer_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_renderer_params);
-  params.width = 1280;
-  params.height = 720;
-  params.march_scale = 1;
+  brume_renderer_params params;
+  brume_renderer_params_init(&params, sizeof params);
   return params;
 }
 
@@ -432,31 +435,14 @@ typedef struct brume_frame_params {
   uint32_t parallel;
 } brume_frame_params;
 
+/// Writes what brume_frame_defaults returns into a struct of `struct_size` bytes: for other languages.
+BRUME_API brume_result brume_frame_params_init(brume_frame_params* params,
+                                               uint32_t struct_size) BRUME_NOEXCEPT;
 /// Returns the defaults: a camera at the origin that looks along -z, planes at 0.1 m and 1000 m, smoke of
 /// albedo 0.92 under a blue-grey sky, the best quality.
 static inline brume_frame_params brume_frame_defaults(void) {
-  brume_frame_params params = BRUME_ZERO;
-  params.struct_size = sizeof(brume_frame_params);
-  params.camera.forward.z = -1.0f;
-  params.camera.up.y = 1.0f;
-  params.camera.vertical_fov = 1.0f;
-  params.depth.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-  params.depth.near_plane = 0.1f;
-  params.depth.far_plane = 1000.0f;
-  params.picture.exposure = 1.0f;
-  params.look.albedo[0] = params.look.albedo[1] = params.look.albedo[2] = 0.92f;
-  params.look.anisotropy = 0.2f;
-  params.look.multiple_scattering = 1.0f;
-  params.look.erosion = 0.5f;
-  params.look.noise_size = 1.5f;
-  params.look.hole_rim = 0.06f;
-  params.look.swirl = 0.2f;
-  params.look.rise = 0.12f;
-  params.ambient[0] = 0.25f;
-  params.ambient[1] = 0.29f;
-  params.ambient[2] = 0.35f;
-  params.ambient_indoors = 0.2f;
-  params.normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  brume_frame_params params;
+  brume_frame_params_init(&params, sizeof params);
   return params;
 }
 

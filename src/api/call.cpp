@@ -31,6 +31,8 @@ const char* kind_name(Kind kind) {
       return "receiver";
     case Kind::field:
       return "field";
+    case Kind::textures:
+      return "set of textures";
     case Kind::device:
       return "device";
     case Kind::renderer:

@@ -65,6 +65,7 @@ enum class Kind : std::uint32_t {
   sender,
   receiver,
   field,
+  textures,
   device,
   renderer,
   volume,
@@ -131,22 +132,26 @@ void check_struct(const void* bytes, std::uint32_t struct_size, std::uint32_t kn
                   std::span<const std::uint32_t> earlier_sizes);
 inline constexpr std::uint32_t kMostStructBytes = 4096;
 
+/// The defaults of a parameter struct (defaults.cpp, here and in host).
+template <typename Params>
+Params defaults();
+
 /// A parameter struct of any version, or the defaults for null. Members that its version lacks have their
 /// defaults.
 template <typename Params>
-Params params_or(const Params* given, const Params& defaults) {
-  if (!given) return defaults;
+Params params_or_defaults(const Params* given) {
+  Params params = defaults<Params>();
+  if (!given) return params;
   check_struct(given, given->struct_size, sizeof(Params), kEarlierSizes<Params>);
   require(given->next == nullptr, "`next` must be null");
-  Params params = defaults;
   std::memcpy(&params, given, std::min<std::size_t>(given->struct_size, sizeof(Params)));
   params.struct_size = sizeof(Params);
   return params;
 }
 /// The same where there must be one.
 template <typename Params>
-Params required_params(const Params* given, const Params& defaults) {
-  return params_or(&required(given, "params"), defaults);
+Params required_params(const Params* given) {
+  return params_or_defaults(&required(given, "params"));
 }
 
 /// Copies bytes to the caller, or only their number.

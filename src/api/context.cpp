@@ -13,7 +13,7 @@ constexpr std::uint32_t kMaxThreads = 1024;
 
 void create_context(const brume_context_params* given, brume_context** context) {
   required(context, "context");
-  const brume_context_params params = params_or(given, brume_context_defaults());
+  const brume_context_params params = params_or_defaults(given);
   require(params.thread_count <= kMaxThreads, "`thread_count` must be at most 1024");
   auto settings = std::make_shared<Settings>();
   settings->thread_count = params.thread_count;

@@ -22,7 +22,7 @@ void create_field(Call& call, const brume_level* level, const brume_field_params
                   brume_field** field) {
   const brume_level& owner = call.handle(level);
   required(field, "field");
-  const brume_field_params params = params_or(given, brume_field_defaults());
+  const brume_field_params params = params_or_defaults(given);
   // Beyond the range of a timeline's: 0 hides nothing, and queries have no picture that becomes too dark.
   require(params.extinction >= 0 && params.extinction <= 1e6f, "`extinction` must be from 0 to 10^6");
   create(field, owner.settings, owner.data, atlas_of(call, params.masks), params.extinction);
@@ -61,19 +61,7 @@ const auto of_smoke = [](const SmokeField& field) { return &field.sight(); };
 
 /// The sight of a field's smoke as it is drawn.
 auto as_drawn(const brume_drawn_params* given) {
-  return [given](const SmokeField& field) {
-    const brume_drawn_params params = params_or(given, brume_drawn_defaults());
-    scene::SmokeOptions options;
-    options.erosion = params.erosion;
-    options.noise_size = params.noise_size;
-    options.detail = params.detail;
-    options.hole_rim = params.hole_rim;
-    options.swirl = params.swirl;
-    options.rise = params.rise;
-    scene::visit_smoke_options(options, RangeCheck("`"));
-    return field.drawn_sight(
-        {params.erosion, params.noise_size, params.detail, params.hole_rim, params.swirl, params.rise});
-  };
+  return [given](const SmokeField& field) { return field.drawn_sight(noise_look_of(given)); };
 }
 
 /// Answers queries: query(segments of a chunk, their results).
@@ -147,6 +135,20 @@ void read_densities(const smoke::SmokeVolume& volume, glm::ivec3 low, glm::ivec3
 }
 
 }  // namespace
+
+smoke::NoiseLook noise_look_of(const brume_drawn_params* given) {
+  const brume_drawn_params params = params_or_defaults(given);
+  scene::SmokeOptions options;
+  options.erosion = params.erosion;
+  options.noise_size = params.noise_size;
+  options.detail = params.detail;
+  options.hole_rim = params.hole_rim;
+  options.swirl = params.swirl;
+  options.rise = params.rise;
+  scene::visit_smoke_options(options, RangeCheck("`"));
+  return {params.erosion, params.noise_size, params.detail, params.hole_rim, params.swirl, params.rise};
+}
+
 }  // namespace brume::api
 
 using namespace brume::api;

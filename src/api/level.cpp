@@ -159,11 +159,11 @@ void read_roles(const voxel::Solids& solids, glm::ivec3 low, glm::ivec3 high, st
 
 template <typename Params>
 brume_result create_level(const char* function, brume_context* context, const Params* params,
-                          const Params& defaults, brume_level** level) noexcept {
+                          brume_level** level) noexcept {
   return Call(function).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(level, "level");
-    create(level, owner.settings, level_of(required_params(params, defaults)));
+    create(level, owner.settings, level_of(required_params(params)));
   });
 }
 
@@ -200,12 +200,12 @@ extern "C" {
 
 brume_result brume_level_create_from_voxels(brume_context* context, const brume_voxels_params* params,
                                             brume_level** level) BRUME_NOEXCEPT {
-  return create_level(__func__, context, params, brume_voxels_defaults(), level);
+  return create_level(__func__, context, params, level);
 }
 
 brume_result brume_level_create_from_triangles(brume_context* context, const brume_triangles_params* params,
                                                brume_level** level) BRUME_NOEXCEPT {
-  return create_level(__func__, context, params, brume_triangles_defaults(), level);
+  return create_level(__func__, context, params, level);
 }
 
 brume_result brume_level_destroy(brume_level* level) BRUME_NOEXCEPT {

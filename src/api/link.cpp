@@ -55,8 +55,8 @@ void answer(brume_sender& sender, std::span<const std::byte> request, void* buff
 }
 
 wire::ReceiverSettings settings_of(Call& call, const brume_receiver_params* given) {
-  const brume_receiver_params most = brume_receiver_defaults();
-  const brume_receiver_params params = params_or(given, most);
+  const auto most = defaults<brume_receiver_params>();
+  const brume_receiver_params params = params_or_defaults(given);
   require(params.max_bytes >= 1 && params.max_bytes <= most.max_bytes, "`max_bytes` must be from 1 to 2^24");
   require(params.max_voxels >= 1 && params.max_voxels <= most.max_voxels,
           "`max_voxels` must be from 1 to 2^26");
@@ -80,7 +80,7 @@ brume_result brume_sender_create(brume_context* context, const brume_sender_para
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(sender, "sender");
-    const std::uint32_t history = params_or(params, brume_sender_defaults()).history;
+    const std::uint32_t history = params_or_defaults(params).history;
     require(history >= 1 && history <= kMaxHistory, "`history` must be from 1 to 65536");
     create(sender, owner.settings, brume::wire::SenderSettings{history});
   });

@@ -12,6 +12,9 @@
 
 namespace brume::api {
 
+/// The noise of drawn smoke, with its members in range; null: the defaults.
+smoke::NoiseLook noise_look_of(const brume_drawn_params* given);
+
 class SmokeField {
  public:
   /// `bricks`: where a field that this one replaces had smoke.

@@ -10,7 +10,7 @@ void create_world(Call& call, const brume_level* level, const brume_world_params
                   brume_world** world) {
   const brume_level& owner = call.handle(level);
   required(world, "world");
-  const brume_world_params params = params_or(given, brume_world_defaults());
+  const brume_world_params params = params_or_defaults(given);
   require(params.ticks_per_second >= 1 && params.ticks_per_second <= 1000,
           "`ticks_per_second` must be from 1 to 1000");
   const auto atlas = atlas_of(call, params.masks);

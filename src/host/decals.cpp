@@ -199,7 +199,7 @@ brume_result brume_decal_create(brume_context* context, const brume_decal_params
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(decal, "decal");
-    create(decal, owner.settings, brume::host::load(required_params(params, brume_decal_defaults())));
+    create(decal, owner.settings, brume::host::load(required_params(params)));
   });
 }
 

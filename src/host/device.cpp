@@ -62,8 +62,7 @@ brume_result brume_device_create(brume_context* context, const brume_device_para
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(device, "device");
-    create(device, owner.settings,
-           brume::host::host_device(required_params(params, brume_device_defaults())));
+    create(device, owner.settings, brume::host::host_device(required_params(params)));
   });
 }
 
@@ -71,8 +70,7 @@ brume_result brume_device_compile(brume_device* device, const brume_renderer_par
                                   const brume_frame_params* frame) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     const std::shared_ptr<brume::host::DeviceData> data = call.handle(device).data;
-    brume::host::compile(call, *data, params_or(renderer, brume_renderer_defaults()),
-                         params_or(frame, brume_frame_defaults()));
+    brume::host::compile(call, *data, params_or_defaults(renderer), params_or_defaults(frame));
   });
 }
 

@@ -37,7 +37,7 @@ void create_renderer(Call& call, brume_device* device, const brume_renderer_para
                      brume_renderer** renderer) {
   const brume_device& owner = call.handle(device);
   required(renderer, "renderer");
-  const brume_renderer_params params = params_or(given, brume_renderer_defaults());
+  const brume_renderer_params params = params_or_defaults(given);
   const render::RendererOptions options = renderer_options(params);
   const std::scoped_lock lock(owner.data->mutex);
   create(renderer, owner.settings, owner.data, to_scene(params), atlas_of(call, params.masks), options,
@@ -316,7 +316,7 @@ brume_result brume_renderer_record(brume_renderer* renderer, const brume_field* 
   return Call(__func__).run([&](Call& call) {
     brume_renderer& object = call.handle(renderer);
     const brume_field* from = field ? &call.handle(field) : nullptr;
-    const brume_frame_params frame = required_params(params, brume_frame_defaults());
+    const brume_frame_params frame = required_params(params);
     const std::scoped_lock lock(object.mutex, object.device->mutex);
     const auto record = [&] { brume::host::record(call, object, from, {&frame, 1}); };
     from ? call.read(*from, record) : record();
@@ -334,7 +334,7 @@ brume_result brume_renderer_record_views(brume_renderer* renderer, const brume_f
     std::array<brume_frame_params, BRUME_MAX_VIEWS> frames;
     for (std::size_t i = 0; i < view_count; ++i) {
       if (!given[i]) refuse("`views[" + std::to_string(i) + "]` is null");
-      brume::host::of_view(i, [&] { frames[i] = required_params(given[i], brume_frame_defaults()); });
+      brume::host::of_view(i, [&] { frames[i] = required_params(given[i]); });
     }
     const std::scoped_lock lock(object.mutex, object.device->mutex);
     const auto record = [&] {

@@ -154,8 +154,8 @@ brume_result brume_tank_create(brume_context* context, const brume_tank_params* 
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(tank, "tank");
-    auto content = brume::host::content_of(required_params(params, brume_tank_defaults()));
-    auto light = brume::host::lit(*content, brume_tank_lighting_defaults());
+    auto content = brume::host::content_of(required_params(params));
+    auto light = brume::host::lit(*content, defaults<brume_tank_lighting>());
     create(tank, owner.settings, std::move(content), std::move(light));
   });
 }
@@ -167,7 +167,7 @@ brume_result brume_tank_destroy(brume_tank* tank) BRUME_NOEXCEPT {
 brume_result brume_tank_set_lighting(brume_tank* tank, const brume_tank_lighting* lighting) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     brume_tank& object = call.handle(tank);
-    auto light = brume::host::lit(*object.content, required_params(lighting, brume_tank_lighting_defaults()));
+    auto light = brume::host::lit(*object.content, required_params(lighting));
     call.change(object, [&] { object.light = std::move(light); });
   });
 }

@@ -108,7 +108,7 @@ brume_result brume_volume_create(brume_context* context, const brume_volume_para
   return Call(__func__).run([&](Call& call) {
     const brume_context& owner = call.handle(context);
     required(volume, "volume");
-    create(volume, owner.settings, brume::host::load(required_params(params, brume_volume_defaults())));
+    create(volume, owner.settings, brume::host::load(required_params(params)));
   });
 }
 

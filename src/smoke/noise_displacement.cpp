@@ -59,10 +59,7 @@ void NoiseDisplacement::write(std::uint32_t slot, std::span<glm::vec3, shared::k
   }
 }
 
-/// A part's growth at a texel of the brick, and its weight.
-glm::vec4 NoiseDisplacement::growth_at(std::uint32_t part, glm::ivec3 local) const {
-  const auto points = growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick,
-                                                      shared::kDisplacementsPerBrick);
+glm::vec4 growth_at(std::span<const glm::uvec2> points, glm::ivec3 local) {
   glm::vec4 sum(0);
   float weight = 0;
   for (int i = 0; i < 8; ++i) {
@@ -85,7 +82,11 @@ glm::vec3 NoiseDisplacement::by_clouds(std::uint32_t slot, glm::ivec3 local, glm
   for (const glm::uvec2 part : growth_.parts().subspan(volume_.slot_count() + range.x, range.y)) {
     const shared::CloudMotion& motion = motion_.clouds[part.y];
     const glm::vec3 swirl = swirl_ * (motion.swirl_cos * one + motion.swirl_sin * other);
-    sum += shared::cloud_displacement(motion, growth_at(part.x, local), swirl, volume_.layout().voxel_size);
+    sum += shared::cloud_displacement(
+        motion,
+        growth_at(growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick),
+                  local),
+        swirl, volume_.layout().voxel_size);
   }
   return glm::vec3(sum) / std::max(sum.w, 1e-12f);
 }

@@ -12,6 +12,9 @@
 
 namespace brume::smoke {
 
+/// A part's growth at a texel of its brick, and its weight, from the points of shared/noise_advection.h.
+glm::vec4 growth_at(std::span<const glm::uvec2> points, glm::ivec3 local);
+
 class NoiseDisplacement {
  public:
   /// `seconds` after tick 0. `volume` holds the smoke of the state, must outlive this and stay as it is.
@@ -23,7 +26,6 @@ class NoiseDisplacement {
   void write(std::uint32_t slot, std::span<glm::vec3, shared::kTexelsPerBrick> out) const;
 
  private:
-  glm::vec4 growth_at(std::uint32_t part, glm::ivec3 local) const;
   glm::vec3 by_clouds(std::uint32_t slot, glm::ivec3 local, glm::vec3 p_world) const;
   glm::vec3 by_impulses(glm::vec3 p_world) const;
 

@@ -212,6 +212,30 @@ TEST_F(CallTest, LevelsThatAreTooLargeAreRejected) {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+TEST(Defaults, FitStructsOfEarlierAndLaterVersions) {
+  // Before hold_ticks and level, the limits alone.
+  brume_receiver_params receiver;
+  std::memset(&receiver, 0xee, sizeof receiver);
+  constexpr std::uint32_t kEarlier = offsetof(brume_receiver_params, level);
+  ASSERT_EQ(brume_receiver_params_init(&receiver, kEarlier), BRUME_OK);
+  EXPECT_EQ(receiver.struct_size, kEarlier);
+  EXPECT_EQ(receiver.max_bytes, brume_receiver_defaults().max_bytes);
+  EXPECT_EQ(receiver.hold_ticks, 0xeeeeeeeeu) << "beyond the struct";
+
+  struct Later {
+    brume_world_params params;
+    std::uint64_t added;
+  } later{{}, 7};
+  ASSERT_EQ(brume_world_params_init(&later.params, sizeof later), BRUME_OK);
+  EXPECT_EQ(later.params.struct_size, sizeof later);
+  EXPECT_EQ(later.params.ticks_per_second, 64u);
+  EXPECT_EQ(later.added, 0u);
+
+  EXPECT_EQ(brume_world_params_init(nullptr, sizeof later), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(brume_world_params_init(&later.params, 8), BRUME_ERROR_ARGUMENT);
+  EXPECT_EQ(brume_event_init(nullptr, BRUME_EVENT_SHOT, 1), BRUME_ERROR_ARGUMENT);
+}
+
 TEST(Lengths, AreRoundedAndClamped) {
   EXPECT_EQ(brume_length(0), 0u);
   EXPECT_EQ(brume_length(1), 1024u);

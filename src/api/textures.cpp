@@ -1,0 +1,137 @@
+#include <brume/brume_textures.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/smoke_field.hpp"
+#include "textures/smoke_textures.hpp"
+
+struct brume_textures : brume::api::Handle {
+  static constexpr auto kKind = brume::api::Kind::textures;
+  brume_textures(const brume_field& field, const brume::textures::SmokeTexturesSettings& texture_settings)
+      : Handle(kKind, field.settings),
+        level(field.level),
+        masks(field.masks),
+        textures(texture_settings, field.masks) {}
+
+  std::shared_ptr<const brume::api::LevelData> level;
+  std::shared_ptr<const brume::smoke::MaskAtlas> masks;
+  brume::textures::SmokeTextures textures;
+  std::vector<brume_region> regions;  // of the last update
+};
+
+namespace brume::api {
+namespace {
+
+using textures::kSmokeTextures;
+using textures::Texture;
+
+static_assert(+kSmokeTextures == +BRUME_TEXTURE_COUNT && +textures::kDetail == +BRUME_TEXTURE_DETAIL &&
+              +textures::kHoles == +BRUME_TEXTURE_HOLES);
+static_assert(static_cast<int>(textures::Format::rgba32ui) == BRUME_FORMAT_RGBA32UI);
+static_assert(4 * textures::kConstantRows == BRUME_CONSTANTS);
+static_assert(textures::kMostHoles == BRUME_MAX_TEXTURE_HOLES);
+
+void create_textures(Call& call, const brume_field* field, const brume_textures_params* given,
+                     brume_textures** textures) {
+  const brume_field& of = call.handle(field);
+  required(textures, "textures");
+  const brume_textures_params params = params_or_defaults(given);
+  require(params.swirl_seconds >= 0.1f && params.swirl_seconds <= 1000,
+          "`swirl_seconds` must be from 0.1 to 1000");
+  require(params.noise_spacing == 1 || params.noise_spacing == 2, "`noise_spacing` must be 1 or 2");
+  create(textures, of,
+         textures::SmokeTexturesSettings{noise_look_of(params.look), double{params.swirl_seconds},
+                                         static_cast<int>(params.noise_spacing)});
+}
+
+/// What a caller uploads.
+std::vector<brume_region> list_regions(const textures::TextureSet& set) {
+  std::vector<brume_region> list;
+  list.reserve(set.regions().size());
+  for (const textures::Region& region : set.regions()) {
+    const glm::uvec3 at(region.origin), size(region.size);
+    list.push_back({region.texture, at.x, at.y, at.z, size.x, size.y, size.z, 0,
+                    set.bytes().data() + region.first_byte, region.byte_count});
+  }
+  return list;
+}
+
+void update(brume_textures& textures, const brume_field& field, double seconds) {
+  if (field.level != textures.level || field.masks != textures.masks)
+    fail(BRUME_ERROR_MISMATCH,
+         "the field must have the level and the masks of the field that the textures are of");
+  textures.textures.update(field.field->smoke(), field.extinction, seconds);
+  textures.regions = list_regions(textures.textures.set());
+}
+
+}  // namespace
+}  // namespace brume::api
+
+using namespace brume::api;
+
+extern "C" {
+
+brume_result brume_textures_create(const brume_field* field, const brume_textures_params* params,
+                                   brume_textures** textures) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) { create_textures(call, field, params, textures); });
+}
+
+brume_result brume_textures_destroy(brume_textures* textures) BRUME_NOEXCEPT {
+  return destroy(__func__, textures);
+}
+
+brume_result brume_textures_update(brume_textures* textures, const brume_field* field,
+                                   const brume_textures_frame* frame) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    brume_textures& object = call.handle(textures);
+    const brume_field& of = call.handle(field);
+    const brume_textures_frame params = required_params(frame);
+    require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
+    call.change(
+        object, [&] { call.read(of, [&] { update(object, of, params.seconds); }); }, true);
+  });
+}
+
+brume_result brume_textures_list(const brume_textures* textures, brume_texture* list,
+                                 size_t capacity) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_textures& object = call.handle(textures);
+    required(list, "list");
+    require(capacity >= BRUME_TEXTURE_COUNT, "`capacity` must be at least BRUME_TEXTURE_COUNT");
+    call.read(object, [&] {
+      for (const Texture& texture : object.textures.set().textures()) {
+        const glm::uvec3 size(texture.size);
+        *list++ = {static_cast<std::uint32_t>(texture.format), size.x, size.y, size.z, texture.generation};
+      }
+    });
+  });
+}
+
+brume_result brume_textures_regions(const brume_textures* textures, const brume_region** regions,
+                                    size_t* count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_textures& object = call.handle(textures);
+    required(regions, "regions");
+    required(count, "count");
+    call.read(object, [&] {
+      *regions = object.regions.data();
+      *count = object.regions.size();
+    });
+  });
+}
+
+brume_result brume_textures_constants(const brume_textures* textures, float* constants,
+                                      size_t count) BRUME_NOEXCEPT {
+  return Call(__func__).run([&](Call& call) {
+    const brume_textures& object = call.handle(textures);
+    required(constants, "constants");
+    require(count == BRUME_CONSTANTS, "`count` must be BRUME_CONSTANTS");
+    call.read(object, [&] {
+      for (const glm::vec4& row : object.textures.constants())
+        for (int i = 0; i < 4; ++i) *constants++ = row[i];
+    });
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,95 @@
+#include "textures/noise_points.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include "smoke/noise_displacement.hpp"
+
+namespace brume::textures {
+
+void NoisePoints::update(const smoke::SmokeVolume& volume, const sim::State& state,
+                         const shared::SmokeLook& look, double swirl_period, double seconds) {
+  volume_ = &volume;
+  swirl_ = look.swirl;
+  swirl_width_ = look.swirl_width;
+  motion_ = smoke::noise_motion(state, seconds, swirl_period);
+  growth_.update(state, volume);
+  rolls_.resize(volume.slot_count());
+}
+
+glm::ivec3 NoisePoints::place_of(std::size_t index) const {
+  const int i = static_cast<int>(index);
+  return {i % per_axis_, i / per_axis_ % per_axis_, i / (per_axis_ * per_axis_)};
+}
+
+glm::vec3 NoisePoints::position(std::uint32_t slot, std::size_t index) const {
+  const glm::ivec3 texel = shared::kBrickVoxels * volume_->brick_of(slot) + spacing_ * place_of(index);
+  const shared::VolumeLayout& layout = volume_->layout();
+  return layout.origin_world + (glm::vec3(texel) - 0.5f) * layout.voxel_size;
+}
+
+const NoisePoints::Rolls& NoisePoints::rolls_of(std::uint32_t slot) {
+  std::unique_ptr<Rolls>& rolls = rolls_[slot];
+  const glm::ivec3 brick = volume_->brick_of(slot);
+  if (rolls && rolls->brick == brick && rolls->width == swirl_width_) return *rolls;
+  if (!rolls) rolls = std::make_unique<Rolls>();
+  rolls->brick = brick;
+  rolls->width = swirl_width_;
+  rolls->first.resize(per_brick());
+  rolls->second.resize(per_brick());
+  for (std::size_t i = 0; i < per_brick(); ++i) {
+    const glm::vec3 p_world = position(slot, i);
+    rolls->first[i] = shared::first_swirl(p_world, swirl_width_);
+    rolls->second[i] = shared::second_swirl(p_world, swirl_width_);
+  }
+  return *rolls;
+}
+
+/// Adds displacement times weight, and in w the weight.
+void NoisePoints::add_clouds(std::uint32_t slot, std::span<glm::vec4> points) {
+  const glm::uvec2 range = growth_.parts()[slot];
+  const Rolls& rolls = rolls_of(slot);
+  for (const glm::uvec2 part : growth_.parts().subspan(volume_->slot_count() + range.x, range.y)) {
+    const shared::CloudMotion& motion = motion_.clouds[part.y];
+    const auto growth = growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::vec4 grown = smoke::growth_at(growth, spacing_ * place_of(i));
+      if (!(grown.w > 0)) continue;
+      const glm::vec3 swirl =
+          swirl_ * (motion.swirl_cos * rolls.first[i] + motion.swirl_sin * rolls.second[i]);
+      points[i] += shared::cloud_displacement(motion, grown, swirl, volume_->layout().voxel_size);
+    }
+  }
+}
+
+/// Points that no cloud reaches take the mean of those beside them that one does: what is interpolated at a
+/// cloud's rim must not fall to 0 a voxel beyond it.
+void NoisePoints::extend(std::span<glm::vec4> points) const {
+  const std::vector<glm::vec4> before(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (before[i].w > 0) continue;
+    const glm::ivec3 at = place_of(i), low = glm::max(at - 1, 0), high = glm::min(at + 1, per_axis_ - 1);
+    glm::vec4 sum(0);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const glm::vec4& near = before[static_cast<std::size_t>(x + per_axis_ * (y + per_axis_ * z))];
+          if (near.w > 0) sum += glm::vec4(glm::vec3(near), 1);
+        }
+    if (sum.w > 0) points[i] = glm::vec4(glm::vec3(sum) / sum.w, 0);
+  }
+}
+
+void NoisePoints::write(std::uint32_t slot, std::span<glm::u16vec4> out) {
+  std::vector<glm::vec4> points(per_brick());
+  add_clouds(slot, points);
+  for (glm::vec4& p : points) p = glm::vec4(glm::vec3(p) / std::max(p.w, 1e-12f), p.w);
+  if (spacing_ > 1) extend(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    glm::vec3 displacement(points[i]);
+    for (const shared::Impulse& impulse : motion_.impulses)
+      displacement -= shared::impulse_displacement(impulse, position(slot, i));
+    out[i] = glm::packHalf(glm::vec4(displacement, 0));
+  }
+}
+
+}  // namespace brume::textures

@@ -1,0 +1,62 @@
+// The displacement of the smoke's noise at a time, at points of a brick: at each texel as
+// smoke/noise_displacement.hpp has it, or two voxels apart, which is a fifth of the data and smooth enough to
+// be interpolated.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/type_precision.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shared/frame.h"
+#include "shared/noise_advection.h"
+#include "sim/state.hpp"
+#include "smoke/cloud_growth.hpp"
+#include "smoke/noise_motion.hpp"
+#include "smoke/smoke_volume.hpp"
+
+namespace brume::textures {
+
+/// What of it does not change from one time to the next is kept: growth, and the rolls at each point.
+class NoisePoints {
+ public:
+  /// `spacing`: of the points, 1 or 2 [voxels].
+  explicit NoisePoints(int spacing)
+      : spacing_(spacing), per_axis_(spacing == 1 ? shared::kBrickTexels : shared::kDisplacementPoints) {}
+
+  /// Points per axis of a brick. The first is its texel (0, 0, 0).
+  int per_axis() const { return per_axis_; }
+  std::size_t per_brick() const { return static_cast<std::size_t>(per_axis_ * per_axis_ * per_axis_); }
+
+  /// Follows a state and the smoke of it at `seconds` after tick 0.
+  void update(const smoke::SmokeVolume& volume, const sim::State& state, const shared::SmokeLook& look,
+              double swirl_period, double seconds);
+  /// Writes the displacement of a brick's points [m] as half floats, per_brick() of them; w is 0. After
+  /// `update`, for different slots from any number of threads.
+  void write(std::uint32_t slot, std::span<glm::u16vec4> out);
+
+ private:
+  /// The two fields of rolls at the points of a brick, for as long as a slot holds it.
+  struct Rolls {
+    glm::ivec3 brick{0};
+    float width = 0;
+    std::vector<glm::vec3> first, second;
+  };
+
+  const Rolls& rolls_of(std::uint32_t slot);
+  glm::ivec3 place_of(std::size_t index) const;
+  glm::vec3 position(std::uint32_t slot, std::size_t index) const;
+  void add_clouds(std::uint32_t slot, std::span<glm::vec4> points);
+  void extend(std::span<glm::vec4> points) const;
+
+  int spacing_, per_axis_;
+  smoke::CloudGrowth growth_;
+  smoke::NoiseMotion motion_;
+  const smoke::SmokeVolume* volume_ = nullptr;  // the last update's
+  float swirl_ = 0, swirl_width_ = 1;
+  std::vector<std::unique_ptr<Rolls>> rolls_;  // by slot
+};
+
+}  // namespace brume::textures

@@ -1,0 +1,264 @@
+#include "textures/smoke_textures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tasks.hpp"
+#include "shared/erosion.h"
+#include "shared/hole_reach.h"
+#include "smoke/noise_tile.hpp"
+
+namespace brume::textures {
+namespace {
+
+using smoke::SmokeVolume;
+
+glm::ivec3 place_in_atlas(glm::ivec3 atlas_bricks, std::uint32_t slot) {
+  const int s = static_cast<int>(slot), x = atlas_bricks.x, y = atlas_bricks.y;
+  return {s % x, s / x % y, s / (x * y)};
+}
+
+glm::ivec3 cube(int edge) {
+  return glm::ivec3(edge);
+}
+
+/// Bricks per axis of the window around `low` and `high`, in multiples of this: a cloud that grows leaves it
+/// as it is for a while.
+constexpr int kWindowStep = 8;
+
+bool holds_smoke(std::span<const smoke::Texel> texels) {
+  return std::any_of(texels.begin(), texels.end(), [](smoke::Texel texel) { return texel.density > 0; });
+}
+
+/// Rows of a 2D texture of `across` items a row that hold `count` items, with room to grow.
+int rows_for(std::size_t count, int across, int now) {
+  const auto needed =
+      static_cast<int>((count + static_cast<std::size_t>(across) - 1) / static_cast<std::size_t>(across));
+  if (needed <= now) return std::max(now, 1);
+  return std::max(needed + needed / 2, 4);
+}
+
+/// Six texels of the hole texture.
+std::array<glm::vec4, 6> hole_row(const shared::Hole& hole, double seconds) {
+  const auto age = static_cast<float>(seconds - double{hole.time_start});
+  return {glm::vec4(hole.origin_world, hole.radius),
+          glm::vec4(hole.forward, hole.distance_to_far),
+          glm::vec4(hole.right, age),
+          glm::vec4(hole.up, hole.time_to_reach_far),
+          glm::vec4(hole.time_to_expand, hole.time_to_stay_open, hole.time_to_fade,
+                    static_cast<float>(hole.shape)),
+          glm::vec4(hole.uv_min, hole.uv_max)};
+}
+
+/// The part of a number that a tile of noise, which repeats, depends on.
+float wrapped(double tiles) {
+  return static_cast<float>(tiles - std::floor(tiles));
+}
+
+}  // namespace
+
+SmokeTextures::SmokeTextures(const SmokeTexturesSettings& settings,
+                             std::shared_ptr<const smoke::MaskAtlas> masks)
+    : settings_(settings), masks_(std::move(masks)), set_(kSmokeTextures), points_(settings.noise_spacing) {
+  smoke::set_noise(look_, settings.noise);
+}
+
+void SmokeTextures::update(const smoke::Field& field, float extinction, double seconds) {
+  set_.begin_update();
+  write_static();
+  const SmokeVolume& volume = field.volume();
+  if (volume.slot_count() > kMostBricks)
+    throw Error(ErrorCode::resource_limit,
+                "the smoke fills " + std::to_string(volume.slot_count()) + " bricks, more than 65534");
+  update_bricks(volume);
+  points_.update(volume, field.state(), look_, settings_.swirl_period, seconds);
+  update_displacements();
+  update_holes(field.holes(), seconds);
+  write_constants(volume, extinction, seconds);
+}
+
+/// What never changes.
+void SmokeTextures::write_static() {
+  if (wrote_static_) return;
+  const smoke::SmokeNoise& noise = smoke::smoke_noise();
+  const int tile = static_cast<int>(noise.tile.size), detail = static_cast<int>(noise.detail.size);
+  set_.resize(kNoise, Format::rgba8, cube(tile));
+  set_.write(kNoise, cube(0), cube(tile), std::as_bytes(std::span(noise.tile.texels)));
+  set_.resize(kDetail, Format::rg8, cube(detail));
+  const std::span<std::byte> to = set_.texels(set_.add(kDetail, cube(0), cube(detail)));
+  for (std::size_t i = 0; i < noise.detail.texels.size(); ++i) {
+    to[2 * i] = std::byte{noise.detail.texels[i].x};
+    to[2 * i + 1] = std::byte{noise.detail.texels[i].y};
+  }
+  static const smoke::MaskAtlas kNoMasks;
+  const smoke::MaskAtlas& masks = masks_ ? *masks_ : kNoMasks;
+  const glm::ivec3 size(static_cast<int>(masks.width()), static_cast<int>(masks.height()), 1);
+  set_.resize(kMasks, Format::r8, size);
+  set_.write(kMasks, cube(0), size, std::as_bytes(masks.texels()));
+  wrote_static_ = true;
+}
+
+/// Densities and the cells at walls: of slots that changed, or of all where an update was missed or the
+/// textures are new.
+void SmokeTextures::update_bricks(const SmokeVolume& volume) {
+  const std::uint64_t revision = volume.revision();
+  const bool same_volume = volume_id_ == volume.id();
+  if (same_volume && revision_ == revision) return;
+  bool all = !same_volume || revision != revision_ + 1;
+  volume_id_ = volume.id();
+  revision_ = revision;
+
+  atlas_bricks_ = glm::max(volume.volume().layout().bricks.atlas_bricks, 1);
+  const bool new_density = set_.resize(kDensity, Format::rg8, atlas_bricks_ * shared::kBrickTexels);
+  const bool new_cells = set_.resize(kCells, Format::r32ui, atlas_bricks_ * shared::kBrickCells);
+  set_.resize(kDisplacement, Format::rgba16f, atlas_bricks_ * points_.per_axis());
+  all = all || new_density || new_cells;
+
+  const auto write = [&](std::uint32_t texture, std::uint32_t slot, int edge,
+                         std::span<const std::byte> texels) {
+    if (!volume.in_use(slot)) return;
+    set_.write(texture, edge * place_in_atlas(atlas_bricks_, slot), cube(edge), texels);
+  };
+  const auto density = [&](std::uint32_t slot) {
+    write(kDensity, slot, shared::kBrickTexels, std::as_bytes(volume.texels(slot)));
+  };
+  const auto cells = [&](std::uint32_t slot) {
+    write(kCells, slot, shared::kBrickCells, std::as_bytes(volume.cells(slot)));
+  };
+  if (all) {
+    for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) density(slot), cells(slot);
+  } else {
+    for (const std::uint32_t slot : volume.dirty_slots()) density(slot);
+    for (const std::uint32_t slot : volume.dirty_cell_slots()) cells(slot);
+  }
+  update_walls(volume, all);
+  update_pages(volume);
+
+  smoky_slots_.clear();
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
+    if (volume.in_use(slot) && holds_smoke(volume.texels(slot))) smoky_slots_.push_back(slot);
+}
+
+void SmokeTextures::update_walls(const SmokeVolume& volume, bool all) {
+  const auto follow = [&](std::uint32_t texture, Format format, int across, std::span<const std::byte> items,
+                          std::span<const volume::IndexRange> dirty) {
+    const std::size_t item = bytes_per_texel(format), row = item * static_cast<std::size_t>(across);
+    const int rows = rows_for(items.size() / item, across, set_.texture(texture).size.y);
+    const bool whole = set_.resize(texture, format, {across, rows, 1}) || all;
+    const auto write = [&](std::size_t first, std::size_t end) {  // rows
+      const std::size_t count = end - first;
+      const std::size_t region =
+          set_.add(texture, {0, static_cast<int>(first), 0}, {across, static_cast<int>(count), 1});
+      const std::span<const std::byte> from = items.subspan(first * row);
+      std::copy_n(from.begin(), std::min(from.size(), count * row), set_.texels(region).begin());
+    };
+    const std::size_t used = (items.size() + row - 1) / row;
+    if (whole) {
+      if (used > 0) write(0, used);
+      return;
+    }
+    std::size_t written = 0;  // the rows before
+    for (const volume::IndexRange& range : dirty) {
+      const std::size_t first =
+          std::max<std::size_t>(written, range.first / static_cast<std::size_t>(across));
+      const std::size_t end =
+          (std::size_t{range.first} + range.count + static_cast<std::size_t>(across) - 1) /
+          static_cast<std::size_t>(across);
+      if (first < end) write(first, end);
+      written = std::max(written, end);
+    }
+  };
+  follow(kBoundary, Format::rgba32ui, kBoundaryAcross, std::as_bytes(volume.boundary_cells()),
+         volume.dirty_boundary_cells());
+  follow(kCorners, Format::rg32ui, kCornersAcross, std::as_bytes(volume.corner_sets()),
+         volume.dirty_corner_sets());
+}
+
+void SmokeTextures::update_pages(const SmokeVolume& volume) {
+  glm::ivec3 low(0), high(0);
+  bool any = false;
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    if (!volume.in_use(slot)) continue;
+    const glm::ivec3 brick = volume.brick_of(slot);
+    low = any ? glm::min(low, brick) : brick;
+    high = any ? glm::max(high, brick + 1) : brick + 1;
+    any = true;
+  }
+  const bool inside = glm::all(glm::greaterThanEqual(low, window_low_)) &&
+                      glm::all(glm::lessThanEqual(high, window_low_ + window_size_));
+  if (!inside || window_size_.x == 0) {
+    const glm::ivec3 step = glm::min(cube(kWindowStep), glm::max(high - low, 1));
+    window_low_ = low - step / 2;
+    window_size_ = (high - low) + step;
+  }
+  const auto across = static_cast<std::size_t>(window_size_.x),
+             layer = across * static_cast<std::size_t>(window_size_.y);
+  std::vector<std::uint16_t> pages(layer * static_cast<std::size_t>(window_size_.z));
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    if (!volume.in_use(slot)) continue;
+    const glm::u64vec3 at(volume.brick_of(slot) - window_low_);
+    pages[at.x + across * at.y + layer * at.z] = static_cast<std::uint16_t>(slot + 1);
+  }
+  // The slices that changed.
+  const bool whole = set_.resize(kPages, Format::r16ui, window_size_);
+  for (int z = 0; z < window_size_.z; ++z) {
+    const std::span<const std::uint16_t> now =
+        std::span(pages).subspan(layer * static_cast<std::size_t>(z), layer);
+    if (!whole && std::equal(now.begin(), now.end(), pages_.begin() + static_cast<std::ptrdiff_t>(layer) * z))
+      continue;
+    set_.write(kPages, {0, 0, z}, {window_size_.x, window_size_.y, 1}, std::as_bytes(now));
+  }
+  pages_ = std::move(pages);
+}
+
+void SmokeTextures::update_displacements() {
+  if (look_.erosion <= 0 && look_.hole_rim <= 0) return;
+  const int edge = points_.per_axis();
+  std::vector<std::size_t> regions;
+  regions.reserve(smoky_slots_.size());
+  for (const std::uint32_t slot : smoky_slots_)
+    regions.push_back(set_.add(kDisplacement, edge * place_in_atlas(atlas_bricks_, slot), cube(edge)));
+  constexpr std::size_t kGrain = 4;
+  parallel_for(regions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      auto* const texels = reinterpret_cast<glm::u16vec4*>(set_.texels(regions[i]).data());
+      points_.write(smoky_slots_[i], {texels, points_.per_brick()});
+    }
+  });
+}
+
+/// The open holes, as the renderer selects them.
+void SmokeTextures::update_holes(std::span<const shared::Hole> holes, double seconds) {
+  std::vector<std::array<glm::vec4, 6>> rows;
+  for (std::size_t i = holes.size(); i-- > 0 && rows.size() < kMostHoles;) {
+    const shared::HoleReach reach = shared::hole_reach(holes[i], static_cast<float>(seconds), look_.hole_rim);
+    if (reach.length_m >= 0) rows.push_back(hole_row(holes[i], seconds));
+  }
+  hole_count_ = static_cast<std::uint32_t>(rows.size());
+  set_.resize(kHoles, Format::rgba32f, {6, static_cast<int>(kMostHoles), 1});
+  if (!rows.empty())
+    set_.write(kHoles, cube(0), {6, static_cast<int>(rows.size()), 1}, std::as_bytes(std::span(rows)));
+}
+
+void SmokeTextures::write_constants(const SmokeVolume& volume, float extinction, double seconds) {
+  const shared::VolumeLayout& layout = volume.volume().layout();
+  const double per_metre = double{look_.noise_frequency}, risen = double{look_.rise} * seconds * per_metre;
+  const double detail = double{shared::kDetailRatio};
+  const auto world = [&](glm::vec3 voxel) { return layout.origin_world + voxel * layout.voxel_size; };
+  constants_ = {
+      glm::vec4(layout.origin_world, layout.voxels_per_metre),
+      glm::vec4(glm::vec3(window_low_), layout.voxel_size),
+      glm::vec4(glm::vec3(window_size_), static_cast<float>(hole_count_)),
+      glm::vec4(glm::vec3(atlas_bricks_), extinction),
+      glm::vec4(world(layout.bounds_min), 0.4f * layout.voxel_size),
+      glm::vec4(world(layout.bounds_max), look_.erosion),
+      glm::vec4(0, wrapped(-risen), 0, look_.noise_frequency),
+      glm::vec4(0.31f, wrapped(0.17 - 1.25 * detail * risen), 0.73f,
+                look_.noise_frequency * shared::kDetailRatio),
+      glm::vec4(look_.detail, look_.hole_rim, static_cast<float>(points_.per_axis()),
+                1 / static_cast<float>(settings_.noise_spacing)),
+      glm::vec4(0),
+  };
+}
+
+}  // namespace brume::textures
