@@ -26,13 +26,14 @@
 //   glUniform4fv(location_of_brume_constants, BRUME_CONSTANTS / 4, constants);
 // ```
 //
-// Memory     For each brick of 8^3 voxels with smoke or beside it 2,000 B of density, 1,728 B of displacement
-// and
-//            2,916 B of cells, with powers of two as sizes; 5.2 MB of noise; 16 B for each cell at a wall and
-//            8 B for each of its sides. A smoke of 225 m^3 in a room of voxels of half a metre has some 60
-//            bricks.
-// Uploads    Bricks whose densities or walls changed, and the displacement of all bricks with smoke, 1,728 B
-// each. Threads    As many as the context allows; results are the same for any number.
+// Memory     For each brick of 8^3 voxels with smoke or beside it 2,000 B of density, 8,000 B of
+//            displacement and 2,916 B of cells, in textures of powers of two; 5.2 MB of noise; 16 B for each
+//            cell at a wall and 8 B for each of its sides; 4,000 B of light for every two lights. Smoke of
+//            225 m^3 in voxels of half a metre takes some 60 bricks.
+//
+// Uploads    Bricks whose densities or walls changed, and displacement and light of all bricks with smoke.
+//
+// Threads    As many as the context allows; results are the same for any number.
 #ifndef BRUME_BRUME_TEXTURES_H
 #define BRUME_BRUME_TEXTURES_H
 
@@ -59,7 +60,8 @@ typedef enum brume_texture_kind {
   BRUME_TEXTURE_MASKS = 7,         ///< brume_masks: R8, 2D, linear.
   BRUME_TEXTURE_NOISE = 8,         ///< brume_noise: RGBA8, 3D, linear, repeats. Make its mip levels.
   BRUME_TEXTURE_DETAIL = 9,        ///< brume_detail: RG8, 3D, linear, repeats. Make its mip levels.
-  BRUME_TEXTURE_COUNT = 10
+  BRUME_TEXTURE_LIGHT = 10,        ///< brume_light_volume: RGBA8, 3D, linear. Only with lights or the sky.
+  BRUME_TEXTURE_COUNT = 11
 } brume_texture_kind;
 
 /// Channels, their bits and their type, as graphics interfaces name them. Texels are little-endian.
@@ -100,6 +102,9 @@ typedef struct brume_region {
 /// The largest number of holes that the shader cuts. Of more open ones the latest count.
 #define BRUME_MAX_TEXTURE_HOLES 128
 
+/// The largest number of lights of a texture of light.
+#define BRUME_MAX_TEXTURE_LIGHTS 15
+
 /// The settings of new textures.
 typedef struct brume_textures_params {
   uint32_t struct_size;
@@ -109,17 +114,26 @@ typedef struct brume_textures_params {
   /// Distance of the points at which the noise's displacement is known, 1 or 2 [voxels]. 2: a fifth of the
   /// uploads; the noise then differs from what brume_field_drawn_depths count, by about 1/100 of the light.
   uint32_t noise_spacing;
+  /// Number of lights whose way through smoke and walls is found on the CPU, [0, BRUME_MAX_TEXTURE_LIGHTS].
+  uint32_t light_count;
+  uint32_t sky;  ///< 1: also that of the sky's light; 0: not.
 } brume_textures_params;
 
 /// Writes what brume_textures_defaults returns into a struct of `struct_size` bytes: for other languages.
 BRUME_API brume_result brume_textures_params_init(brume_textures_params* params,
                                                   uint32_t struct_size) BRUME_NOEXCEPT;
-/// Returns the defaults: the noise of brume_drawn_defaults, which rolls around in 12 seconds.
+/// Returns the defaults: the noise of brume_drawn_defaults, which rolls around in 12 seconds; no light.
 static inline brume_textures_params brume_textures_defaults(void) {
   brume_textures_params params;
   brume_textures_params_init(&params, sizeof params);
   return params;
 }
+
+/// A light, as the texture of light needs it.
+typedef struct brume_texture_light {
+  uint32_t directional;  ///< 1: a sun; 0: a light at a position.
+  brume_point at;        ///< The position [m], within +-16384; of a sun the unit vector towards it.
+} brume_texture_light;
 
 /// A time at which the smoke is drawn.
 typedef struct brume_textures_frame {
@@ -127,13 +141,17 @@ typedef struct brume_textures_frame {
   const void* next;
   /// The clock of noise and holes [s], [0, 10^7]: the time of the field's state, or later, between ticks.
   double seconds;
+  const brume_texture_light* lights;  ///< brume_textures_params::light_count of them.
+  /// Fraction of the texels of light that this update finds, in turn, [1/16, 1]; 0: all. At a fraction f,
+  /// light lags by up to 1/f updates, except in bricks that had no smoke before.
+  float light_update_fraction;
 } brume_textures_frame;
 
 /// Writes what brume_textures_frame_defaults returns into a struct of `struct_size` bytes: for other
 /// languages.
 BRUME_API brume_result brume_textures_frame_init(brume_textures_frame* frame,
                                                  uint32_t struct_size) BRUME_NOEXCEPT;
-/// Returns the defaults. Set `seconds`.
+/// Returns the defaults: all light. Set `seconds`, and the lights where there are any.
 static inline brume_textures_frame brume_textures_frame_defaults(void) {
   brume_textures_frame frame;
   brume_textures_frame_init(&frame, sizeof frame);

@@ -24,6 +24,7 @@ uniform highp sampler2D brume_holes;
 uniform highp sampler2D brume_masks;
 uniform highp sampler3D brume_noise;
 uniform highp sampler3D brume_detail;
+uniform highp sampler3D brume_light_volume;
 uniform highp vec4 brume_constants[10];
 #endif
 
@@ -49,6 +50,8 @@ uniform highp vec4 brume_constants[10];
 #define BRUME_HOLE_RIM brume_constants[8].y           // how far noise frays the rims of holes [m]
 #define BRUME_NOISE_POINTS brume_constants[8].z       // points of displacement in a brick, along each axis,
 #define BRUME_POINTS_PER_VOXEL brume_constants[8].w
+#define BRUME_LIGHT_GROUPS brume_constants[9].x       // of two lights each, the sky being the last
+#define BRUME_LIGHT_COUNT int(brume_constants[9].y)   // without the sky
 
 // ---- Bricks of 8^3 voxels, and their places in the textures ----
 
@@ -230,6 +233,53 @@ float brume_after_holes(uvec4 bits, vec3 position, float rim) {
   return left;
 }
 
+// ---- Light, where the texture of light is filled ----
+
+vec2 brume_light_pair(vec3 texel, int number) {
+  vec3 size = BRUME_ATLAS_BRICKS * 10.0;
+  int group = number / 2;
+  vec3 at = vec3(texel.xy, texel.z + float(group) * size.z) / vec3(size.xy, size.z * BRUME_LIGHT_GROUPS);
+  vec4 pair = textureLod(brume_light_volume, at, 0.0);
+  return number - 2 * group == 0 ? pair.xy : pair.zw;
+}
+
+// The optical depth of the smoke between a point and light `number`, and in y how much of the light walls let through.
+// `texel`: as brume_light has it.
+vec2 brume_light_at(vec3 texel, int number) {
+  vec2 pair = brume_light_pair(texel, number);
+  return vec2(-4.0 * log(max(pair.x, 1.0 / 512.0)), pair.y);
+}
+
+// The sky: what passes the smoke, the mean over all directions, and in y that times the radiance of a sky of 0.75 +
+// 0.375 y in the direction (x, y, z) where no wall hides it.
+vec2 brume_sky_at(vec3 texel) { return brume_light_pair(texel, BRUME_LIGHT_COUNT); }
+
+// Henyey and Greenstein 1941 [1/sr].
+float brume_phase(float g, float cosine) {
+  float d = 1.0 + g * g - 2.0 * g * cosine;
+  return 0.0795774715 * (1.0 - g * g) / (d * sqrt(d));
+}
+
+// What smoke scatters towards the eye of a light's irradiance [1/sr], once and many times, the way of Brume's renderer
+// (docs/how/light.md). `depth`: of brume_light_at; `cosine`: between the light's direction and that to the eye; `escape`: x
+// of brume_sky_at, or 0.3; `g`: mean cosine of the phase function.
+vec3 brume_scattered(float depth, float cosine, vec3 albedo, float g, float escape) {
+  float forward = max(g, 0.0);
+  vec3 again = albedo * (1.0 - escape);
+  vec3 decay = 1.05 * sqrt((1.0 - 0.951 * albedo) * (1.0 - forward * albedo));
+  vec3 fraction = 0.788 * exp(-0.481 * forward) * again / (1.0 - 0.775 * again);
+  float even = forward / (1.0 + exp(3.409 - 4.663 * forward));
+  return albedo * (exp(-depth) * brume_phase(g, cosine) + fraction * exp(-decay * depth) * brume_phase(even, cosine));
+}
+
+// What smoke scatters of a sky of `ambient`, of which walls around reflect `bounce`. `sky`: of brume_sky_at.
+vec3 brume_scattered_sky(vec2 sky, vec3 ambient, float bounce, vec3 albedo, float g) {
+  float escape = max(sky.x, 0.002);
+  vec3 arriving = ambient * (sky.y + bounce * max(escape - sky.y / 0.75, 0.0));
+  vec3 spread = pow(vec3(escape, escape, escape), sqrt((1.0 - albedo) * (1.0 - g * albedo)));
+  return albedo * spread * arriving / escape;
+}
+
 // ---- Samples ----
 
 // Density as it is drawn at a point of a brick: after noise and holes. `pixel`: width of a pixel there [m].
@@ -288,9 +338,9 @@ float brume_steps_out(vec3 voxel, ivec3 brick, vec3 direction, float step_voxels
 //
 //   vec3 brume_light(vec3 position, vec3 texel, vec3 direction)
 //
-// what smoke of albedo 1 scatters towards the eye there, the ray's direction being `direction`. `texel` is the point in
-// the texture of densities [texels], off the walls, for textures of light in the same bricks. Each step is exact for the
-// light at its sample: energy does not depend on the length of steps.
+// what opaque smoke there would send to the eye: a sum over your lights of brume_scattered, for example. `texel` is the
+// point in the textures of bricks, off the walls, for brume_light_at. Each step is exact for the light at its sample:
+// energy does not depend on the length of steps.
 vec4 brume_march(vec3 origin, vec3 direction, float t_end, float jitter, float pixel_width) {
   vec2 span = brume_span(origin, direction, t_end);
   vec4 gathered = vec4(0.0, 0.0, 0.0, 1.0);

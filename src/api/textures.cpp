@@ -12,11 +12,13 @@ struct brume_textures : brume::api::Handle {
       : Handle(kKind, field.settings),
         level(field.level),
         masks(field.masks),
-        textures(texture_settings, field.masks) {}
+        textures(texture_settings, field.masks),
+        light_count(texture_settings.lamps) {}
 
   std::shared_ptr<const brume::api::LevelData> level;
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::textures::SmokeTextures textures;
+  std::uint32_t light_count;
   std::vector<brume_region> regions;  // of the last update
 };
 
@@ -26,7 +28,7 @@ namespace {
 using textures::kSmokeTextures;
 using textures::Texture;
 
-static_assert(+kSmokeTextures == +BRUME_TEXTURE_COUNT && +textures::kDetail == +BRUME_TEXTURE_DETAIL &&
+static_assert(+kSmokeTextures == +BRUME_TEXTURE_COUNT && +textures::kLight == +BRUME_TEXTURE_LIGHT &&
               +textures::kHoles == +BRUME_TEXTURE_HOLES);
 static_assert(static_cast<int>(textures::Format::rgba32ui) == BRUME_FORMAT_RGBA32UI);
 static_assert(4 * textures::kConstantRows == BRUME_CONSTANTS);
@@ -40,9 +42,31 @@ void create_textures(Call& call, const brume_field* field, const brume_textures_
   require(params.swirl_seconds >= 0.1f && params.swirl_seconds <= 1000,
           "`swirl_seconds` must be from 0.1 to 1000");
   require(params.noise_spacing == 1 || params.noise_spacing == 2, "`noise_spacing` must be 1 or 2");
-  create(textures, of,
-         textures::SmokeTexturesSettings{noise_look_of(params.look), double{params.swirl_seconds},
-                                         static_cast<int>(params.noise_spacing)});
+  require(params.light_count <= BRUME_MAX_TEXTURE_LIGHTS, "`light_count` must be at most 15");
+  require(params.sky <= 1, "`sky` must be 0 or 1");
+  textures::SmokeTexturesSettings settings;
+  settings.noise = noise_look_of(params.look);
+  settings.swirl_period = double{params.swirl_seconds};
+  settings.noise_spacing = static_cast<int>(params.noise_spacing);
+  settings.lamps = params.light_count;
+  settings.sky = params.sky != 0;
+  create(textures, of, settings);
+}
+
+std::vector<textures::Lamp> lamps_of(const brume_textures_frame& frame, std::uint32_t count) {
+  std::vector<textures::Lamp> lamps;
+  if (count > 0) required(frame.lights, "lights");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const brume_texture_light& light = frame.lights[i];
+    const glm::vec3 at(light.at.x, light.at.y, light.at.z);
+    const std::string name = "light " + std::to_string(i);
+    if (light.directional > 1) refuse(name + ": `directional` must be 0 or 1");
+    if (!is_in_world(light.at)) refuse(name + " must be within 16384 m of the world's origin");
+    if (light.directional == 1 && !(std::abs(glm::length(at) - 1) < 1e-3f))
+      refuse(name + ": `at` must be a unit vector towards the sun");
+    lamps.push_back({light.directional == 1, at});
+  }
+  return lamps;
 }
 
 /// What a caller uploads.
@@ -57,11 +81,14 @@ std::vector<brume_region> list_regions(const textures::TextureSet& set) {
   return list;
 }
 
-void update(brume_textures& textures, const brume_field& field, double seconds) {
+void update(brume_textures& textures, const brume_field& field, const brume_textures_frame& params) {
   if (field.level != textures.level || field.masks != textures.masks)
     fail(BRUME_ERROR_MISMATCH,
          "the field must have the level and the masks of the field that the textures are of");
-  textures.textures.update(field.field->smoke(), field.extinction, seconds);
+  const std::vector<textures::Lamp> lamps = lamps_of(params, textures.light_count);
+  const float fraction = params.light_update_fraction;
+  textures.textures.update(field.field->smoke(),
+                           {params.seconds, field.extinction, lamps, fraction > 0 ? fraction : 1});
   textures.regions = list_regions(textures.textures.set());
 }
 
@@ -88,8 +115,11 @@ brume_result brume_textures_update(brume_textures* textures, const brume_field* 
     const brume_field& of = call.handle(field);
     const brume_textures_frame params = required_params(frame);
     require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
+    require(params.light_update_fraction == 0 ||
+                (params.light_update_fraction >= 1 / 16.0f && params.light_update_fraction <= 1),
+            "`light_update_fraction` must be 0, or from 1/16 to 1");
     call.change(
-        object, [&] { call.read(of, [&] { update(object, of, params.seconds); }); }, true);
+        object, [&] { call.read(of, [&] { update(object, of, params); }); }, true);
   });
 }
 

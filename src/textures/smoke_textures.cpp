@@ -59,11 +59,15 @@ float wrapped(double tiles) {
 
 SmokeTextures::SmokeTextures(const SmokeTexturesSettings& settings,
                              std::shared_ptr<const smoke::MaskAtlas> masks)
-    : settings_(settings), masks_(std::move(masks)), set_(kSmokeTextures), points_(settings.noise_spacing) {
+    : settings_(settings),
+      masks_(std::move(masks)),
+      set_(kSmokeTextures),
+      points_(settings.noise_spacing),
+      light_(settings.lamps, settings.sky) {
   smoke::set_noise(look_, settings.noise);
 }
 
-void SmokeTextures::update(const smoke::Field& field, float extinction, double seconds) {
+void SmokeTextures::update(const smoke::Field& field, const Frame& frame) {
   set_.begin_update();
   write_static();
   const SmokeVolume& volume = field.volume();
@@ -71,10 +75,11 @@ void SmokeTextures::update(const smoke::Field& field, float extinction, double s
     throw Error(ErrorCode::resource_limit,
                 "the smoke fills " + std::to_string(volume.slot_count()) + " bricks, more than 65534");
   update_bricks(volume);
-  points_.update(volume, field.state(), look_, settings_.swirl_period, seconds);
+  points_.update(volume, field.state(), look_, settings_.swirl_period, frame.seconds);
   update_displacements();
-  update_holes(field.holes(), seconds);
-  write_constants(volume, extinction, seconds);
+  update_holes(field.holes(), frame.seconds);
+  update_light(field, frame);
+  write_constants(volume, frame);
 }
 
 /// What never changes.
@@ -212,10 +217,10 @@ void SmokeTextures::update_pages(const SmokeVolume& volume) {
 }
 
 void SmokeTextures::update_displacements() {
+  displaced_.clear();
   if (look_.erosion <= 0 && look_.hole_rim <= 0) return;
   const int edge = points_.per_axis();
-  std::vector<std::size_t> regions;
-  regions.reserve(smoky_slots_.size());
+  std::vector<std::size_t>& regions = displaced_;
   for (const std::uint32_t slot : smoky_slots_)
     regions.push_back(set_.add(kDisplacement, edge * place_in_atlas(atlas_bricks_, slot), cube(edge)));
   constexpr std::size_t kGrain = 4;
@@ -229,18 +234,46 @@ void SmokeTextures::update_displacements() {
 
 /// The open holes, as the renderer selects them.
 void SmokeTextures::update_holes(std::span<const shared::Hole> holes, double seconds) {
+  open_holes_.clear();
   std::vector<std::array<glm::vec4, 6>> rows;
   for (std::size_t i = holes.size(); i-- > 0 && rows.size() < kMostHoles;) {
     const shared::HoleReach reach = shared::hole_reach(holes[i], static_cast<float>(seconds), look_.hole_rim);
-    if (reach.length_m >= 0) rows.push_back(hole_row(holes[i], seconds));
+    if (reach.length_m < 0) continue;
+    rows.push_back(hole_row(holes[i], seconds));
+    open_holes_.push_back(holes[i]);
   }
-  hole_count_ = static_cast<std::uint32_t>(rows.size());
   set_.resize(kHoles, Format::rgba32f, {6, static_cast<int>(kMostHoles), 1});
   if (!rows.empty())
     set_.write(kHoles, cube(0), {6, static_cast<int>(rows.size()), 1}, std::as_bytes(std::span(rows)));
 }
 
-void SmokeTextures::write_constants(const SmokeVolume& volume, float extinction, double seconds) {
+void SmokeTextures::update_light(const smoke::Field& field, const Frame& frame) {
+  if (light_.groups() == 0) return;
+  const auto sight = field.sight({frame.extinction});
+  LitSmoke smoke{&field.volume(), sight.get(), open_holes_,
+                 masks_.get(),    look_,       static_cast<float>(frame.seconds),
+                 frame.lamps};
+  smoke.look.extinction = frame.extinction;
+  std::vector<LightVolume::Displacements> displacements(smoky_slots_.size());
+  for (std::size_t i = 0; i < displaced_.size(); ++i)
+    displacements[i] = {reinterpret_cast<const glm::u16vec4*>(set_.texels(displaced_[i]).data()),
+                        points_.per_brick()};
+  light_.update(smoke, smoky_slots_, displacements, frame.light_update_fraction);
+
+  const int groups = static_cast<int>(light_.groups()), edge = shared::kBrickTexels;
+  set_.resize(kLight, Format::rgba8, atlas_bricks_ * edge * glm::ivec3(1, 1, groups));
+  for (const std::uint32_t slot : smoky_slots_)
+    for (int group = 0; group < groups; ++group) {
+      const glm::ivec3 place =
+          place_in_atlas(atlas_bricks_, slot) + glm::ivec3(0, 0, group * atlas_bricks_.z);
+      set_.write(kLight, edge * place, cube(edge),
+                 std::as_bytes(light_.texels(slot, static_cast<std::uint32_t>(group))));
+    }
+}
+
+void SmokeTextures::write_constants(const SmokeVolume& volume, const Frame& frame) {
+  const float extinction = frame.extinction;
+  const double seconds = frame.seconds;
   const shared::VolumeLayout& layout = volume.volume().layout();
   const double per_metre = double{look_.noise_frequency}, risen = double{look_.rise} * seconds * per_metre;
   const double detail = double{shared::kDetailRatio};
@@ -248,7 +281,7 @@ void SmokeTextures::write_constants(const SmokeVolume& volume, float extinction,
   constants_ = {
       glm::vec4(layout.origin_world, layout.voxels_per_metre),
       glm::vec4(glm::vec3(window_low_), layout.voxel_size),
-      glm::vec4(glm::vec3(window_size_), static_cast<float>(hole_count_)),
+      glm::vec4(glm::vec3(window_size_), static_cast<float>(open_holes_.size())),
       glm::vec4(glm::vec3(atlas_bricks_), extinction),
       glm::vec4(world(layout.bounds_min), 0.4f * layout.voxel_size),
       glm::vec4(world(layout.bounds_max), look_.erosion),
@@ -257,7 +290,7 @@ void SmokeTextures::write_constants(const SmokeVolume& volume, float extinction,
                 look_.noise_frequency * shared::kDetailRatio),
       glm::vec4(look_.detail, look_.hole_rim, static_cast<float>(points_.per_axis()),
                 1 / static_cast<float>(settings_.noise_spacing)),
-      glm::vec4(0),
+      glm::vec4(static_cast<float>(std::max(light_.groups(), 1u)), static_cast<float>(settings_.lamps), 0, 0),
   };
 }
 

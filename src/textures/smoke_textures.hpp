@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "smoke/field.hpp"
+#include "textures/light_volume.hpp"
 #include "textures/noise_points.hpp"
 #include "textures/texture_set.hpp"
 
@@ -35,6 +36,7 @@ enum SmokeTexture : std::uint32_t {
   kMasks,
   kNoise,
   kDetail,
+  kLight,
   kSmokeTextures,
 };
 
@@ -49,6 +51,8 @@ using Constants = std::array<glm::vec4, kConstantRows>;
 struct SmokeTexturesSettings {
   smoke::NoiseLook noise;
   double swirl_period = smoke::SmokeInput().swirl_period;  ///< [s], > 0.
+  std::uint32_t lamps = 0;                                 ///< Lights of the light volume.
+  bool sky = false;                                        ///< Whether it has the sky.
   int noise_spacing = 1;                                   ///< Of the displacement, 1 or 2 [voxels].
 };
 
@@ -57,10 +61,18 @@ class SmokeTextures {
   /// `masks` (null: none) must be those of the fields.
   SmokeTextures(const SmokeTexturesSettings& settings, std::shared_ptr<const smoke::MaskAtlas> masks);
 
-  /// Follows a field, which must stay as it is meanwhile, at `seconds` after tick 0: that of its state, or
-  /// later. Afterwards `set` has all that changed since the last update. Throws Error(resource_limit) when
-  /// the smoke has more than kMostBricks; the textures are then as they were, but for regions that were lost.
-  void update(const smoke::Field& field, float extinction, double seconds);
+  /// What a picture of the smoke depends on besides the field.
+  struct Frame {
+    double seconds = 0;  ///< After tick 0: that of the field's state, or later.
+    float extinction = 3;
+    std::span<const Lamp> lamps;
+    float light_update_fraction = 1;  ///< Of the texels whose light this update finds, (0, 1].
+  };
+
+  /// Follows a field, which must stay as it is meanwhile. Afterwards `set` has all that changed since the
+  /// last update. Throws Error(resource_limit) when the smoke has more than kMostBricks; the textures are
+  /// then as they were, but for regions that were lost.
+  void update(const smoke::Field& field, const Frame& frame);
 
   const TextureSet& set() const { return set_; }
   const Constants& constants() const { return constants_; }
@@ -73,8 +85,9 @@ class SmokeTextures {
   void update_walls(const smoke::SmokeVolume& volume, bool all);
   void update_displacements();
   void update_holes(std::span<const shared::Hole> holes, double seconds);
+  void update_light(const smoke::Field& field, const Frame& frame);
   void write_static();
-  void write_constants(const smoke::SmokeVolume& volume, float extinction, double seconds);
+  void write_constants(const smoke::SmokeVolume& volume, const Frame& frame);
 
   SmokeTexturesSettings settings_;
   shared::SmokeLook look_{};
@@ -82,12 +95,14 @@ class SmokeTextures {
   TextureSet set_;
   Constants constants_{};
   NoisePoints points_;
+  LightVolume light_;
   std::uint64_t volume_id_ = 0, revision_ = 0;  // of the last update
   glm::ivec3 atlas_bricks_{0};
   glm::ivec3 window_low_{0}, window_size_{0};  // of the pages [bricks]
   std::vector<std::uint16_t> pages_;
   std::vector<std::uint32_t> smoky_slots_;
-  std::uint32_t hole_count_ = 0;
+  std::vector<std::size_t> displaced_;  // regions of displacement, by smoky slot
+  std::vector<shared::Hole> open_holes_;
   bool wrote_static_ = false;
 };
 

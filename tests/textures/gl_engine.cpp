@@ -20,16 +20,26 @@ struct GlFormat {
 };
 GlFormat gl_format(std::uint32_t format) {
   switch (format) {
-    case BRUME_FORMAT_R8: return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
-    case BRUME_FORMAT_RG8: return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE};
-    case BRUME_FORMAT_RGBA8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case BRUME_FORMAT_RGBA16F: return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
-    case BRUME_FORMAT_RGBA32F: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
-    case BRUME_FORMAT_R16UI: return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT};
-    case BRUME_FORMAT_R32UI: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
-    case BRUME_FORMAT_RG32UI: return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
-    case BRUME_FORMAT_RGBA32UI: return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
-    default: throw std::runtime_error("a texture of format " + std::to_string(format));
+    case BRUME_FORMAT_R8:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+    case BRUME_FORMAT_RG8:
+      return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE};
+    case BRUME_FORMAT_RGBA8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case BRUME_FORMAT_RGBA16F:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
+    case BRUME_FORMAT_RGBA32F:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case BRUME_FORMAT_R16UI:
+      return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT};
+    case BRUME_FORMAT_R32UI:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
+    case BRUME_FORMAT_RG32UI:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+    case BRUME_FORMAT_RGBA32UI:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
+    default:
+      throw std::runtime_error("a texture of format " + std::to_string(format));
   }
 }
 
@@ -39,7 +49,7 @@ bool is_flat(std::uint32_t kind) {
 }
 bool is_linear(std::uint32_t kind) {
   return kind == BRUME_TEXTURE_DENSITY || kind == BRUME_TEXTURE_DISPLACEMENT || kind == BRUME_TEXTURE_MASKS ||
-         kind == BRUME_TEXTURE_NOISE || kind == BRUME_TEXTURE_DETAIL;
+         kind == BRUME_TEXTURE_NOISE || kind == BRUME_TEXTURE_DETAIL || kind == BRUME_TEXTURE_LIGHT;
 }
 bool repeats(std::uint32_t kind) {
   return kind == BRUME_TEXTURE_NOISE || kind == BRUME_TEXTURE_DETAIL;
@@ -48,9 +58,9 @@ GLenum target_of(std::uint32_t kind) {
   return is_flat(kind) ? GL_TEXTURE_2D : GL_TEXTURE_3D;
 }
 
-constexpr std::array kNames{"brume_density", "brume_displacement", "brume_pages", "brume_cells",
-                            "brume_boundary", "brume_corners",     "brume_holes", "brume_masks",
-                            "brume_noise",    "brume_detail"};
+constexpr std::array kNames{"brume_density",  "brume_displacement", "brume_pages",       "brume_cells",
+                            "brume_boundary", "brume_corners",      "brume_holes",       "brume_masks",
+                            "brume_noise",    "brume_detail",       "brume_light_volume"};
 static_assert(kNames.size() == BRUME_TEXTURE_COUNT);
 
 void make(std::uint32_t kind, const brume_texture& texture) {
@@ -77,11 +87,11 @@ void upload(const brume_region& region, std::uint32_t texture_format) {
   const GlFormat format = gl_format(texture_format);
   const auto i = [](std::uint32_t n) { return static_cast<GLint>(n); };
   if (is_flat(region.texture)) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, i(region.x), i(region.y), i(region.width), i(region.height), format.format,
-                    format.type, region.texels);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, i(region.x), i(region.y), i(region.width), i(region.height),
+                    format.format, format.type, region.texels);
   } else {
-    glTexSubImage3D(GL_TEXTURE_3D, 0, i(region.x), i(region.y), i(region.z), i(region.width), i(region.height),
-                    i(region.depth), format.format, format.type, region.texels);
+    glTexSubImage3D(GL_TEXTURE_3D, 0, i(region.x), i(region.y), i(region.z), i(region.width),
+                    i(region.height), i(region.depth), format.format, format.type, region.texels);
   }
 }
 
@@ -126,7 +136,8 @@ GlEngine::GlEngine() {
   if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
     throw std::runtime_error("no EGL without a window");
   eglBindAPI(EGL_OPENGL_ES_API);
-  const std::array<EGLint, 5> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
+  const std::array<EGLint, 5> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
+                                         EGL_NONE};
   context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
   if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
     throw std::runtime_error("no OpenGL ES 3.0");
@@ -149,7 +160,7 @@ std::size_t GlEngine::follow(const brume_textures* textures) {
   std::array<brume_texture, BRUME_TEXTURE_COUNT> list;
   check(brume_textures_list(textures, list.data(), list.size()));
   for (std::uint32_t kind = 0; kind < list.size(); ++kind) {
-    if (list[kind].generation == generations_[kind]) continue;
+    if (list[kind].generation == generations_[kind]) continue;  // made, or of no size
     glDeleteTextures(1, &textures_[kind]);
     glGenTextures(1, &textures_[kind]);
     glBindTexture(target_of(kind), textures_[kind]);
@@ -183,7 +194,8 @@ GLuint GlEngine::program(const std::string& before, const std::string& main) {
       "out vec4 color;\n" +
       before + *smoke +
       "void main() {\n"
-      "  vec2 at = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y) / size.xy * vec2(2.0, -2.0) + vec2(-1.0, 1.0);\n"
+      "  vec2 at = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y) / size.xy * vec2(2.0, -2.0) + vec2(-1.0, "
+      "1.0);\n"
       "  vec3 origin = eye.xyz, direction = normalize(forward.xyz + at.x * right.xyz + at.y * up.xyz);\n"
       "  float pixel_width = size.z;\n" +
       main + "}\n";

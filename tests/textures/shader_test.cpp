@@ -1,5 +1,5 @@
-// What shaders/export/smoke.glsl draws in a renderer that has the textures of brume_textures.h alone: against lines of
-// sight, which integrate the same smoke exactly on the CPU.
+// What shaders/export/smoke.glsl draws in a renderer that has the textures of brume_textures.h alone: against
+// lines of sight, which integrate the same smoke exactly on the CPU.
 #include <gtest/gtest.h>
 
 #include <brume/brume_textures.hpp>
@@ -70,7 +70,8 @@ Apart compare(const Picture& picture, const std::vector<float>& depths) {
   return apart;
 }
 
-const std::string kWhite = "vec3 brume_light(vec3 position, vec3 texel, vec3 direction) { return vec3(1.0); }\n";
+const std::string kWhite =
+    "vec3 brume_light(vec3 position, vec3 texel, vec3 direction) { return vec3(1.0); }\n";
 
 TEST_F(ShaderTest, LetsThroughWhatLinesOfSightDo) {
   brume_drawn_params plain = brume_drawn_defaults();

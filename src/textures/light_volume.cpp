@@ -1,0 +1,238 @@
+#include "textures/light_volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+#include "core/tasks.hpp"
+#include "shared/erosion.h"
+#include "shared/noise_advection.h"
+#include "shared/sky_light.h"
+#include "shared/smoke_light.h"
+
+namespace brume::textures {
+namespace {
+
+constexpr int kTexels = shared::kBrickTexels;
+
+glm::ivec3 texel_at(std::uint32_t index) {
+  const int i = static_cast<int>(index);
+  return {i % kTexels, i / kTexels % kTexels, i / (kTexels * kTexels)};
+}
+std::size_t index_of(glm::ivec3 texel) {
+  return static_cast<std::size_t>(texel.x + kTexels * (texel.y + kTexels * texel.z));
+}
+
+std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+/// The displacement at a texel, or at the point before it where they are two voxels apart.
+glm::vec3 displacement_at(LightVolume::Displacements points, std::uint32_t index) {
+  if (points.empty()) return glm::vec3(0);
+  if (points.size() == shared::kTexelsPerBrick) return glm::vec3(glm::unpackHalf(points[index]));
+  const glm::ivec3 at = texel_at(index) / 2;
+  constexpr int kPoints = shared::kDisplacementPoints;
+  return glm::vec3(
+      glm::unpackHalf(points[static_cast<std::size_t>(at.x + kPoints * (at.y + kPoints * at.z))]));
+}
+
+/// Behind this optical depth light counts as gone.
+constexpr float kDeepest = 20;
+constexpr std::uint32_t kPhases = shared::kLightPhases;
+
+}  // namespace
+
+LightVolume::LightVolume(std::uint32_t lamps, bool sky)
+    : lamps_(lamps), sky_(sky), groups_((lamps + (sky ? 1 : 0) + 1) / 2) {}
+
+bool LightVolume::Phases::has(std::uint32_t phase) const {
+  return (phase + kPhases - first) % kPhases < count;
+}
+
+void LightVolume::update(const LitSmoke& smoke, std::span<const std::uint32_t> slots,
+                         std::span<const Displacements> displacements, float fraction) {
+  const auto count = static_cast<std::uint32_t>(std::ceil(fraction * static_cast<float>(kPhases)));
+  const Phases phases{turn_, std::clamp(count, 1u, kPhases)};
+  turn_ = (turn_ + phases.count) % kPhases;
+  bricks_.resize(smoke.volume->slot_count());
+  for (const std::uint32_t slot : slots) {
+    std::unique_ptr<Brick>& brick = bricks_[slot];
+    const glm::ivec3 at = smoke.volume->brick_of(slot);
+    if (brick && brick->brick == at) continue;
+    brick = std::make_unique<Brick>();
+    brick->brick = at;
+    brick->texels.resize(std::size_t{groups_} * shared::kTexelsPerBrick);
+  }
+  const auto for_each = [&](std::size_t grain, auto body) {
+    parallel_for(slots.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(i, *bricks_[slots[i]], slots[i]);
+    });
+  };
+  const auto phases_of = [&](const Brick& brick) { return brick.fresh ? Phases{0, kPhases} : phases; };
+  for_each(4, [&](std::size_t i, Brick& brick, std::uint32_t slot) {
+    find_retained(smoke, brick, slot, displacements[i], phases_of(brick));
+    find_density(smoke, brick, slot);
+  });
+  for_each(1, [&](std::size_t, Brick& brick, std::uint32_t) { light(smoke, brick, phases_of(brick)); });
+  for (const std::uint32_t slot : slots) bricks_[slot]->fresh = false;
+}
+
+std::span<const glm::u8vec4> LightVolume::texels(std::uint32_t slot, std::uint32_t group) const {
+  return std::span(bricks_[slot]->texels)
+      .subspan(std::size_t{group} * shared::kTexelsPerBrick, shared::kTexelsPerBrick);
+}
+
+/// From four points of each texel, the corners of a tetrahedron, as shaders/noise_advection.comp.
+void LightVolume::find_retained(const LitSmoke& smoke, Brick& brick, std::uint32_t slot,
+                                Displacements displacements, const Phases& phases) const {
+  const shared::VolumeLayout& layout = smoke.volume->layout();
+  const smoke::NoiseTile& tile = smoke::smoke_noise_tile();
+  static const smoke::MaskAtlas kNoMasks;
+  const smoke::MaskAtlas& masks = smoke.masks ? *smoke.masks : kNoMasks;
+  const std::span<const smoke::Texel> texels = smoke.volume->texels(slot);
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
+    if (!phases.has(shared::light_phase(glm::uvec3(texel_at(i))))) continue;
+    const float density = static_cast<float>(texels[i].density) / 255;
+    if (density <= 0) {
+      brick.retained[i] = 1;
+      continue;
+    }
+    const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
+    const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
+    const glm::vec3 displacement = displacement_at(displacements, i);
+    glm::vec4 remaining;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const glm::vec3 within =
+          (glm::vec3(k & 1u, k >> 1u, (k ^ k >> 1u) & 1u) - 0.5f) * (0.5f * layout.voxel_size);
+      const glm::vec3 at = p_world + within;
+      const int n = static_cast<int>(k);
+      remaining[n] = density;
+      if (smoke.look.erosion > 0) {
+        const glm::vec4 noise =
+            smoke::noise_at(tile, shared::noise_point(smoke.look, at + displacement, smoke.seconds));
+        remaining[n] = shared::effective_erode(smoke.look, density, noise);
+      }
+      for (const shared::Hole& hole : smoke.holes)
+        remaining[n] *= 1 - smoke::hole_strength_masked(hole, at, smoke.seconds, 0, masks);
+    }
+    const float k = smoke.look.extinction * layout.voxel_size;
+    brick.retained[i] = shared::effective_density(remaining, k) / density;
+  }
+}
+
+/// Solid texels get the mean of the free ones around: light that grazes a wall meets the smoke in front of
+/// it.
+void LightVolume::find_density(const LitSmoke& smoke, Brick& brick, std::uint32_t slot) const {
+  const std::span<const smoke::Texel> texels = smoke.volume->texels(slot);
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i)
+    brick.density[i] = static_cast<float>(texels[i].density) / 255 * brick.retained[i];
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
+    if (texels[i].free != 0) continue;
+    const glm::ivec3 at = texel_at(i), low = glm::max(at - 1, 0), high = glm::min(at + 1, kTexels - 1);
+    float sum = 0, free = 0;
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const std::size_t near = index_of({x, y, z});
+          if (texels[near].free == 0) continue;
+          sum += brick.density[near];
+          ++free;
+        }
+    brick.density[i] = sum / std::max(free, 1.0f);
+  }
+}
+
+void LightVolume::light(const LitSmoke& smoke, Brick& brick, const Phases& phases) const {
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
+    if (!phases.has(shared::light_phase(glm::uvec3(texel_at(i))))) continue;
+    const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
+    for (std::uint32_t n = 0; n < 2 * groups_; ++n) {
+      glm::u8vec2 value(255, 0);
+      if (n < smoke.lamps.size()) {
+        value = of_lamp(smoke, p_voxel, smoke.lamps[n]);
+      } else if (sky_ && n == lamps_) {
+        value = of_sky(smoke, p_voxel);
+      }
+      glm::u8vec4& texel = brick.texels[std::size_t{n / 2} * shared::kTexelsPerBrick + i];
+      const int first = static_cast<int>(2 * (n % 2));
+      texel[first] = value.x;
+      texel[first + 1] = value.y;
+    }
+  }
+}
+
+float LightVolume::density_at(const LitSmoke& smoke, glm::vec3 p_voxel, bool& empty) const {
+  const glm::ivec3 brick(glm::floor(p_voxel * 0.125f));
+  const std::uint32_t slot = smoke.volume->slot_at(brick);
+  empty = slot == smoke::SmokeVolume::kNoSlot || !bricks_[slot] || bricks_[slot]->brick != brick;
+  if (empty) return 0;
+  const glm::vec3 at = p_voxel - glm::vec3(shared::kBrickVoxels * brick) + 0.5f;
+  const glm::vec3 low = glm::floor(at), f = at - low;
+  const float* const d = bricks_[slot]->density.data() + index_of(glm::ivec3(low));
+  const auto row = [&](int offset) { return glm::mix(d[offset], d[offset + 1], f.x); };
+  constexpr int kLayer = kTexels * kTexels;
+  return glm::mix(glm::mix(row(0), row(kTexels), f.y), glm::mix(row(kLayer), row(kLayer + kTexels), f.y),
+                  f.z);
+}
+
+/// As shaders/lib/optical_depth.glsl: steps of a voxel that grow with the distance.
+float LightVolume::depth(const LitSmoke& smoke, glm::vec3 p_voxel, glm::vec3 direction, float reach_m,
+                         float coarse) const {
+  const shared::VolumeLayout& layout = smoke.volume->layout();
+  const glm::vec3 inverse = 1.0f / (direction + glm::vec3(glm::equal(direction, glm::vec3(0))) * 1e-6f);
+  const glm::vec3 t0 = (layout.bounds_min - p_voxel) * inverse, t1 = (layout.bounds_max - p_voxel) * inverse;
+  const glm::vec3 near = glm::min(t0, t1), far = glm::max(t0, t1);
+  const float begin = std::max({near.x, near.y, near.z, 0.0f});
+  const float reach = std::min({far.x, far.y, far.z, reach_m / layout.voxel_size}) - begin;
+  if (!(reach > 0)) return 0;
+  const float per_voxel = layout.voxel_size * smoke.look.extinction;
+  const float steps =
+      std::min(std::ceil(reach), std::ceil(std::max(24.0f, std::sqrt(144 + 48 * reach) - 12) / coarse));
+  float depth = 0;
+  for (float i = 0; i < steps && depth * per_voxel <= kDeepest; ++i) {
+    const float before = reach * (i / steps) * (0.5f + 0.5f * i / steps);
+    const float after = reach * ((i + 1) / steps) * (0.5f + 0.5f * (i + 1) / steps);
+    const glm::vec3 p = p_voxel + direction * (begin + 0.5f * (before + after));
+    bool empty = false;
+    depth += density_at(smoke, p, empty) * (after - before);
+    if (!empty) continue;
+    // To the step in which the ray leaves the empty brick.
+    const glm::vec3 low = glm::floor(p * 0.125f) * 8.0f;
+    const glm::vec3 a = (low - p) * inverse, b = (low + 8.0f - p) * inverse, out = glm::max(a, b);
+    const float leaves = 0.5f * (before + after) + std::min({out.x, out.y, out.z}) - 0.01f;
+    i = std::max(i, std::floor(steps * (std::sqrt(0.25f + 2 * leaves / reach) - 0.5f)) - 1);
+  }
+  return depth * per_voxel;
+}
+
+glm::u8vec2 LightVolume::of_lamp(const LitSmoke& smoke, glm::vec3 p_voxel, const Lamp& lamp) const {
+  constexpr float kFar = 1000;  // [m]
+  const shared::VolumeLayout& layout = smoke.volume->layout();
+  const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
+  const glm::vec3 to = lamp.directional ? lamp.at_world * kFar : lamp.at_world - p_world;
+  const float distance = glm::length(to);
+  if (!(distance > 0)) return {255, 255};
+  const auto visible = smoke.sight->visible(p_world, p_world + to, std::numeric_limits<float>::infinity());
+  if (!visible || !*visible) return {255, 0};
+  return {to_byte(std::exp(-0.25f * depth(smoke, p_voxel, to / distance, distance, 1))), 255};
+}
+
+glm::u8vec2 LightVolume::of_sky(const LitSmoke& smoke, glm::vec3 p_voxel) const {
+  constexpr float kFar = 1000;  // [m]
+  const shared::VolumeLayout& layout = smoke.volume->layout();
+  const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
+  float escape = 0, seen = 0;
+  for (std::uint32_t i = 0; i < shared::kSkyRays; ++i) {
+    const glm::vec3 direction = shared::sky_ray(i);
+    const float passed = std::exp(-depth(smoke, p_voxel, direction, kFar, 2)) / float{shared::kSkyRays};
+    escape += passed;
+    const auto visible =
+        smoke.sight->visible(p_world, p_world + kFar * direction, std::numeric_limits<float>::infinity());
+    if (visible && *visible) seen += passed * shared::sky_shape(direction.y);
+  }
+  return {to_byte(escape), to_byte(seen)};
+}
+
+}  // namespace brume::textures
