@@ -1,8 +1,9 @@
 // Smoke in a shader of yours: density, transmittance and a march, from the textures and constants of brume_textures.h.
 // The same in GLSL (4.0, ES 3.0) and HLSL. Guide: docs/start/your-engine.md.
 //
-//   vec3 brume_light(vec3 position, vec3 texel, vec3 direction) { ... }  // yours, see brume_march
 //   #include "smoke.glsl"
+//   vec3 brume_light(vec3 position, vec3 texel, vec3 direction) { ... }  // yours
+//   #include "smoke_march.glsl"
 //   vec4 smoke = brume_march(eye, direction, distance_to_surface, jitter, pixel_width);
 //   color = smoke.rgb + smoke.a * color;  // radiance in front of the surface, and what of it is left
 //
@@ -287,8 +288,8 @@ float brume_sample(ivec3 place, vec3 local, vec3 position, float pixel, uvec4 ho
   float density = brume_local_density(place, local, off);
   bool cut = (holes.x | holes.y | holes.z | holes.w) != 0u;
   if (density <= 0.0 || (BRUME_EROSION <= 0.0 && !cut)) return density;
-  vec3 point = vec3(place) * BRUME_NOISE_POINTS + (local + 0.5) * BRUME_POINTS_PER_VOXEL + 0.5;
-  vec3 displacement = textureLod(brume_displacement, point / (BRUME_ATLAS_BRICKS * BRUME_NOISE_POINTS), 0.0).xyz;
+  vec3 at = vec3(place) * BRUME_NOISE_POINTS + (local + 0.5) * BRUME_POINTS_PER_VOXEL + 0.5;
+  vec3 displacement = textureLod(brume_displacement, at / (BRUME_ATLAS_BRICKS * BRUME_NOISE_POINTS), 0.0).xyz;
   float rim;
   density = brume_erode(density, position, displacement, pixel, rim);
   if (cut && density > 0.0) density *= brume_after_holes(holes, position, rim);
@@ -328,51 +329,6 @@ float brume_steps_out(vec3 voxel, ivec3 brick, vec3 direction, float step_voxels
   vec3 b = (low + 8.0 - voxel) / d;
   vec3 far = max(a, b);
   return max(ceil(min(far.x, min(far.y, far.z)) / step_voxels), 1.0);
-}
-
-// ---- Rays ----
-
-// Radiance of the smoke along a ray in rgb, and in a what it lets through. `jitter` in [0, 1): where samples are in their
-// steps; different from pixel to pixel, as blue noise, it turns banding into fine grain. `pixel_width`: of a pixel one
-// metre away [m]. The radiance at a point is yours,
-//
-//   vec3 brume_light(vec3 position, vec3 texel, vec3 direction)
-//
-// what opaque smoke there would send to the eye: a sum over your lights of brume_scattered, for example. `texel` is the
-// point in the textures of bricks, off the walls, for brume_light_at. Each step is exact for the light at its sample:
-// energy does not depend on the length of steps.
-vec4 brume_march(vec3 origin, vec3 direction, float t_end, float jitter, float pixel_width) {
-  vec2 span = brume_span(origin, direction, t_end);
-  vec4 gathered = vec4(0.0, 0.0, 0.0, 1.0);
-  if (span.y <= span.x) return gathered;
-  uvec4 holes = brume_holes_of_ray(origin, direction);
-  float ds = (span.y - span.x) / ceil((span.y - span.x) / BRUME_STEP);
-  float t = span.x + jitter * ds;
-  while (t < span.y) {
-    vec3 position = origin + t * direction;
-    vec3 voxel = (position - BRUME_ORIGIN) * BRUME_VOXELS_PER_METRE;
-    ivec3 brick = ivec3(floor(voxel * 0.125));
-    ivec3 place = brume_place(brick);
-    if (place.x < 0) {
-      t += ds * brume_steps_out(voxel, brick, direction, ds * BRUME_VOXELS_PER_METRE);
-      continue;
-    }
-    vec3 local = voxel - vec3(brick) * 8.0;
-    vec3 off;
-    float density = brume_sample(place, local, position, t * pixel_width, holes, off);
-    if (density > 0.0) {
-      float passed = exp(-BRUME_EXTINCTION * density * ds);
-      vec3 texel = vec3(place) * 10.0 + local + off + 1.0;
-      gathered.rgb += gathered.a * (1.0 - passed) * brume_light(position, texel, direction);
-      gathered.a *= passed;
-      if (gathered.a < 0.004) {
-        gathered.a = 0.0;
-        break;
-      }
-    }
-    t += ds;
-  }
-  return gathered;
 }
 
 // What smoke lets through along a line, for shadows: by `steps` equal steps.

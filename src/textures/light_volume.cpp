@@ -56,8 +56,13 @@ void LightVolume::update(const LitSmoke& smoke, std::span<const std::uint32_t> s
   const auto count = static_cast<std::uint32_t>(std::ceil(fraction * static_cast<float>(kPhases)));
   const Phases phases{turn_, std::clamp(count, 1u, kPhases)};
   turn_ = (turn_ + phases.count) % kPhases;
+  // Bricks whose smoke is gone block no light.
+  std::vector<std::unique_ptr<Brick>> before = std::move(bricks_);
+  before.resize(smoke.volume->slot_count());
+  bricks_.clear();
   bricks_.resize(smoke.volume->slot_count());
   for (const std::uint32_t slot : slots) {
+    bricks_[slot] = std::move(before[slot]);
     std::unique_ptr<Brick>& brick = bricks_[slot];
     const glm::ivec3 at = smoke.volume->brick_of(slot);
     if (brick && brick->brick == at) continue;
@@ -215,8 +220,9 @@ glm::u8vec2 LightVolume::of_lamp(const LitSmoke& smoke, glm::vec3 p_voxel, const
   const float distance = glm::length(to);
   if (!(distance > 0)) return {255, 255};
   const auto visible = smoke.sight->visible(p_world, p_world + to, std::numeric_limits<float>::infinity());
-  if (!visible || !*visible) return {255, 0};
-  return {to_byte(std::exp(-0.25f * depth(smoke, p_voxel, to / distance, distance, 1))), 255};
+  // In shadow, too: between a texel in shadow and a lit one, shaders interpolate both numbers.
+  const float passed = std::exp(-0.25f * depth(smoke, p_voxel, to / distance, distance, 1));
+  return {to_byte(passed), to_byte(visible && *visible ? 1 : 0)};
 }
 
 glm::u8vec2 LightVolume::of_sky(const LitSmoke& smoke, glm::vec3 p_voxel) const {

@@ -12,8 +12,8 @@ void NoisePoints::update(const smoke::SmokeVolume& volume, const sim::State& sta
   swirl_ = look.swirl;
   swirl_width_ = look.swirl_width;
   motion_ = smoke::noise_motion(state, seconds, swirl_period);
-  growth_.update(state, volume);
-  rolls_.resize(volume.slot_count());
+  if (growth_.update(state, volume) || parts_ == 0) ++parts_;
+  points_.resize(volume.slot_count());
 }
 
 glm::ivec3 NoisePoints::place_of(std::size_t index) const {
@@ -27,36 +27,42 @@ glm::vec3 NoisePoints::position(std::uint32_t slot, std::size_t index) const {
   return layout.origin_world + (glm::vec3(texel) - 0.5f) * layout.voxel_size;
 }
 
-const NoisePoints::Rolls& NoisePoints::rolls_of(std::uint32_t slot) {
-  std::unique_ptr<Rolls>& rolls = rolls_[slot];
+const NoisePoints::Points& NoisePoints::points_of(std::uint32_t slot, std::span<const glm::uvec2> parts) {
+  std::unique_ptr<Points>& points = points_[slot];
   const glm::ivec3 brick = volume_->brick_of(slot);
-  if (rolls && rolls->brick == brick && rolls->width == swirl_width_) return *rolls;
-  if (!rolls) rolls = std::make_unique<Rolls>();
-  rolls->brick = brick;
-  rolls->width = swirl_width_;
-  rolls->first.resize(per_brick());
-  rolls->second.resize(per_brick());
-  for (std::size_t i = 0; i < per_brick(); ++i) {
-    const glm::vec3 p_world = position(slot, i);
-    rolls->first[i] = shared::first_swirl(p_world, swirl_width_);
-    rolls->second[i] = shared::second_swirl(p_world, swirl_width_);
+  if (!points || points->brick != brick) {
+    points = std::make_unique<Points>();
+    points->brick = brick;
+    for (std::size_t i = 0; i < per_brick(); ++i) {
+      const glm::vec3 p_world = position(slot, i);
+      points->first.push_back(shared::first_swirl(p_world, swirl_width_));
+      points->second.push_back(shared::second_swirl(p_world, swirl_width_));
+    }
   }
-  return *rolls;
+  if (points->parts == parts_) return *points;
+  points->parts = parts_;
+  points->growth.clear();
+  for (const glm::uvec2 part : parts) {
+    const auto growth = growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick);
+    for (std::size_t i = 0; i < per_brick(); ++i)
+      points->growth.push_back(smoke::growth_at(growth, spacing_ * place_of(i)));
+  }
+  return *points;
 }
 
 /// Adds displacement times weight, and in w the weight.
-void NoisePoints::add_clouds(std::uint32_t slot, std::span<glm::vec4> points) {
+void NoisePoints::add_clouds(std::uint32_t slot, std::span<glm::vec4> sums) {
   const glm::uvec2 range = growth_.parts()[slot];
-  const Rolls& rolls = rolls_of(slot);
-  for (const glm::uvec2 part : growth_.parts().subspan(volume_->slot_count() + range.x, range.y)) {
+  const auto parts = growth_.parts().subspan(volume_->slot_count() + range.x, range.y);
+  const Points& points = points_of(slot, parts);
+  const glm::vec4* growth = points.growth.data();
+  for (const glm::uvec2 part : parts) {
     const shared::CloudMotion& motion = motion_.clouds[part.y];
-    const auto growth = growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const glm::vec4 grown = smoke::growth_at(growth, spacing_ * place_of(i));
-      if (!(grown.w > 0)) continue;
+    for (std::size_t i = 0; i < sums.size(); ++i, ++growth) {
+      if (!(growth->w > 0)) continue;
       const glm::vec3 swirl =
-          swirl_ * (motion.swirl_cos * rolls.first[i] + motion.swirl_sin * rolls.second[i]);
-      points[i] += shared::cloud_displacement(motion, grown, swirl, volume_->layout().voxel_size);
+          swirl_ * (motion.swirl_cos * points.first[i] + motion.swirl_sin * points.second[i]);
+      sums[i] += shared::cloud_displacement(motion, *growth, swirl, volume_->layout().voxel_size);
     }
   }
 }

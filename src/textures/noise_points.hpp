@@ -38,25 +38,28 @@ class NoisePoints {
   void write(std::uint32_t slot, std::span<glm::u16vec4> out);
 
  private:
-  /// The two fields of rolls at the points of a brick, for as long as a slot holds it.
-  struct Rolls {
+  /// What does not change at the points of a brick: the two fields of rolls, and the growth of each cloud, in
+  /// w its weight.
+  struct Points {
     glm::ivec3 brick{0};
-    float width = 0;
+    std::uint64_t parts = 0;  // of which parts_ the growth is
     std::vector<glm::vec3> first, second;
+    std::vector<glm::vec4> growth;
   };
 
-  const Rolls& rolls_of(std::uint32_t slot);
+  const Points& points_of(std::uint32_t slot, std::span<const glm::uvec2> parts);
   glm::ivec3 place_of(std::size_t index) const;
   glm::vec3 position(std::uint32_t slot, std::size_t index) const;
-  void add_clouds(std::uint32_t slot, std::span<glm::vec4> points);
+  void add_clouds(std::uint32_t slot, std::span<glm::vec4> sums);
   void extend(std::span<glm::vec4> points) const;
 
   int spacing_, per_axis_;
   smoke::CloudGrowth growth_;
   smoke::NoiseMotion motion_;
   const smoke::SmokeVolume* volume_ = nullptr;  // the last update's
+  std::uint64_t parts_ = 0;                     // how often the parts of growth_ changed
   float swirl_ = 0, swirl_width_ = 1;
-  std::vector<std::unique_ptr<Rolls>> rolls_;  // by slot
+  std::vector<std::unique_ptr<Points>> points_;  // by slot
 };
 
 }  // namespace brume::textures

@@ -95,6 +95,12 @@ void upload(const brume_region& region, std::uint32_t texture_format) {
   }
 }
 
+std::string exported(const char* name) {
+  const auto text = read_text_file(std::string(BRUME_SOURCE_DIR "/shaders/export/") + name);
+  if (!text) throw std::runtime_error(text.failure().message);
+  return *text;
+}
+
 GLuint compile(GLenum stage, const std::string& source) {
   const GLuint shader = glCreateShader(stage);
   const char* const text = source.c_str();
@@ -181,9 +187,7 @@ std::size_t GlEngine::follow(const brume_textures* textures) {
   return bytes;
 }
 
-GLuint GlEngine::program(const std::string& before, const std::string& main) {
-  const auto smoke = read_text_file(BRUME_SOURCE_DIR "/shaders/export/smoke.glsl");
-  if (!smoke) throw std::runtime_error(smoke.failure().message);
+GLuint GlEngine::program(const std::string& light, const std::string& main) {
   const std::string start = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
   const std::string vertex = start +
                              "void main() { vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
@@ -192,7 +196,7 @@ GLuint GlEngine::program(const std::string& before, const std::string& main) {
       start +
       "uniform vec4 eye, forward, right, up, size;\n"
       "out vec4 color;\n" +
-      before + *smoke +
+      exported("smoke.glsl") + light + exported("smoke_march.glsl") +
       "void main() {\n"
       "  vec2 at = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y) / size.xy * vec2(2.0, -2.0) + vec2(-1.0, "
       "1.0);\n"
@@ -210,7 +214,8 @@ GLuint GlEngine::program(const std::string& before, const std::string& main) {
 }
 
 Picture GlEngine::draw(GLuint program, const Eye& eye, int width, int height,
-                       const std::vector<std::pair<std::string, glm::vec4>>& values) {
+                       const std::vector<std::pair<std::string, glm::vec4>>& values,
+                       const std::vector<FloatMap>& maps) {
   GLuint target = 0, framebuffer = 0;
   glGenTextures(1, &target);
   glActiveTexture(GL_TEXTURE0 + BRUME_TEXTURE_COUNT);
@@ -238,6 +243,18 @@ Picture GlEngine::draw(GLuint program, const Eye& eye, int width, int height,
     glBindTexture(target_of(kind), textures_[kind]);
     glUniform1i(glGetUniformLocation(program, kNames[kind]), static_cast<GLint>(kind));
   }
+  std::vector<GLuint> made(maps.size());
+  glGenTextures(static_cast<GLsizei>(made.size()), made.data());
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto unit = static_cast<GLint>(BRUME_TEXTURE_COUNT + 1 + i);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D_ARRAY, made[i]);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_R32F, maps[i].width, maps[i].height, maps[i].layers);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, maps[i].width, maps[i].height, maps[i].layers, GL_RED,
+                    GL_FLOAT, maps[i].values.data());
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glUniform1i(glGetUniformLocation(program, maps[i].name.c_str()), unit);
+  }
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 3);
 
   Picture picture{width, height, std::vector<glm::vec4>(static_cast<std::size_t>(width * height))};
@@ -247,6 +264,7 @@ Picture GlEngine::draw(GLuint program, const Eye& eye, int width, int height,
     std::copy_n(rows.begin() + y * width, width, picture.texels.begin() + (height - 1 - y) * width);
   glDeleteFramebuffers(1, &framebuffer);
   glDeleteTextures(1, &target);
+  glDeleteTextures(static_cast<GLsizei>(made.size()), made.data());
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     throw std::runtime_error("OpenGL error " + std::to_string(error));
   return picture;

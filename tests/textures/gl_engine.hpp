@@ -17,8 +17,16 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<glm::vec4> texels;  ///< Rows from the top.
   const glm::vec4& at(int x, int y) const {
-    return texels[static_cast<std::size_t>(x) + static_cast<std::size_t>(width) * static_cast<std::size_t>(y)];
+    return texels[static_cast<std::size_t>(x) +
+                  static_cast<std::size_t>(width) * static_cast<std::size_t>(y)];
   }
+};
+
+/// Layers of numbers, rows from the top: a sampler2DArray of this name, not filtered.
+struct FloatMap {
+  std::string name;
+  int width = 0, height = 0, layers = 1;
+  std::vector<float> values;
 };
 
 /// A pinhole whose axes are unit vectors.
@@ -41,12 +49,13 @@ class GlEngine {
   std::string device() const;
   /// Makes textures that have to be made again, and uploads what the last update changed. Returns the bytes.
   std::size_t follow(const brume_textures* textures);
-  /// A program of a fragment shader's main, with smoke.glsl included. `main` writes `color` from `origin` and
-  /// `direction`; `before` comes before the include. Throws with the compiler's messages.
-  GLuint program(const std::string& before, const std::string& main);
-  /// Draws all pixels. `values` are set as uniforms, floats by name.
+  /// A program of a fragment shader's main, with smoke.glsl, `light` and smoke_march.glsl. `main` writes
+  /// `color` from `origin` and `direction`. Throws with the compiler's messages.
+  GLuint program(const std::string& light, const std::string& main);
+  /// Draws all pixels. `values` are set as uniforms by name.
   Picture draw(GLuint program, const Eye& eye, int width, int height,
-               const std::vector<std::pair<std::string, glm::vec4>>& values = {});
+               const std::vector<std::pair<std::string, glm::vec4>>& values = {},
+               const std::vector<FloatMap>& maps = {});
 
  private:
   EGLDisplay display_ = EGL_NO_DISPLAY;
