@@ -67,7 +67,7 @@ typedef enum brume_texture_kind {
 /// Channels, their bits and their type, as graphics interfaces name them. Texels are little-endian.
 typedef enum brume_texture_format {
   BRUME_FORMAT_NONE = 0,  ///< The texture does not exist yet: its size is 0.
-  BRUME_FORMAT_R8 = 1,    ///< Numbers in [0, 1], as those of RG8 and RGBA8.
+  BRUME_FORMAT_R8 = 1,    ///< Numbers in [0, 1], like RG8 and RGBA8.
   BRUME_FORMAT_RG8 = 2,
   BRUME_FORMAT_RGBA8 = 3,
   BRUME_FORMAT_RGBA16F = 4,  ///< Half floats.
@@ -99,7 +99,7 @@ typedef struct brume_region {
 
 /// The number of constants that the shader reads: ten rows of four.
 #define BRUME_CONSTANTS 40
-/// The largest number of holes that the shader cuts. Of more open ones the latest count.
+/// The largest number of holes that the shader cuts: the latest ones.
 #define BRUME_MAX_TEXTURE_HOLES 128
 
 /// The largest number of lights of a texture of light.
@@ -116,7 +116,7 @@ typedef struct brume_textures_params {
   uint32_t noise_spacing;
   /// Number of lights whose way through smoke and walls is found on the CPU, [0, BRUME_MAX_TEXTURE_LIGHTS].
   uint32_t light_count;
-  uint32_t sky;  ///< 1: also that of the sky's light; 0: not.
+  uint32_t sky;  ///< 1: the sky's light is found, too; 0: it is not.
 } brume_textures_params;
 
 /// Writes what brume_textures_defaults returns into a struct of `struct_size` bytes: for other languages.

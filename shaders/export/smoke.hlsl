@@ -7,10 +7,9 @@
 //   vec4 smoke = brume_march(eye, direction, distance_to_surface, jitter, pixel_width);
 //   color = smoke.rgb + smoke.a * color;  // radiance in front of the surface, and what of it is left
 //
-// Positions are in the world [m], with the axes of the level; directions are unit vectors. A renderer with other axes or
-// units converts both, and `distance_to_surface`.
-//
-// Declare textures and constants yourself, by these names, where bindings are needed: define BRUME_DECLARED.
+// Positions are in the world [m], with the axes of the level; directions are unit vectors. Where your renderer has
+// other axes or units, convert both, and the distance to the surface. With BRUME_DECLARED defined, you declare textures
+// and constants of these names, for example with bindings.
 #ifndef BRUME_SMOKE_HLSL
 #define BRUME_SMOKE_HLSL
 
@@ -60,7 +59,8 @@ cbuffer brume_constants_buffer { float4 brume_constants[10]; };
 int3 brume_place(int3 brick) {
   int3 at = brick - int3(BRUME_WINDOW_LOW);
   int3 size = int3(BRUME_WINDOW_SIZE);
-  if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= size.x || at.y >= size.y || at.z >= size.z) return int3(-1, 0, 0);
+  bool below = at.x < 0 || at.y < 0 || at.z < 0;
+  if (below || at.x >= size.x || at.y >= size.y || at.z >= size.z) return int3(-1, 0, 0);
   int slot = int(brume_pages.Load(int4(at, 0)).r) - 1;
   if (slot < 0) return int3(-1, 0, 0);
   int3 atlas = int3(BRUME_ATLAS_BRICKS);
@@ -69,8 +69,8 @@ int3 brume_place(int3 brick) {
 
 // ---- Cells that a surface runs through: smoke ends at the surface, not at a voxel ----
 
-// On which side of a plane a point is, 1 or 0. The plane is an octahedral normal of 2 x 10 bits and an offset of 12 bits
-// from the middle of its cell; 0: there is none. Moves `off` to a voxel off the plane.
+// On which side of a plane a point is, 1 or 0. The plane is an octahedral normal of 2 x 10 bits and an offset of 12
+// bits from the middle of its cell; 0: there is none. Moves `off` to a voxel off the plane.
 uint brume_side(uint plane, float3 from_middle, inout float3 off) {
   if (plane == 0u) return 0u;
   float2 e = float2(float(plane & 1023u), float((plane >> 10) & 1023u)) * (2.0 / 1022.0) - float2(1.0, 1.0);
@@ -85,11 +85,12 @@ uint brume_side(uint plane, float3 from_middle, inout float3 off) {
 }
 
 float4 brume_bytes(uint word) {
-  return float4(float(word & 255u), float((word >> 8) & 255u), float((word >> 16) & 255u), float(word >> 24)) * (1.0 / 255.0);
+  float4 bytes = float4(float(word & 255u), float((word >> 8) & 255u), float((word >> 16) & 255u), float(word >> 24));
+  return bytes * (1.0 / 255.0);
 }
 
-// Smoke of a cell at `f`, from its low corner, each coordinate in [0, 1]: between the densities of its eight corners, as
-// they are on the point's side of its planes. `number` is above 0.
+// Smoke of a cell at `f`, from its low corner, each coordinate in [0, 1]: between the densities of its eight corners,
+// as they are on the point's side of its planes. `number` is above 0.
 float brume_cell_density(uint number, float3 f, inout float3 off) {
   int cell = int(number) - 1;
   uint4 boundary = brume_boundary.Load(int3(int2(cell % 256, cell / 256), 0));
@@ -103,8 +104,8 @@ float brume_cell_density(uint number, float3 f, inout float3 off) {
   return lerp(row.x, row.y, f.x);
 }
 
-// Density before noise and holes at a point of a brick, [0, 1]. `local`: from the brick's low corner [voxels]. `off`: how
-// far from the point its light is to be read, so that none leaks through walls [voxels].
+// Density before noise and holes at a point of a brick, [0, 1]. `local`: from the brick's low corner [voxels]. `off`:
+// how far from the point its light is to be read, so that none leaks through walls [voxels].
 float brume_local_density(int3 place, float3 local, out float3 off) {
   off = float3(0.0, 0.0, 0.0);
   float3 uvw = (float3(place) * 10.0 + local + 1.0) / (BRUME_ATLAS_BRICKS * 10.0);
@@ -144,7 +145,8 @@ float brume_erode(float density, float3 position, float3 displacement, float pix
   float2 detail = float2(0.0, 0.0);
   if (weight > 0.0) {
     float level = log2(max(128.0 * BRUME_DETAIL_FREQUENCY * pixel, 1.0));
-    float2 texel = brume_detail.SampleLevel(brume_detail_sampler, p * BRUME_DETAIL_FREQUENCY + BRUME_DETAIL_OFFSET, level).rg;
+    float3 at = p * BRUME_DETAIL_FREQUENCY + BRUME_DETAIL_OFFSET;
+    float2 texel = brume_detail.SampleLevel(brume_detail_sampler, at, level).rg;
     detail = weight * 0.54 * (2.0 * texel - 1.0);
   }
   rim = clamp(2.0 * noise.g - 1.0 + 1.5 * detail.x, -1.0, 1.0);
@@ -262,15 +264,16 @@ float brume_phase(float g, float cosine) {
 }
 
 // What smoke scatters towards the eye of a light's irradiance [1/sr], once and many times, the way of Brume's renderer
-// (docs/how/light.md). `depth`: of brume_light_at; `cosine`: between the light's direction and that to the eye; `escape`: x
-// of brume_sky_at, or 0.3; `g`: mean cosine of the phase function.
+// (docs/how/light.md). `depth`: x of brume_light_at; `cosine`: between the directions towards the light and of the ray;
+// `escape`: x of brume_sky_at, or 0.3; `g`: mean cosine of the phase function.
 float3 brume_scattered(float depth, float cosine, float3 albedo, float g, float escape) {
   float forward = max(g, 0.0);
   float3 again = albedo * (1.0 - escape);
   float3 decay = 1.05 * sqrt((1.0 - 0.951 * albedo) * (1.0 - forward * albedo));
   float3 fraction = 0.788 * exp(-0.481 * forward) * again / (1.0 - 0.775 * again);
   float even = forward / (1.0 + exp(3.409 - 4.663 * forward));
-  return albedo * (exp(-depth) * brume_phase(g, cosine) + fraction * exp(-decay * depth) * brume_phase(even, cosine));
+  float3 often = fraction * exp(-decay * depth) * brume_phase(even, cosine);
+  return albedo * (exp(-depth) * brume_phase(g, cosine) + often);
 }
 
 // What smoke scatters of a sky of `ambient`, of which walls around reflect `bounce`. `sky`: of brume_sky_at.
@@ -289,7 +292,8 @@ float brume_sample(int3 place, float3 local, float3 position, float pixel, uint4
   bool cut = (holes.x | holes.y | holes.z | holes.w) != 0u;
   if (density <= 0.0 || (BRUME_EROSION <= 0.0 && !cut)) return density;
   float3 at = float3(place) * BRUME_NOISE_POINTS + (local + 0.5) * BRUME_POINTS_PER_VOXEL + 0.5;
-  float3 displacement = brume_displacement.SampleLevel(brume_displacement_sampler, at / (BRUME_ATLAS_BRICKS * BRUME_NOISE_POINTS), 0.0).xyz;
+  at /= BRUME_ATLAS_BRICKS * BRUME_NOISE_POINTS;
+  float3 displacement = brume_displacement.SampleLevel(brume_displacement_sampler, at, 0.0).xyz;
   float rim;
   density = brume_erode(density, position, displacement, pixel, rim);
   if (cut && density > 0.0) density *= brume_after_holes(holes, position, rim);

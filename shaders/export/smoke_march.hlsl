@@ -9,9 +9,9 @@
 #define BRUME_SMOKE_MARCH_HLSL
 
 // Radiance of the smoke along a ray in rgb, and in a what it lets through. `t_end`: distance of the surface behind [m].
-// `jitter` in [0, 1): where samples are in their steps; different from pixel to pixel, as blue noise, it turns banding into
-// fine grain. `pixel_width`: of a pixel one metre away [m]. Each step is exact for the light at its sample: energy does not
-// depend on the length of steps.
+// `jitter` in [0, 1): where samples are in their steps; different from pixel to pixel, as blue noise, it turns banding
+// into fine grain. `pixel_width`: width of a pixel one metre away [m]. Each step is exact for the light at its sample:
+// energy does not depend on the length of steps.
 float4 brume_march(float3 origin, float3 direction, float t_end, float jitter, float pixel_width) {
   float2 span = brume_span(origin, direction, t_end);
   float4 gathered = float4(0.0, 0.0, 0.0, 1.0);

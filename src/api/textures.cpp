@@ -13,13 +13,13 @@ struct brume_textures : brume::api::Handle {
         level(field.level),
         masks(field.masks),
         textures(texture_settings, field.masks),
-        light_count(texture_settings.lamps) {}
+        light_count(texture_settings.light_count) {}
 
   std::shared_ptr<const brume::api::LevelData> level;
   std::shared_ptr<const brume::smoke::MaskAtlas> masks;
   brume::textures::SmokeTextures textures;
   std::uint32_t light_count;
-  std::vector<brume_region> regions;  // of the last update
+  std::vector<brume_region> regions;  // regions of the last update
 };
 
 namespace brume::api {
@@ -36,7 +36,7 @@ static_assert(textures::kMostHoles == BRUME_MAX_TEXTURE_HOLES);
 
 void create_textures(Call& call, const brume_field* field, const brume_textures_params* given,
                      brume_textures** textures) {
-  const brume_field& of = call.handle(field);
+  const brume_field& source = call.handle(field);
   required(textures, "textures");
   const brume_textures_params params = params_or_defaults(given);
   require(params.swirl_seconds >= 0.1f && params.swirl_seconds <= 1000,
@@ -48,13 +48,13 @@ void create_textures(Call& call, const brume_field* field, const brume_textures_
   settings.noise = noise_look_of(params.look);
   settings.swirl_period = double{params.swirl_seconds};
   settings.noise_spacing = static_cast<int>(params.noise_spacing);
-  settings.lamps = params.light_count;
+  settings.light_count = params.light_count;
   settings.sky = params.sky != 0;
-  create(textures, of, settings);
+  create(textures, source, settings);
 }
 
-std::vector<textures::Lamp> lamps_of(const brume_textures_frame& frame, std::uint32_t count) {
-  std::vector<textures::Lamp> lamps;
+std::vector<textures::Light> lights_of(const brume_textures_frame& frame, std::uint32_t count) {
+  std::vector<textures::Light> lights;
   if (count > 0) required(frame.lights, "lights");
   for (std::uint32_t i = 0; i < count; ++i) {
     const brume_texture_light& light = frame.lights[i];
@@ -64,9 +64,9 @@ std::vector<textures::Lamp> lamps_of(const brume_textures_frame& frame, std::uin
     if (!is_in_world(light.at)) refuse(name + " must be within 16384 m of the world's origin");
     if (light.directional == 1 && !(std::abs(glm::length(at) - 1) < 1e-3f))
       refuse(name + ": `at` must be a unit vector towards the sun");
-    lamps.push_back({light.directional == 1, at});
+    lights.push_back({light.directional == 1, at});
   }
-  return lamps;
+  return lights;
 }
 
 /// What a caller uploads.
@@ -85,10 +85,10 @@ void update(brume_textures& textures, const brume_field& field, const brume_text
   if (field.level != textures.level || field.masks != textures.masks)
     fail(BRUME_ERROR_MISMATCH,
          "the field must have the level and the masks of the field that the textures are of");
-  const std::vector<textures::Lamp> lamps = lamps_of(params, textures.light_count);
+  const std::vector<textures::Light> lights = lights_of(params, textures.light_count);
   const float fraction = params.light_update_fraction;
   textures.textures.update(field.field->smoke(),
-                           {params.seconds, field.extinction, lamps, fraction > 0 ? fraction : 1});
+                           {params.seconds, field.extinction, lights, fraction > 0 ? fraction : 1});
   textures.regions = list_regions(textures.textures.set());
 }
 
@@ -112,14 +112,14 @@ brume_result brume_textures_update(brume_textures* textures, const brume_field* 
                                    const brume_textures_frame* frame) BRUME_NOEXCEPT {
   return Call(__func__).run([&](Call& call) {
     brume_textures& object = call.handle(textures);
-    const brume_field& of = call.handle(field);
+    const brume_field& source = call.handle(field);
     const brume_textures_frame params = required_params(frame);
     require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
     require(params.light_update_fraction == 0 ||
                 (params.light_update_fraction >= 1 / 16.0f && params.light_update_fraction <= 1),
             "`light_update_fraction` must be 0, or from 1/16 to 1");
     call.change(
-        object, [&] { call.read(of, [&] { update(object, of, params); }); }, true);
+        object, [&] { call.read(source, [&] { update(object, source, params); }); }, true);
   });
 }
 

@@ -44,8 +44,8 @@ constexpr std::uint32_t kPhases = shared::kLightPhases;
 
 }  // namespace
 
-LightVolume::LightVolume(std::uint32_t lamps, bool sky)
-    : lamps_(lamps), sky_(sky), groups_((lamps + (sky ? 1 : 0) + 1) / 2) {}
+LightVolume::LightVolume(std::uint32_t light_count, bool sky)
+    : light_count_(light_count), sky_(sky), groups_((light_count + (sky ? 1 : 0) + 1) / 2) {}
 
 bool LightVolume::Phases::has(std::uint32_t phase) const {
   return (phase + kPhases - first) % kPhases < count;
@@ -89,41 +89,42 @@ std::span<const glm::u8vec4> LightVolume::texels(std::uint32_t slot, std::uint32
       .subspan(std::size_t{group} * shared::kTexelsPerBrick, shared::kTexelsPerBrick);
 }
 
-/// From four points of each texel, the corners of a tetrahedron, as shaders/noise_advection.comp.
+/// What noise and holes leave of a density at a point.
+float LightVolume::remaining(const LitSmoke& smoke, float density, glm::vec3 p_world,
+                             glm::vec3 displacement) const {
+  static const smoke::MaskAtlas kNoMasks;
+  const smoke::MaskAtlas& masks = smoke.masks ? *smoke.masks : kNoMasks;
+  float left = density;
+  if (smoke.look.erosion > 0) {
+    const glm::vec3 at = shared::noise_point(smoke.look, p_world + displacement, smoke.seconds);
+    left = shared::effective_erode(smoke.look, density, smoke::noise_at(smoke::smoke_noise_tile(), at));
+  }
+  for (const shared::Hole& hole : smoke.holes)
+    left *= 1 - smoke::hole_strength_masked(hole, p_world, smoke.seconds, 0, masks);
+  return left;
+}
+
 void LightVolume::find_retained(const LitSmoke& smoke, Brick& brick, std::uint32_t slot,
                                 Displacements displacements, const Phases& phases) const {
   const shared::VolumeLayout& layout = smoke.volume->layout();
-  const smoke::NoiseTile& tile = smoke::smoke_noise_tile();
-  static const smoke::MaskAtlas kNoMasks;
-  const smoke::MaskAtlas& masks = smoke.masks ? *smoke.masks : kNoMasks;
   const std::span<const smoke::Texel> texels = smoke.volume->texels(slot);
   for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
     if (!phases.has(shared::light_phase(glm::uvec3(texel_at(i))))) continue;
     const float density = static_cast<float>(texels[i].density) / 255;
-    if (density <= 0) {
-      brick.retained[i] = 1;
-      continue;
-    }
+    brick.retained[i] = 1;
+    if (density <= 0) continue;
+    // The mean of four points, the corners of a tetrahedron, as in shaders/noise_advection.comp.
     const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
     const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
     const glm::vec3 displacement = displacement_at(displacements, i);
-    glm::vec4 remaining;
+    glm::vec4 left;
     for (std::uint32_t k = 0; k < 4; ++k) {
-      const glm::vec3 within =
-          (glm::vec3(k & 1u, k >> 1u, (k ^ k >> 1u) & 1u) - 0.5f) * (0.5f * layout.voxel_size);
-      const glm::vec3 at = p_world + within;
-      const int n = static_cast<int>(k);
-      remaining[n] = density;
-      if (smoke.look.erosion > 0) {
-        const glm::vec4 noise =
-            smoke::noise_at(tile, shared::noise_point(smoke.look, at + displacement, smoke.seconds));
-        remaining[n] = shared::effective_erode(smoke.look, density, noise);
-      }
-      for (const shared::Hole& hole : smoke.holes)
-        remaining[n] *= 1 - smoke::hole_strength_masked(hole, at, smoke.seconds, 0, masks);
+      const glm::vec3 corner(k & 1u, k >> 1u, (k ^ k >> 1u) & 1u);
+      left[static_cast<int>(k)] =
+          remaining(smoke, density, p_world + (corner - 0.5f) * (0.5f * layout.voxel_size), displacement);
     }
-    const float k = smoke.look.extinction * layout.voxel_size;
-    brick.retained[i] = shared::effective_density(remaining, k) / density;
+    const float depth = smoke.look.extinction * layout.voxel_size;
+    brick.retained[i] = shared::effective_density(left, depth) / density;
   }
 }
 
@@ -155,10 +156,10 @@ void LightVolume::light(const LitSmoke& smoke, Brick& brick, const Phases& phase
     const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
     for (std::uint32_t n = 0; n < 2 * groups_; ++n) {
       glm::u8vec2 value(255, 0);
-      if (n < smoke.lamps.size()) {
-        value = of_lamp(smoke, p_voxel, smoke.lamps[n]);
-      } else if (sky_ && n == lamps_) {
-        value = of_sky(smoke, p_voxel);
+      if (n < smoke.lights.size()) {
+        value = light_texel(smoke, p_voxel, smoke.lights[n]);
+      } else if (sky_ && n == light_count_) {
+        value = sky_texel(smoke, p_voxel);
       }
       glm::u8vec4& texel = brick.texels[std::size_t{n / 2} * shared::kTexelsPerBrick + i];
       const int first = static_cast<int>(2 * (n % 2));
@@ -212,11 +213,11 @@ float LightVolume::depth(const LitSmoke& smoke, glm::vec3 p_voxel, glm::vec3 dir
   return depth * per_voxel;
 }
 
-glm::u8vec2 LightVolume::of_lamp(const LitSmoke& smoke, glm::vec3 p_voxel, const Lamp& lamp) const {
+glm::u8vec2 LightVolume::light_texel(const LitSmoke& smoke, glm::vec3 p_voxel, const Light& light) const {
   constexpr float kFar = 1000;  // [m]
   const shared::VolumeLayout& layout = smoke.volume->layout();
   const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
-  const glm::vec3 to = lamp.directional ? lamp.at_world * kFar : lamp.at_world - p_world;
+  const glm::vec3 to = light.directional ? light.at_world * kFar : light.at_world - p_world;
   const float distance = glm::length(to);
   if (!(distance > 0)) return {255, 255};
   const auto visible = smoke.sight->visible(p_world, p_world + to, std::numeric_limits<float>::infinity());
@@ -225,7 +226,7 @@ glm::u8vec2 LightVolume::of_lamp(const LitSmoke& smoke, glm::vec3 p_voxel, const
   return {to_byte(passed), to_byte(visible && *visible ? 1 : 0)};
 }
 
-glm::u8vec2 LightVolume::of_sky(const LitSmoke& smoke, glm::vec3 p_voxel) const {
+glm::u8vec2 LightVolume::sky_texel(const LitSmoke& smoke, glm::vec3 p_voxel) const {
   constexpr float kFar = 1000;  // [m]
   const shared::VolumeLayout& layout = smoke.volume->layout();
   const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;

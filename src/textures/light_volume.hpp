@@ -23,7 +23,7 @@
 namespace brume::textures {
 
 /// A light, as rays to it need it.
-struct Lamp {
+struct Light {
   bool directional = false;
   glm::vec3 at_world{0};  ///< Its position, or the unit vector towards it.
 };
@@ -31,18 +31,18 @@ struct Lamp {
 /// What light meets at a time.
 struct LitSmoke {
   const smoke::SmokeVolume* volume = nullptr;
-  const smoke::Sight* sight = nullptr;  ///< Of the level's walls.
+  const smoke::Sight* sight = nullptr;  ///< Sees the level's walls.
   std::span<const shared::Hole> holes;  ///< Open ones.
   const smoke::MaskAtlas* masks = nullptr;
   shared::SmokeLook look{};  ///< With its extinction.
   float seconds = 0;
-  std::span<const Lamp> lamps;
+  std::span<const Light> lights;
 };
 
 class LightVolume {
  public:
-  /// For at most `lamps` lights, and the sky or not.
-  LightVolume(std::uint32_t lamps, bool sky);
+  /// For at most `light_count` lights, and the sky or not.
+  LightVolume(std::uint32_t light_count, bool sky);
 
   /// Groups of four bytes of a texel: two lights each, the sky counts as the last light.
   std::uint32_t groups() const { return groups_; }
@@ -72,6 +72,7 @@ class LightVolume {
     bool has(std::uint32_t phase) const;
   };
 
+  float remaining(const LitSmoke& smoke, float density, glm::vec3 p_world, glm::vec3 displacement) const;
   void find_retained(const LitSmoke& smoke, Brick& brick, std::uint32_t slot, Displacements displacements,
                      const Phases& phases) const;
   void find_density(const LitSmoke& smoke, Brick& brick, std::uint32_t slot) const;
@@ -79,10 +80,10 @@ class LightVolume {
   float density_at(const LitSmoke& smoke, glm::vec3 p_voxel, bool& empty) const;
   float depth(const LitSmoke& smoke, glm::vec3 p_voxel, glm::vec3 direction, float reach_m,
               float coarse) const;
-  glm::u8vec2 of_lamp(const LitSmoke& smoke, glm::vec3 p_voxel, const Lamp& lamp) const;
-  glm::u8vec2 of_sky(const LitSmoke& smoke, glm::vec3 p_voxel) const;
+  glm::u8vec2 light_texel(const LitSmoke& smoke, glm::vec3 p_voxel, const Light& light) const;
+  glm::u8vec2 sky_texel(const LitSmoke& smoke, glm::vec3 p_voxel) const;
 
-  std::uint32_t lamps_;
+  std::uint32_t light_count_;
   bool sky_;
   std::uint32_t groups_;
   std::uint32_t turn_ = 0;                      // phase of the next update

@@ -42,7 +42,7 @@ class NoisePoints {
   /// w its weight.
   struct Points {
     glm::ivec3 brick{0};
-    std::uint64_t parts = 0;  // of which parts_ the growth is
+    std::uint64_t parts = 0;  // value of parts_ that `growth` is from
     std::vector<glm::vec3> first, second;
     std::vector<glm::vec4> growth;
   };

@@ -63,7 +63,7 @@ SmokeTextures::SmokeTextures(const SmokeTexturesSettings& settings,
       masks_(std::move(masks)),
       set_(kSmokeTextures),
       points_(settings.noise_spacing),
-      light_(settings.lamps, settings.sky) {
+      light_(settings.light_count, settings.sky) {
   smoke::set_noise(look_, settings.noise);
 }
 
@@ -103,22 +103,29 @@ void SmokeTextures::write_static() {
   wrote_static_ = true;
 }
 
-/// Densities and the cells at walls: of slots that changed, or of all where an update was missed or the
-/// textures are new.
 void SmokeTextures::update_bricks(const SmokeVolume& volume) {
   const std::uint64_t revision = volume.revision();
   const bool same_volume = volume_id_ == volume.id();
   if (same_volume && revision_ == revision) return;
+  // All bricks where an update was missed or the textures are new, else those that changed.
   bool all = !same_volume || revision != revision_ + 1;
   volume_id_ = volume.id();
   revision_ = revision;
-
   atlas_bricks_ = glm::max(volume.volume().layout().bricks.atlas_bricks, 1);
-  const bool new_density = set_.resize(kDensity, Format::rg8, atlas_bricks_ * shared::kBrickTexels);
-  const bool new_cells = set_.resize(kCells, Format::r32ui, atlas_bricks_ * shared::kBrickCells);
+  all = set_.resize(kDensity, Format::rg8, atlas_bricks_ * shared::kBrickTexels) || all;
+  all = set_.resize(kCells, Format::r32ui, atlas_bricks_ * shared::kBrickCells) || all;
   set_.resize(kDisplacement, Format::rgba16f, atlas_bricks_ * points_.per_axis());
-  all = all || new_density || new_cells;
+  write_bricks(volume, all);
+  update_walls(volume, all);
+  update_pages(volume);
 
+  smoky_slots_.clear();
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
+    if (volume.in_use(slot) && holds_smoke(volume.texels(slot))) smoky_slots_.push_back(slot);
+}
+
+/// Densities, and the numbers of cells at walls.
+void SmokeTextures::write_bricks(const SmokeVolume& volume, bool all) {
   const auto write = [&](std::uint32_t texture, std::uint32_t slot, int edge,
                          std::span<const std::byte> texels) {
     if (!volume.in_use(slot)) return;
@@ -136,12 +143,6 @@ void SmokeTextures::update_bricks(const SmokeVolume& volume) {
     for (const std::uint32_t slot : volume.dirty_slots()) density(slot);
     for (const std::uint32_t slot : volume.dirty_cell_slots()) cells(slot);
   }
-  update_walls(volume, all);
-  update_pages(volume);
-
-  smoky_slots_.clear();
-  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.in_use(slot) && holds_smoke(volume.texels(slot))) smoky_slots_.push_back(slot);
 }
 
 void SmokeTextures::update_walls(const SmokeVolume& volume, bool all) {
@@ -234,13 +235,13 @@ void SmokeTextures::update_displacements() {
 
 /// The open holes, as the renderer selects them.
 void SmokeTextures::update_holes(std::span<const shared::Hole> holes, double seconds) {
-  open_holes_.clear();
+  holes_.clear();
   std::vector<std::array<glm::vec4, 6>> rows;
   for (std::size_t i = holes.size(); i-- > 0 && rows.size() < kMostHoles;) {
     const shared::HoleReach reach = shared::hole_reach(holes[i], static_cast<float>(seconds), look_.hole_rim);
     if (reach.length_m < 0) continue;
     rows.push_back(hole_row(holes[i], seconds));
-    open_holes_.push_back(holes[i]);
+    holes_.push_back(holes[i]);
   }
   set_.resize(kHoles, Format::rgba32f, {6, static_cast<int>(kMostHoles), 1});
   if (!rows.empty())
@@ -250,9 +251,8 @@ void SmokeTextures::update_holes(std::span<const shared::Hole> holes, double sec
 void SmokeTextures::update_light(const smoke::Field& field, const Frame& frame) {
   if (light_.groups() == 0) return;
   const auto sight = field.sight({frame.extinction});
-  LitSmoke smoke{&field.volume(), sight.get(), open_holes_,
-                 masks_.get(),    look_,       static_cast<float>(frame.seconds),
-                 frame.lamps};
+  LitSmoke smoke{&field.volume(), sight.get(), holes_, masks_.get(), look_, static_cast<float>(frame.seconds),
+                 frame.lights};
   smoke.look.extinction = frame.extinction;
   std::vector<LightVolume::Displacements> displacements(smoky_slots_.size());
   for (std::size_t i = 0; i < displaced_.size(); ++i)
@@ -281,7 +281,7 @@ void SmokeTextures::write_constants(const SmokeVolume& volume, const Frame& fram
   constants_ = {
       glm::vec4(layout.origin_world, layout.voxels_per_metre),
       glm::vec4(glm::vec3(window_low_), layout.voxel_size),
-      glm::vec4(glm::vec3(window_size_), static_cast<float>(open_holes_.size())),
+      glm::vec4(glm::vec3(window_size_), static_cast<float>(holes_.size())),
       glm::vec4(glm::vec3(atlas_bricks_), extinction),
       glm::vec4(world(layout.bounds_min), 0.4f * layout.voxel_size),
       glm::vec4(world(layout.bounds_max), look_.erosion),
@@ -290,7 +290,8 @@ void SmokeTextures::write_constants(const SmokeVolume& volume, const Frame& fram
                 look_.noise_frequency * shared::kDetailRatio),
       glm::vec4(look_.detail, look_.hole_rim, static_cast<float>(points_.per_axis()),
                 1 / static_cast<float>(settings_.noise_spacing)),
-      glm::vec4(static_cast<float>(std::max(light_.groups(), 1u)), static_cast<float>(settings_.lamps), 0, 0),
+      glm::vec4(static_cast<float>(std::max(light_.groups(), 1u)), static_cast<float>(settings_.light_count),
+                0, 0),
   };
 }
 

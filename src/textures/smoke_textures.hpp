@@ -51,9 +51,9 @@ using Constants = std::array<glm::vec4, kConstantRows>;
 struct SmokeTexturesSettings {
   smoke::NoiseLook noise;
   double swirl_period = smoke::SmokeInput().swirl_period;  ///< [s], > 0.
-  std::uint32_t lamps = 0;                                 ///< Lights of the light volume.
+  std::uint32_t light_count = 0;                           ///< Lights of the light volume.
   bool sky = false;                                        ///< Whether it has the sky.
-  int noise_spacing = 1;                                   ///< Of the displacement, 1 or 2 [voxels].
+  int noise_spacing = 1;  ///< Distance of points of displacement, 1 or 2 [voxels].
 };
 
 class SmokeTextures {
@@ -63,10 +63,10 @@ class SmokeTextures {
 
   /// What a picture of the smoke depends on besides the field.
   struct Frame {
-    double seconds = 0;  ///< After tick 0: that of the field's state, or later.
+    double seconds = 0;  ///< After tick 0: the time of the field's state, or later.
     float extinction = 3;
-    std::span<const Lamp> lamps;
-    float light_update_fraction = 1;  ///< Of the texels whose light this update finds, (0, 1].
+    std::span<const Light> lights;
+    float light_update_fraction = 1;  ///< Fraction of the texels whose light this update finds, (0, 1].
   };
 
   /// Follows a field, which must stay as it is meanwhile. Afterwards `set` has all that changed since the
@@ -81,6 +81,7 @@ class SmokeTextures {
 
  private:
   void update_bricks(const smoke::SmokeVolume& volume);
+  void write_bricks(const smoke::SmokeVolume& volume, bool all);
   void update_pages(const smoke::SmokeVolume& volume);
   void update_walls(const smoke::SmokeVolume& volume, bool all);
   void update_displacements();
@@ -96,13 +97,13 @@ class SmokeTextures {
   Constants constants_{};
   NoisePoints points_;
   LightVolume light_;
-  std::uint64_t volume_id_ = 0, revision_ = 0;  // of the last update
+  std::uint64_t volume_id_ = 0, revision_ = 0;  // volume and revision of the last update
   glm::ivec3 atlas_bricks_{0};
-  glm::ivec3 window_low_{0}, window_size_{0};  // of the pages [bricks]
+  glm::ivec3 window_low_{0}, window_size_{0};  // window of the pages [bricks]
   std::vector<std::uint16_t> pages_;
   std::vector<std::uint32_t> smoky_slots_;
   std::vector<std::size_t> displaced_;  // regions of displacement, by smoky slot
-  std::vector<shared::Hole> open_holes_;
+  std::vector<shared::Hole> holes_;
   bool wrote_static_ = false;
 };
 

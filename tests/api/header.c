@@ -1,5 +1,5 @@
 /* Compiled by the test of the headers as C11, and as C++: the defaults can be evaluated. */
-#include <brume/brume.h>
+#include <brume/brume_textures.h>
 
 int main(void) {
   const brume_context_params context = brume_context_defaults();
@@ -10,7 +10,9 @@ int main(void) {
   const brume_receiver_params receiver = brume_receiver_defaults();
   const brume_field_params field = brume_field_defaults();
   const brume_event event = brume_event_defaults(BRUME_EVENT_SHOT, 1);
+  const brume_textures_params textures = brume_textures_defaults();
+  const brume_textures_frame frame = brume_textures_frame_defaults();
   const uint32_t lengths = brume_length(0.2) + brume_smoke_voxels(225.0, voxels.layout.voxel_size);
   return context.next || voxels.next || triangles.next || world.next || sender.next || receiver.next ||
-         field.next || event.next || lengths != 2005;
+         field.next || event.next || textures.next || frame.next || lengths != 2005;
 }

@@ -41,7 +41,7 @@ TEST(Headers, CompileWithoutAWarning) {
     for (const char* standard : {"c++11", "c++17", "c++20"})
       expect_runs(compiler + warnings + "-Wold-style-cast -Wzero-as-null-pointer-constant -x c++ -std=" +
                   standard + " " BRUME_SOURCE_DIR "/tests/api/header.c");
-    expect_runs("echo '#include <brume/brume.hpp>' | " + std::string(compiler) + warnings +
+    expect_runs("echo '#include <brume/brume_textures.hpp>' | " + std::string(compiler) + warnings +
                 "-Wold-style-cast -std=c++17 -x c++ -");
   }
 }
@@ -77,10 +77,11 @@ TEST(Headers, TheExampleRunsInCAndCpp) {
   }
 }
 
-/// The names of the functions that brume.h declares.
+/// The names of the functions that the headers declare.
 std::set<std::string> declared() {
   std::set<std::string> names;
-  const std::string text = *read_text_file(kInclude + "/brume/brume.h");
+  const std::string text =
+      *read_text_file(kInclude + "/brume/brume.h") + *read_text_file(kInclude + "/brume/brume_textures.h");
   for (std::size_t at = 0; (at = text.find("BRUME_API ", at)) != text.npos; ++at) {
     const std::size_t bracket = text.find('(', at), name = text.rfind("brume_", bracket);
     if (text.compare(at - 8, 8, "#define ") != 0) names.insert(text.substr(name, bracket - name));
@@ -102,8 +103,10 @@ TEST(Library, ExportsTheFunctionsOfTheHeaderAndNothingElse) {
 }
 
 TEST(Abi, IsTheOneThatIsKept) {
-  const ShellRun run = abi_difference("brume.h", "api/brume.abi");
-  EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
+  for (const std::string header : {"brume", "brume_textures"}) {
+    const ShellRun run = abi_difference(header + ".h", "api/" + header + ".abi");
+    EXPECT_EQ(run.status, 0) << run.output << "\ntests/api/abi-of-headers says what to do";
+  }
 }
 
 TEST(Abi, ChangesOfTheHeaderAreFound) {

@@ -9,13 +9,42 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 35> kFolders{
-    "core",     "palettes",    "spheres",  "image",     "scene",       "scene/files",
-    "voxel",    "vxl",         "volume",   "grids",     "grids/files", "trace",
-    "bake",     "sim",         "smoke",    "wire",      "api",         "volumes",
-    "planning", "scenario",    "surfaces", "reference", "gpu",         "passes",
-    "render",   "film",        "host",     "bench",     "apps/vdb",    "apps/command_line",
-    "apps/mpi", "apps/viewer", "apps/cli", "examples",  "python"};
+constexpr std::array<std::string_view, 36> kFolders{"core",
+                                                    "palettes",
+                                                    "spheres",
+                                                    "image",
+                                                    "scene",
+                                                    "scene/files",
+                                                    "voxel",
+                                                    "vxl",
+                                                    "volume",
+                                                    "grids",
+                                                    "grids/files",
+                                                    "trace",
+                                                    "bake",
+                                                    "sim",
+                                                    "smoke",
+                                                    "textures",
+                                                    "wire",
+                                                    "api",
+                                                    "volumes",
+                                                    "planning",
+                                                    "scenario",
+                                                    "surfaces",
+                                                    "reference",
+                                                    "gpu",
+                                                    "passes",
+                                                    "render",
+                                                    "film",
+                                                    "host",
+                                                    "bench",
+                                                    "apps/vdb",
+                                                    "apps/command_line",
+                                                    "apps/mpi",
+                                                    "apps/viewer",
+                                                    "apps/cli",
+                                                    "examples",
+                                                    "python"};
 
 // The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {

@@ -68,7 +68,9 @@ TEST(House, UnitsAreNotTooLong) {
   for (const auto& [name, unit] : units)
     EXPECT_LE(unit.lines, kMostUnitLines) << name << ": a second thing in it deserves a unit of its own";
   for_each_source(kRoot / "shaders", [](const auto& path, const std::string& text) {
-    EXPECT_LE(line_count(text), kMostShaderLines) << path;
+    // Exported shaders are files to be copied: one rather than five.
+    const bool exported = path.parent_path().filename() == "export";
+    EXPECT_LE(line_count(text), exported ? 2 * kMostShaderLines : kMostShaderLines) << path;
   });
   for_each_source(kRoot / "include", [](const auto& path, const std::string& text) {
     EXPECT_LE(line_count(text), kMostInterfaceLines) << path;

@@ -135,9 +135,9 @@ TEST_F(FollowTest, RegionsAddUpToNewTextures) {
     params.light_count = 1;
     params.sky = 1;
     api::Textures textures(*field_, params);
-    const brume_texture_light lamp{0, {6, 3, 6}};
+    const brume_texture_light light{0, {6, 3, 6}};
     brume_textures_frame frame = brume_textures_frame_defaults();
-    frame.lights = &lamp;
+    frame.lights = &light;
     Held held;
     // Forwards, backwards, and past updates that the textures did not see.
     std::uint32_t number = 0;
@@ -168,9 +168,9 @@ TEST_F(FollowTest, AFieldAtRestChangesDisplacementAlone) {
 TEST_F(FollowTest, LightFoundInTurnsIsThatFoundAtOnce) {
   brume_textures_params params = brume_textures_defaults();
   params.light_count = 2;
-  const std::array lamps{brume_texture_light{0, {6, 3, 6}}, brume_texture_light{1, {0.6f, 0.8f, 0}}};
+  const std::array lights{brume_texture_light{0, {6, 3, 6}}, brume_texture_light{1, {0.6f, 0.8f, 0}}};
   brume_textures_frame frame = brume_textures_frame_defaults();
-  frame.lights = lamps.data();
+  frame.lights = lights.data();
   api::Textures textures(*field_, params);
   Held held;
   for (const std::uint32_t tick : {30u, 300u}) {

@@ -92,17 +92,18 @@ float shadow_layer(vec2 uv, int layer, float distance) {
              mix(shadow_tap(low + ivec2(0, 1), layer, distance), shadow_tap(low + ivec2(1, 1), layer, distance), f.x),
              f.y);
 }
-float lamp_shadow(int lamp, vec3 from_lamp) {
-  vec3 a = abs(from_lamp);
+float light_shadow(int light, vec3 from_light) {
+  vec3 a = abs(from_light);
   float longest = max(a.x, max(a.y, a.z));
-  vec3 d = from_lamp / longest;
+  vec3 d = from_light / longest;
   int face = a.x == longest ? (d.x > 0.0 ? 0 : 1) : a.y == longest ? (d.y > 0.0 ? 2 : 3) : (d.z > 0.0 ? 4 : 5);
   vec2 uv = face < 2 ? d.zy : face < 4 ? d.xz : d.xy;
-  return shadow_layer(uv, 6 * lamp + face, length(from_lamp));
+  return shadow_layer(uv, 6 * light + face, length(from_light));
 }
-float sun_shadow(int lamp, vec3 position, vec3 direction, vec3 right) {
+float sun_shadow(int light, vec3 position, vec3 direction, vec3 right) {
   vec3 up = cross(right, direction);
-  return shadow_layer(vec2(dot(position, right), dot(position, up)) / 20.0, 6 * lamp, dot(position, direction) + 100.0);
+  vec2 uv = vec2(dot(position, right), dot(position, up)) / 20.0;
+  return shadow_layer(uv, 6 * light, dot(position, direction) + 100.0);
 }
 )";
 

@@ -14,7 +14,7 @@ namespace brume::textures {
 /// Six faces for each light, of suns the first alone: `shadows` of kShadowLookup.
 FloatMap shadow_maps(const std::vector<scene::Light>& lights, const std::vector<voxel::Triangle>& triangles);
 
-/// GLSL: `float shadow(int lamp, bool sun, vec3 from_lamp)`, how much of a light arrives. `from_lamp`: the
+/// GLSL: `float shadow(int light, bool sun, vec3 from_light)`, how much of a light arrives. `from_light`: the
 /// vector from the light to the point; for a sun the point itself, whose map has the axes sun_right, sun_up,
 /// and the sun's direction.
 extern const std::string kShadowLookup;

@@ -26,32 +26,32 @@ constexpr std::uint32_t kTicks = 64;
 /// cones.
 inline const std::string kLights = R"(
 uniform highp sampler2DArray distances;
-uniform vec4 lamp_count, ambient, look;  // look: albedo, g
-uniform vec4 lamp_at[15], lamp_intensity[15], lamp_forward[15];  // w: kind, range; of a sun the axis across
-uniform vec4 lamp_cone[15];
+uniform vec4 light_count, ambient, look;  // look: albedo, g
+uniform vec4 light_at[15], light_intensity[15], light_forward[15];  // w: kind, range; of a sun the axis across
+uniform vec4 light_cone[15];
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
   vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a, look.rgb, look.a);
-  for (int i = 0; i < int(lamp_count.x); ++i) {
-    vec3 to = lamp_at[i].w > 1.5 ? lamp_at[i].xyz : lamp_at[i].xyz - position;
+  for (int i = 0; i < int(light_count.x); ++i) {
+    vec3 to = light_at[i].w > 1.5 ? light_at[i].xyz : light_at[i].xyz - position;
     float d2 = dot(to, to);
     vec3 towards = to * inversesqrt(d2);
     float falloff = 1.0;
-    if (lamp_at[i].w < 1.5) {
-      float x = d2 / (lamp_intensity[i].w * lamp_intensity[i].w);
+    if (light_at[i].w < 1.5) {
+      float x = d2 / (light_intensity[i].w * light_intensity[i].w);
       float window = clamp(1.0 - x * x, 0.0, 1.0);
       falloff = window * window / max(d2, 0.01);
     }
-    if (lamp_at[i].w > 0.5 && lamp_at[i].w < 1.5) {
-      float cosine = dot(-towards, lamp_forward[i].xyz);
-      float spot = clamp((cosine - lamp_cone[i].y) / max(lamp_cone[i].x - lamp_cone[i].y, 1e-4), 0.0, 1.0);
+    if (light_at[i].w > 0.5 && light_at[i].w < 1.5) {
+      float cosine = dot(-towards, light_forward[i].xyz);
+      float spot = clamp((cosine - light_cone[i].y) / max(light_cone[i].x - light_cone[i].y, 1e-4), 0.0, 1.0);
       falloff *= spot * spot;
     }
-    float lit = lamp_at[i].w > 1.5 ? sun_shadow(i, position, -towards, lamp_forward[i].xyz)
-                                   : lamp_shadow(i, position - lamp_at[i].xyz);
+    float lit = light_at[i].w > 1.5 ? sun_shadow(i, position, -towards, light_forward[i].xyz)
+                                   : light_shadow(i, position - light_at[i].xyz);
     if (lit <= 0.0) continue;
-    sum += lamp_intensity[i].rgb * falloff * lit *
+    sum += light_intensity[i].rgb * falloff * lit *
            brume_scattered(brume_light_at(texel, i).x, dot(towards, direction), look.rgb, look.a, sky.x);
   }
   return sum;
@@ -110,7 +110,7 @@ class Stage {
     const scene::SmokeOptions& smoke = scenario_.timeline.smoke;
     const auto& sky = scenario_.timeline.sky;
     std::vector<std::pair<std::string, glm::vec4>> values{
-        {"lamp_count", glm::vec4(static_cast<float>(scenario_.scene.lights.size()))},
+        {"light_count", glm::vec4(static_cast<float>(scenario_.scene.lights.size()))},
         {"ambient", glm::vec4(sky.ambient, sky.bounce)},
         {"look", glm::vec4(smoke.albedo, smoke.anisotropy)}};
     for (std::size_t i = 0; i < scenario_.scene.lights.size(); ++i) {
@@ -118,14 +118,14 @@ class Stage {
       const bool sun = light.kind == scene::LightKind::directional;
       const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
       const std::string number = "[" + std::to_string(i) + "]";
-      values.push_back({"lamp_at" + number, glm::vec4(sun ? -light.direction_world : light.position_world,
+      values.push_back({"light_at" + number, glm::vec4(sun ? -light.direction_world : light.position_world,
                                                       static_cast<float>(light.kind))});
       values.push_back(
-          {"lamp_intensity" + number,
+          {"light_intensity" + number,
            glm::vec4(light.intensity, shared::light_range(brightest) * std::sqrt(0.01f / light.least))});
-      values.push_back({"lamp_forward" + number,
+      values.push_back({"light_forward" + number,
                         glm::vec4(sun ? sun_right(light.direction_world) : light.direction_world, 0)});
-      values.push_back({"lamp_cone" + number, glm::vec4(light.cos_inner, light.cos_outer, 0, 0)});
+      values.push_back({"light_cone" + number, glm::vec4(light.cos_inner, light.cos_outer, 0, 0)});
     }
     return values;
   }
