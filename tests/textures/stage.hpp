@@ -119,7 +119,7 @@ class Stage {
       const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
       const std::string number = "[" + std::to_string(i) + "]";
       values.push_back({"light_at" + number, glm::vec4(sun ? -light.direction_world : light.position_world,
-                                                      static_cast<float>(light.kind))});
+                                                       static_cast<float>(light.kind))});
       values.push_back(
           {"light_intensity" + number,
            glm::vec4(light.intensity, shared::light_range(brightest) * std::sqrt(0.01f / light.least))});
