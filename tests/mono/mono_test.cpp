@@ -1,0 +1,120 @@
+// The C# layer of integrations/unity over libbrume-sim: its declarations are those of the header, and a match
+// gives what it does in C.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "core/file.hpp"
+#include "tests/api/run_shell.hpp"
+#include "tests/work_folder.hpp"
+
+namespace brume {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+Strings lines_of(const std::string& text) {
+  Strings lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Compiles the layer and the program that calls it, once for all tests.
+class Mono : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (api::run_shell("command -v mcs && command -v mono").status != 0) return;
+    folder_ = std::make_unique<cli::WorkFolder>();
+    // Unity's compilers know C# 7.3. Nothing but the core library is referenced, which .NET Standard 2.0
+    // contains.
+    const api::ShellRun run =
+        api::run_shell("mcs -langversion:7.2 -warn:4 -warnaserror -noconfig -out:'" + program() +
+                       "' '" BRUME_SOURCE_DIR "'/integrations/unity/Runtime/*.cs '" BRUME_SOURCE_DIR
+                       "'/tests/mono/*.cs 2>&1");
+    ASSERT_EQ(run.status, 0) << run.output;
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  void SetUp() override {
+    if (!folder_) GTEST_SKIP() << "Mono is not installed; script/bootstrap test installs it";
+  }
+
+  static std::string program() { return (folder_->path() / "checks.exe").string(); }
+  /// Runs it; error messages are part of the output.
+  static api::ShellRun checks(const std::string& arguments) {
+    return api::run_shell("LD_LIBRARY_PATH=\"$(dirname '" BRUME_LIBRARY "')\" mono --debug '" + program() +
+                          "' " + arguments + " 2>&1");
+  }
+  /// The match of tests/api/long_match.c, with its results in C.
+  static std::string match_in_c() {
+    const api::ShellRun run = api::run_shell("'" BRUME_LONG_MATCH "'");
+    EXPECT_EQ(run.status, 0);
+    folder_->write("match.txt", run.output);
+    return run.output;
+  }
+  static std::string match_file() { return "'" + (folder_->path() / "match.txt").string() + "'"; }
+
+  static inline std::unique_ptr<cli::WorkFolder> folder_;
+};
+
+TEST_F(Mono, DeclaresTheFunctionsOfTheLibrary) {
+  const api::ShellRun run = checks("functions");
+  ASSERT_EQ(run.status, 0) << run.output;
+  Strings declared = lines_of(run.output);
+  std::sort(declared.begin(), declared.end());
+  const api::ShellRun exported = api::run_shell("nm --dynamic --defined-only '" BRUME_LIBRARY
+                                                "' | sed -n 's/.* T \\(brume_[a-z0-9_]*\\).*/\\1/p'");
+  Strings expected = lines_of(exported.output);
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(declared, expected);
+}
+
+// Sizes, offsets, constants and defaults: a C program finds the same values.
+TEST_F(Mono, DeclaresWhatTheHeaderDoes) {
+  const api::ShellRun run = checks("facts");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const Strings facts = lines_of(run.output);
+  std::string source = "#include <brume/brume_textures.h>\n#include <stdio.h>\nint main(void) {\n";
+  for (const std::string& fact : facts) {
+    const std::string expression = fact.substr(0, fact.find(" = "));
+    source += "  printf(\"" + expression + " = %lld\\n\", (long long)(" + expression + "));\n";
+  }
+  folder_->write("facts.c", source + "  return 0;\n}\n");
+  const std::string path = (folder_->path() / "facts").string();
+  const api::ShellRun compared =
+      api::run_shell(BRUME_C_COMPILER " -std=c11 -I'" BRUME_SOURCE_DIR "/include' '" + path +
+                     ".c' '" BRUME_LIBRARY "' -Wl,-rpath,\"$(dirname '" BRUME_LIBRARY "')\" -o '" + path +
+                     "' 2>&1 && '" + path + "'");
+  ASSERT_EQ(compared.status, 0) << compared.output;
+  EXPECT_EQ(lines_of(compared.output), facts);
+
+  std::size_t count = 0;
+  for (const char* name : {"brume.h", "brume_textures.h"}) {
+    const std::string header = *read_text_file(BRUME_SOURCE_DIR "/include/brume/" + std::string(name));
+    const std::regex structs(R"re(typedef struct (brume_\w+) \{)re");
+    for (std::sregex_iterator at(header.begin(), header.end(), structs), end; at != end; ++at, ++count)
+      EXPECT_NE(run.output.find("sizeof(" + (*at)[1].str() + ") = "), run.output.npos) << (*at)[1];
+  }
+  EXPECT_GT(count, 29u);
+}
+
+TEST_F(Mono, PlaysAMatchAsCDoes) {
+  const std::string expected = match_in_c();
+  const api::ShellRun run = checks("match " + match_file());
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_GT(lines_of(run.output).size(), 150u);
+  EXPECT_TRUE(expected.ends_with(run.output)) << run.output;
+}
+
+TEST_F(Mono, CallsFailAndSucceedAsTheyShould) {
+  match_in_c();
+  const api::ShellRun run = checks("calls " + match_file());
+  EXPECT_EQ(run.status, 0) << run.output;
+}
+
+}  // namespace
+}  // namespace brume
