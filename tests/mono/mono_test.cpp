@@ -110,6 +110,42 @@ TEST_F(Mono, PlaysAMatchAsCDoes) {
   EXPECT_TRUE(expected.ends_with(run.output)) << run.output;
 }
 
+/// The block of C# in the page.
+std::string example_of_the_page() {
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/docs/guides/unity.md");
+  const std::size_t begin = page.find("```csharp\n"), end = page.find("\n```\n", begin);
+  return begin == page.npos ? "" : page.substr(begin + 10, end - begin - 10);
+}
+
+// In a room of 16 m x 4 m x 18 m, whose middle the smoke fills.
+TEST_F(Mono, TheExampleOfThePageRuns) {
+  folder_->write("Example.cs", example_of_the_page() + R"(
+public static class Example {
+  public static void Main() {
+    var points = new Point[8];
+    for (int i = 0; i < 8; ++i)
+      points[i] = new Point { X = (i & 1) != 0 ? 10 : -6, Y = (i & 2) != 0 ? 4 : 0, Z = (i & 4) != 0 ? 10 : -8 };
+    uint[] indices = { 0, 1, 4, 1, 4, 5, 2, 3, 6, 3, 6, 7, 0, 1, 2, 1, 2, 3, 4, 5, 6, 5, 6, 7, 0, 2, 4, 2, 4, 6,
+                       1, 3, 5, 3, 5, 7 };
+    using (var match = new SmokeMatch(points, indices)) {
+      Point eye = new Point { X = 2, Y = 1.6f, Z = -6 }, target = new Point { X = 2, Y = 1.6f, Z = 8 };
+      match.Step();
+      Console.Write(match.Sees(eye, target));
+      match.Throw(Units.Position(2, 1.5, 8), Units.Position(2, 0.5, 2));
+      for (int i = 0; i < 128; ++i) match.Step();
+      Console.Write(match.Sees(eye, target));
+    }
+  }
+})");
+  const std::string example = (folder_->path() / "example.exe").string();
+  const api::ShellRun run = api::run_shell(
+      "mcs -langversion:7.2 -noconfig -out:'" + example +
+      "' '" BRUME_SOURCE_DIR "'/integrations/unity/Runtime/*.cs '" +
+      (folder_->path() / "Example.cs").string() +
+      "' 2>&1 && LD_LIBRARY_PATH=\"$(dirname '" BRUME_LIBRARY "')\" mono '" + example + "' 2>&1");
+  EXPECT_EQ(run.output, "TrueFalse");
+}
+
 TEST_F(Mono, CallsFailAndSucceedAsTheyShould) {
   match_in_c();
   const api::ShellRun run = checks("calls " + match_file());

@@ -48,7 +48,10 @@ namespace Brume
             if (regions == null || (ulong)regions.Length < (ulong)count) regions = new Region[(ulong)count];
             int size = Marshal.SizeOf(typeof(Region));
             for (int i = 0; i < (int)(uint)count; ++i)
-                regions[i] = (Region)Marshal.PtrToStructure(new IntPtr(first.ToInt64() + (long)i * size), typeof(Region));
+            {
+                IntPtr region = new IntPtr(first.ToInt64() + (long)i * size);
+                regions[i] = (Region)Marshal.PtrToStructure(region, typeof(Region));
+            }
             return (int)(uint)count;
         }
 
@@ -65,7 +68,8 @@ namespace Brume
         {
             int texel = BytesOf((SmokeTextureFormat)texture.Format);
             long bytes = (long)texel * texture.Width * texture.Height * texture.Depth;
-            if (texels == null || texels.Length < bytes) throw new ArgumentException(bytes + " bytes are expected", "texels");
+            if (texels == null || texels.Length < bytes)
+                throw new ArgumentException(bytes + " bytes are expected", "texels");
             int row = texel * (int)region.Width;
             long source = region.Texels.ToInt64();
             for (uint z = region.Z; z < region.Z + region.Depth; ++z)
