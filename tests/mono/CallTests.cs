@@ -171,6 +171,13 @@ namespace Brume.Tests
             }
         }
 
+        private static TexturesParams WithLight()
+        {
+            TexturesParams settings = Defaults.Textures();
+            settings.LightCount = 1;
+            return settings;
+        }
+
         /// <summary>Regions tile the textures, and the first update writes the smoke.</summary>
         private static void TexturesFollowTheField(Match match)
         {
@@ -178,12 +185,14 @@ namespace Brume.Tests
             using (Level level = match.Level(context))
             using (World world = new World(level))
             using (Field field = new Field(level))
-            using (Textures textures = new Textures(field))
+            using (Textures textures = new Textures(field, WithLight(), Defaults.Drawn()))
             {
+                TextureLight[] lights = { new TextureLight { At = new Point { X = 12, Y = 5, Z = 10 } } };
+                Throws<ArgumentException>(() => textures.Update(field, 0), "no light");
                 world.Append(match.Events.ToArray());
                 world.AdvanceTo(300);
                 using (State state = world.Snapshot()) field.Update(state);
-                textures.Update(field, 300.0 / 64);
+                textures.Update(field, 300.0 / 64, lights);
                 SmokeTexture[] list = new SmokeTexture[(int)TextureKind.Count];
                 textures.List(list);
                 byte[][] texels = new byte[list.Length][];
@@ -201,13 +210,13 @@ namespace Brume.Tests
                            "the bytes of a region");
                     Textures.Copy(regions[i], texture, texels[regions[i].Texture]);
                 }
-                foreach (TextureKind kind in new[] { TextureKind.Density, TextureKind.Noise, TextureKind.Pages })
+                foreach (TextureKind kind in new[] { TextureKind.Density, TextureKind.Noise, TextureKind.Light })
                     Expect(Array.Exists(texels[(int)kind], value => value > 0), "texels of " + kind);
                 float[] constants = new float[(int)Limits.Constants];
                 textures.Constants(constants);
                 Expect(!Array.Exists(constants, value => float.IsNaN(value) || float.IsInfinity(value)), "numbers");
                 Throws<ArgumentException>(() => textures.Constants(new float[3]), "few constants");
-                textures.Update(field, 300.0 / 64);
+                textures.Update(field, 300.0 / 64, lights);
                 Expect(textures.Regions(ref regions) < count, "fewer regions where nothing changed");
             }
         }

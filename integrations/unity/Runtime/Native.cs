@@ -101,7 +101,9 @@ namespace Brume
         Noise = 8,
         /// <summary>brume_detail: RG8, 3D, linear, repeats. Make its mip levels.</summary>
         Detail = 9,
-        Count = 10,
+        /// <summary>brume_light_volume: RGBA8, 3D, linear. Only with lights or the sky.</summary>
+        Light = 10,
+        Count = 11,
     }
 
     /// <summary>Channels, their bits and their type, as graphics interfaces name them. Texels are
@@ -671,6 +673,21 @@ namespace Brume
         /// fifth of the uploads; the noise then differs from what brume_field_drawn_depths count, by about 1/100
         /// of the light.</summary>
         public uint NoiseSpacing;
+        /// <summary>Number of lights whose way through smoke and walls is found on the CPU, [0,
+        /// BRUME_MAX_TEXTURE_LIGHTS].</summary>
+        public uint LightCount;
+        /// <summary>1: also that of the sky's light; 0: not.</summary>
+        public uint Sky;
+    }
+
+    /// <summary>A light, as the texture of light needs it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct TextureLight
+    {
+        /// <summary>1: a sun; 0: a light at a position.</summary>
+        public uint Directional;
+        /// <summary>The position [m], within +-16384; of a sun the unit vector towards it.</summary>
+        public Point At;
     }
 
     /// <summary>A time at which the smoke is drawn.</summary>
@@ -682,6 +699,11 @@ namespace Brume
         /// <summary>The clock of noise and holes [s], [0, 10^7]: the time of the field's state, or later, between
         /// ticks.</summary>
         public double Seconds;
+        /// <summary>brume_textures_params::light_count of them.</summary>
+        public IntPtr Lights;
+        /// <summary>Fraction of the texels of light that this update finds, in turn, [1/16, 1]; 0: all. At a
+        /// fraction f, light lags by up to 1/f updates, except in bricks that had no smoke before.</summary>
+        public float LightUpdateFraction;
     }
 
     /// <summary>The constants of the headers.</summary>
@@ -710,6 +732,8 @@ namespace Brume
         /// <summary>The largest number of holes that the shader cuts. Of more open ones the latest
         /// count.</summary>
         public const uint MaxTextureHoles = 128;
+        /// <summary>The largest number of lights of a texture of light.</summary>
+        public const uint MaxTextureLights = 15;
     }
 
     /// <summary>The functions of the library, as the headers declare them.</summary>

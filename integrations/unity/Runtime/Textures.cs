@@ -6,6 +6,8 @@ namespace Brume
     /// <summary>The smoke of a field as textures for a shader, with what changed from update to update.</summary>
     public sealed class Textures : Handle
     {
+        private readonly int lightCount;
+
         public Textures(Field field) : this(field, Defaults.Textures(), Defaults.Drawn())
         {
         }
@@ -13,6 +15,7 @@ namespace Brume
         /// <param name="look">The noise that erodes the smoke.</param>
         public Textures(Field field, TexturesParams settings, DrawnParams look)
         {
+            lightCount = (int)settings.LightCount;
             using (Pins pins = new Pins())
             {
                 settings.Look = pins.Add(new[] { look });
@@ -23,11 +26,19 @@ namespace Brume
         }
 
         /// <param name="seconds">The time of the field's state, or later, between two ticks.</param>
-        public void Update(Field field, double seconds)
+        /// <param name="lights">TexturesParams.LightCount of them.</param>
+        /// <param name="lightUpdateFraction">Fraction of the light that this update finds; 0: all.</param>
+        public void Update(Field field, double seconds, TextureLight[] lights = null, float lightUpdateFraction = 0)
         {
-            TexturesFrame frame = Defaults.Frame();
-            frame.Seconds = seconds;
-            Calls.Check(Native.brume_textures_update(this, field, ref frame));
+            Calls.Count(lights, lightCount, "lights");
+            using (Pins pins = new Pins())
+            {
+                TexturesFrame frame = Defaults.Frame();
+                frame.Seconds = seconds;
+                frame.Lights = pins.Add(lights);
+                frame.LightUpdateFraction = lightUpdateFraction;
+                Calls.Check(Native.brume_textures_update(this, field, ref frame));
+            }
         }
 
         /// <summary>The textures that the shader reads, by their TextureKind. One whose generation has risen has to be
