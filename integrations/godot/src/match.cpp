@@ -1,0 +1,148 @@
+#include "match.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace brume::godot {
+namespace {
+
+brume_position position(const brume_point& point) {
+  return api::position(point.x, point.y, point.z);
+}
+
+std::uint32_t index_of(std::int64_t index, const char* name) {
+  if (index < 0 || index > UINT32_MAX)
+    throw std::invalid_argument(std::string(name) + " must be from 0 to 2^32 - 1, not " +
+                                std::to_string(index));
+  return static_cast<std::uint32_t>(index);
+}
+
+}  // namespace
+
+void Match::level_from_boxes(const std::vector<Box>& boxes, double voxel_size) {
+  constexpr std::array<std::int32_t, 36> kFaces{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  std::vector<brume_point> points;
+  std::vector<std::int32_t> indices;
+  for (const Box& box : boxes) {
+    const auto first = static_cast<std::int32_t>(points.size());
+    for (int i = 0; i < 8; ++i)
+      points.push_back(
+          {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y, i & 4 ? box.high.z : box.low.z});
+    for (const std::int32_t corner : kFaces) indices.push_back(first + corner);
+  }
+  level_from_triangles(points, indices, {}, voxel_size);
+}
+
+void Match::level_from_triangles(const std::vector<brume_point>& points,
+                                 const std::vector<std::int32_t>& indices,
+                                 const std::vector<std::uint8_t>& roles, double voxel_size) {
+  if (!roles.empty() && roles.size() != indices.size() / 3)
+    throw std::invalid_argument("a role for each triangle is expected: " +
+                                std::to_string(indices.size() / 3) + ", not " + std::to_string(roles.size()));
+  std::vector<std::uint32_t> corners;
+  for (const std::int32_t index : indices) corners.push_back(index_of(index, "an index"));
+  brume_triangles_params params = brume_triangles_defaults();
+  params.layout.voxel_size = static_cast<float>(voxel_size);
+  params.points = points.data();
+  params.point_count = points.size();
+  params.indices = corners.data();
+  params.index_count = corners.size();
+  params.roles = roles.empty() ? nullptr : roles.data();
+  running_ = std::make_unique<Running>(api::Level(context_, params));
+}
+
+void Match::throw_smoke(brume_point from, brume_point at, double cubic_metres) {
+  brume_event event = next_event(BRUME_EVENT_SMOKE);
+  event.u.smoke.from = position(from);
+  event.u.smoke.at = position(at);
+  event.u.smoke.voxels =
+      brume_smoke_voxels(cubic_metres, static_cast<double>(running().level.layout().voxel_size));
+  world().append(event);
+}
+
+void Match::shoot(brume_point origin, brume_point toward, double radius) {
+  brume_event event = next_event(BRUME_EVENT_SHOT);
+  event.u.shot.origin = position(origin);
+  event.u.shot.toward = position(toward);
+  event.u.shot.radius_1024 = brume_length(radius);
+  world().append(event);
+}
+
+void Match::blast(brume_point at, double radius) {
+  brume_event event = next_event(BRUME_EVENT_BLAST);
+  event.u.blast.at = position(at);
+  event.u.blast.radius_1024 = brume_length(radius);
+  world().append(event);
+}
+
+void Match::move(std::int64_t body, brume_point to) {
+  brume_event event = next_event(BRUME_EVENT_MOVE);
+  event.u.move.body = index_of(body, "the number of a body");
+  event.u.move.to = position(to);
+  world().append(event);
+}
+
+void Match::edit(const Box& box, bool solid) {
+  const brume_layout layout = running().level.layout();
+  // The first voxel whose middle is not below a coordinate.
+  const auto voxel = [&](float at, float origin) {
+    return static_cast<std::int32_t>(std::ceil((at - origin) / layout.voxel_size - 0.5f));
+  };
+  const auto corner = [&](const brume_point& point) {
+    return brume_voxel{voxel(point.x, layout.origin.x), voxel(point.y, layout.origin.y),
+                       voxel(point.z, layout.origin.z)};
+  };
+  brume_event event = next_event(BRUME_EVENT_EDIT);
+  event.u.edit.low = corner(box.low);
+  event.u.edit.high = corner(box.high);
+  event.u.edit.solid = solid;
+  world().append(event);
+}
+
+void Match::append(std::int64_t kind, std::int64_t tick, const std::vector<std::int32_t>& members) {
+  brume_event event = brume_event_defaults(index_of(kind, "a kind"), tick_of(tick));
+  if (members.size() > std::size(event.u.reserved))
+    throw std::invalid_argument("an event has at most 32 members, not " + std::to_string(members.size()));
+  if (!members.empty()) std::memcpy(event.u.reserved, members.data(), members.size() * sizeof members[0]);
+  world().append(event);
+}
+
+std::vector<float> Match::depths(const std::vector<brume_point>& ends) {
+  if (ends.size() % 2 != 0)
+    throw std::invalid_argument("pairs of points are expected, not " + std::to_string(ends.size()) +
+                                " points");
+  std::vector<brume_segment> lines;
+  for (std::size_t i = 0; i < ends.size(); i += 2) lines.push_back({ends[i], ends[i + 1]});
+  return field().optical_depths(lines);
+}
+
+bool Match::sees(brume_point a, brume_point b, double threshold) {
+  return field().visible({a, b}, static_cast<float>(threshold));
+}
+
+std::uint32_t Match::tick_of(std::int64_t tick) {
+  return index_of(tick, "a tick");
+}
+
+Match::Running& Match::running() {
+  if (!running_) throw std::logic_error("there is no level: call level_from_boxes or level_from_triangles");
+  return *running_;
+}
+
+api::Field& Match::field() {
+  Running& now = running();
+  const std::uint64_t hash = now.world.hash();
+  if (now.in_field != hash) {
+    now.field.update(now.world.state());
+    now.in_field = hash;
+  }
+  return now.field;
+}
+
+brume_event Match::next_event(brume_event_kind kind) {
+  return brume_event_defaults(kind, world().tick() + 1);
+}
+
+}  // namespace brume::godot

@@ -1,0 +1,61 @@
+// A match of one level: its world, and its field for lines of sight.
+#pragma once
+
+#include <brume/brume.hpp>
+
+#include <memory>
+#include <optional>
+
+#include "godot.hpp"
+
+namespace brume::godot {
+
+/// What a BrumeMatch of GDScript holds. Before a level is set, everything else throws std::logic_error.
+class Match {
+ public:
+  void level_from_boxes(const std::vector<Box>& boxes, double voxel_size);
+  /// `roles`: a brume_role for each triangle; empty: all are walls.
+  void level_from_triangles(const std::vector<brume_point>& points, const std::vector<std::int32_t>& indices,
+                            const std::vector<std::uint8_t>& roles, double voxel_size);
+
+  // Events of the next tick.
+  void throw_smoke(brume_point from, brume_point at, double cubic_metres);
+  void shoot(brume_point origin, brume_point toward, double radius);
+  void blast(brume_point at, double radius);
+  void move(std::int64_t body, brume_point to);
+  /// The voxels whose middle is in the box become walls, or free.
+  void edit(const Box& box, bool solid);
+  /// An event as the header has it: the members of its struct in their order.
+  void append(std::int64_t kind, std::int64_t tick, const std::vector<std::int32_t>& members);
+
+  void step() { world().step(); }
+  void advance_to(std::int64_t tick) { world().advance_to(tick_of(tick)); }
+  void forget_before(std::int64_t tick) { world().forget_before(tick_of(tick)); }
+  std::uint32_t tick() { return world().tick(); }
+  std::uint64_t hash() { return world().hash(); }
+
+  /// The optical depth between each pair of points.
+  std::vector<float> depths(const std::vector<brume_point>& ends);
+  bool sees(brume_point a, brume_point b, double threshold);
+
+ private:
+  struct Running {
+    explicit Running(api::Level made) : level(std::move(made)), world(level), field(level) {}
+    api::Level level;
+    api::World world;
+    api::Field field;
+    std::optional<std::uint64_t> in_field;  ///< The hash of the state that the field has taken over.
+  };
+
+  static std::uint32_t tick_of(std::int64_t tick);
+  Running& running();
+  api::World& world() { return running().world; }
+  /// The field with the present state.
+  api::Field& field();
+  brume_event next_event(brume_event_kind kind);
+
+  api::Context context_;
+  std::unique_ptr<Running> running_;
+};
+
+}  // namespace brume::godot
