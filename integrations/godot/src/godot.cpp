@@ -21,6 +21,34 @@ Box box_of(const godot_variant* variant) {
   return {low, {low.x + size.x, low.y + size.y, low.z + size.z}};
 }
 
+/// The functions of one kind of pool array.
+template <typename T, typename Array, typename Access>
+struct PoolFunctions {
+  void (*make)(Array*);
+  void (*resize)(Array*, godot_int);
+  Access* (*write)(Array*);
+  T* (*pointer)(const Access*);
+  void (*end)(Access*);
+  void (*to_variant)(godot_variant*, const Array*);
+  void (*destroy)(Array*);
+};
+
+template <typename T, typename Array, typename Access>
+godot_variant pool_of(const std::vector<T>& elements, const PoolFunctions<T, Array, Access>& functions) {
+  Array array;
+  functions.make(&array);
+  functions.resize(&array, static_cast<godot_int>(elements.size()));
+  if (!elements.empty()) {
+    Access* access = functions.write(&array);
+    std::copy(elements.begin(), elements.end(), functions.pointer(access));
+    functions.end(access);
+  }
+  godot_variant variant;
+  functions.to_variant(&variant, &array);
+  functions.destroy(&array);
+  return variant;
+}
+
 }  // namespace
 
 const godot_variant* Arguments::checked(int i, godot_variant_type type, const char* expected) const {
@@ -31,6 +59,14 @@ const godot_variant* Arguments::checked(int i, godot_variant_type type, const ch
 
 std::int64_t Arguments::integer(int i) const {
   return api->godot_variant_as_int(checked(i, GODOT_VARIANT_TYPE_INT, "an int"));
+}
+
+std::uint32_t Arguments::index(int i) const {
+  const std::int64_t index = integer(i);
+  if (index < 0 || index > UINT32_MAX)
+    throw std::invalid_argument("argument " + std::to_string(i + 1) + " must be from 0 to 2^32 - 1, not " +
+                                std::to_string(index));
+  return static_cast<std::uint32_t>(index);
 }
 
 double Arguments::number(int i) const {
@@ -131,18 +167,29 @@ godot_variant value(const std::string& text) {
 }
 
 godot_variant value(const std::vector<float>& numbers) {
-  godot_pool_real_array array;
-  api->godot_pool_real_array_new(&array);
-  api->godot_pool_real_array_resize(&array, static_cast<godot_int>(numbers.size()));
-  if (!numbers.empty()) {
-    godot_pool_real_array_write_access* access = api->godot_pool_real_array_write(&array);
-    std::copy(numbers.begin(), numbers.end(), api->godot_pool_real_array_write_access_ptr(access));
-    api->godot_pool_real_array_write_access_destroy(access);
-  }
-  godot_variant variant;
-  api->godot_variant_new_pool_real_array(&variant, &array);
-  api->godot_pool_real_array_destroy(&array);
-  return variant;
+  return pool_of(numbers, PoolFunctions<float, godot_pool_real_array, godot_pool_real_array_write_access>{
+                              api->godot_pool_real_array_new, api->godot_pool_real_array_resize,
+                              api->godot_pool_real_array_write, api->godot_pool_real_array_write_access_ptr,
+                              api->godot_pool_real_array_write_access_destroy,
+                              api->godot_variant_new_pool_real_array, api->godot_pool_real_array_destroy});
+}
+
+godot_variant value(const std::vector<std::int32_t>& integers) {
+  return pool_of(
+      integers,
+      PoolFunctions<std::int32_t, godot_pool_int_array, godot_pool_int_array_write_access>{
+          api->godot_pool_int_array_new, api->godot_pool_int_array_resize, api->godot_pool_int_array_write,
+          api->godot_pool_int_array_write_access_ptr, api->godot_pool_int_array_write_access_destroy,
+          api->godot_variant_new_pool_int_array, api->godot_pool_int_array_destroy});
+}
+
+godot_variant value(const std::vector<std::uint8_t>& bytes) {
+  return pool_of(
+      bytes,
+      PoolFunctions<std::uint8_t, godot_pool_byte_array, godot_pool_byte_array_write_access>{
+          api->godot_pool_byte_array_new, api->godot_pool_byte_array_resize, api->godot_pool_byte_array_write,
+          api->godot_pool_byte_array_write_access_ptr, api->godot_pool_byte_array_write_access_destroy,
+          api->godot_variant_new_pool_byte_array, api->godot_pool_byte_array_destroy});
 }
 
 void show_error(const std::string& line) {

@@ -26,6 +26,7 @@ class Arguments {
 
   int count() const { return count_; }
   std::int64_t integer(int i) const;
+  std::uint32_t index(int i) const;  ///< An int from 0 to 2^32 - 1.
   double number(int i) const;
   bool boolean(int i) const;
   brume_point point(int i) const;
@@ -48,6 +49,8 @@ godot_variant value(std::int64_t integer);
 godot_variant value(double number);
 godot_variant value(const std::string& text);
 godot_variant value(const std::vector<float>& numbers);
+godot_variant value(const std::vector<std::int32_t>& integers);
+godot_variant value(const std::vector<std::uint8_t>& bytes);
 
 /// Shows a line among Godot's errors.
 void show_error(const std::string& line);

@@ -11,13 +11,6 @@ brume_position position(const brume_point& point) {
   return api::position(point.x, point.y, point.z);
 }
 
-std::uint32_t index_of(std::int64_t index, const char* name) {
-  if (index < 0 || index > UINT32_MAX)
-    throw std::invalid_argument(std::string(name) + " must be from 0 to 2^32 - 1, not " +
-                                std::to_string(index));
-  return static_cast<std::uint32_t>(index);
-}
-
 }  // namespace
 
 void Match::level_from_boxes(const std::vector<Box>& boxes, double voxel_size) {
@@ -41,8 +34,8 @@ void Match::level_from_triangles(const std::vector<brume_point>& points,
   if (!roles.empty() && roles.size() != indices.size() / 3)
     throw std::invalid_argument("a role for each triangle is expected: " +
                                 std::to_string(indices.size() / 3) + ", not " + std::to_string(roles.size()));
-  std::vector<std::uint32_t> corners;
-  for (const std::int32_t index : indices) corners.push_back(index_of(index, "an index"));
+  // An index below 0 becomes one that the library refuses.
+  const std::vector<std::uint32_t> corners(indices.begin(), indices.end());
   brume_triangles_params params = brume_triangles_defaults();
   params.layout.voxel_size = static_cast<float>(voxel_size);
   params.points = points.data();
@@ -77,9 +70,9 @@ void Match::blast(brume_point at, double radius) {
   world().append(event);
 }
 
-void Match::move(std::int64_t body, brume_point to) {
+void Match::move(std::uint32_t body, brume_point to) {
   brume_event event = next_event(BRUME_EVENT_MOVE);
-  event.u.move.body = index_of(body, "the number of a body");
+  event.u.move.body = body;
   event.u.move.to = position(to);
   world().append(event);
 }
@@ -101,29 +94,47 @@ void Match::edit(const Box& box, bool solid) {
   world().append(event);
 }
 
-void Match::append(std::int64_t kind, std::int64_t tick, const std::vector<std::int32_t>& members) {
-  brume_event event = brume_event_defaults(index_of(kind, "a kind"), tick_of(tick));
+void Match::append(std::uint32_t kind, std::uint32_t tick, const std::vector<std::int32_t>& members) {
+  brume_event event = brume_event_defaults(kind, tick);
   if (members.size() > std::size(event.u.reserved))
     throw std::invalid_argument("an event has at most 32 members, not " + std::to_string(members.size()));
   if (!members.empty()) std::memcpy(event.u.reserved, members.data(), members.size() * sizeof members[0]);
   world().append(event);
 }
 
-std::vector<float> Match::depths(const std::vector<brume_point>& ends) {
+std::vector<brume_segment> Match::lines_of(const std::vector<brume_point>& ends) {
   if (ends.size() % 2 != 0)
     throw std::invalid_argument("pairs of points are expected, not " + std::to_string(ends.size()) +
                                 " points");
   std::vector<brume_segment> lines;
   for (std::size_t i = 0; i < ends.size(); i += 2) lines.push_back({ends[i], ends[i + 1]});
-  return field().optical_depths(lines);
+  return lines;
+}
+
+std::vector<float> Match::depths(const std::vector<brume_point>& ends) {
+  return field().optical_depths(lines_of(ends));
+}
+
+std::vector<float> Match::drawn_depths(const std::vector<brume_point>& ends) {
+  return field().drawn_depths(lines_of(ends));
 }
 
 bool Match::sees(brume_point a, brume_point b, double threshold) {
   return field().visible({a, b}, static_cast<float>(threshold));
 }
 
-std::uint32_t Match::tick_of(std::int64_t tick) {
-  return index_of(tick, "a tick");
+void Match::make_textures(std::uint32_t light_count, bool sky) {
+  running().textures.emplace(field(), light_count, sky);
+}
+
+void Match::update_textures(double seconds, const std::vector<brume_point>& lights) {
+  textures().update(field(), seconds, lights);
+}
+
+SmokeTextures& Match::textures() {
+  Running& now = running();
+  if (!now.textures) throw std::logic_error("there are no textures: call make_textures");
+  return *now.textures;
 }
 
 Match::Running& Match::running() {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "godot.hpp"
+#include "smoke_textures.hpp"
 
 namespace brume::godot {
 
@@ -22,21 +23,29 @@ class Match {
   void throw_smoke(brume_point from, brume_point at, double cubic_metres);
   void shoot(brume_point origin, brume_point toward, double radius);
   void blast(brume_point at, double radius);
-  void move(std::int64_t body, brume_point to);
+  void move(std::uint32_t body, brume_point to);
   /// The voxels whose middle is in the box become walls, or free.
   void edit(const Box& box, bool solid);
   /// An event as the header has it: the members of its struct in their order.
-  void append(std::int64_t kind, std::int64_t tick, const std::vector<std::int32_t>& members);
+  void append(std::uint32_t kind, std::uint32_t tick, const std::vector<std::int32_t>& members);
 
   void step() { world().step(); }
-  void advance_to(std::int64_t tick) { world().advance_to(tick_of(tick)); }
-  void forget_before(std::int64_t tick) { world().forget_before(tick_of(tick)); }
+  void advance_to(std::uint32_t tick) { world().advance_to(tick); }
+  void forget_before(std::uint32_t tick) { world().forget_before(tick); }
   std::uint32_t tick() { return world().tick(); }
   std::uint64_t hash() { return world().hash(); }
 
   /// The optical depth between each pair of points.
   std::vector<float> depths(const std::vector<brume_point>& ends);
+  /// The same through the smoke as it is drawn.
+  std::vector<float> drawn_depths(const std::vector<brume_point>& ends);
   bool sees(brume_point a, brume_point b, double threshold);
+
+  /// Textures of the field from now on, with light for so many lights.
+  void make_textures(std::uint32_t light_count, bool sky);
+  void update_textures(double seconds, const std::vector<brume_point>& lights);
+  /// Throws std::logic_error before make_textures.
+  SmokeTextures& textures();
 
  private:
   struct Running {
@@ -45,9 +54,10 @@ class Match {
     api::World world;
     api::Field field;
     std::optional<std::uint64_t> in_field;  ///< The hash of the state that the field has taken over.
+    std::optional<SmokeTextures> textures;
   };
 
-  static std::uint32_t tick_of(std::int64_t tick);
+  static std::vector<brume_segment> lines_of(const std::vector<brume_point>& ends);
   Running& running();
   api::World& world() { return running().world; }
   /// The field with the present state.
