@@ -1,6 +1,6 @@
 extends SceneTree
-# godot3-server --path PROJECT -s call_match.gd: calls every method of the add-on, and what must fail. Prints "done" when
-# all is as it should be.
+# godot3-server --path PROJECT -s call_match.gd: calls the methods of the add-on, and what must fail. Prints "expected: "
+# and what does not hold, and "done" in the end.
 
 const Match = preload("res://addons/brume/match.gdns")
 const SECOND = 64

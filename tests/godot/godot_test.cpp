@@ -1,6 +1,8 @@
 // The add-on of integrations/godot: a match gives what it does in C, and errors are lines.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "core/file.hpp"
 #include "tests/api/run_shell.hpp"
 #include "tests/work_folder.hpp"
@@ -18,18 +20,25 @@ class GodotAddOn : public testing::Test {
     if (api::run_shell("command -v godot3-server").status != 0)
       GTEST_SKIP() << "godot3-server is not installed; script/bootstrap test installs it";
     fs::copy(BRUME_GODOT_PROJECT, project(), fs::copy_options::recursive);
-    for (const char* script : {"play_match.gd", "call_match.gd"})
+    for (const char* script : {"play_match.gd", "call_match.gd", "compare_rays.gd", "picture.gd"})
       fs::copy_file(std::string(BRUME_SOURCE_DIR "/tests/godot/") + script, project() / script);
   }
   fs::path project() const { return folder_.path() / "project"; }
 
   /// Runs a script without a window; errors of Godot are part of the output. The time limit ends only what
   /// hangs.
-  api::ShellRun run(const std::string& script, const std::string& environment = "") const {
-    return api::run_shell("HOME='" + folder_.path().string() + "' " + environment +
-                          " timeout --kill-after=9 600 godot3-server --path '" + project().string() +
+  api::ShellRun run(const std::string& script, const std::string& environment = "",
+                    const std::string& program = "godot3-server") const {
+    return api::run_shell("HOME='" + folder_.path().string() + "' LC_ALL=C.UTF-8 " + environment +
+                          " timeout --kill-after=9 600 " + program + " --path '" + project().string() +
                           "' -s " + script + " 2>&1");
   }
+  /// Runs a script that draws, in a virtual display and on the CPU.
+  api::ShellRun run_drawing(const std::string& script, const std::string& environment = "") const {
+    return run(script, "LIBGL_ALWAYS_SOFTWARE=1 " + environment,
+               "xvfb-run -a -s '-screen 0 1280x720x24' godot3 --audio-driver Dummy");
+  }
+  static bool draws() { return api::run_shell("command -v godot3 && command -v xvfb-run").status == 0; }
 
   cli::WorkFolder folder_;
 };
@@ -61,6 +70,41 @@ TEST_F(GodotAddOn, CallsFailAndSucceedAsTheyShould) {
   EXPECT_NE(called.output.find("\ndone\n"), called.output.npos) << called.output;
   EXPECT_EQ(count(called.output.substr(0, called.output.find("fails:")), "BrumeMatch"), 0u) << called.output;
   EXPECT_EQ(count(called.output, "ERROR: BrumeMatch: BrumeMatch."), 7u) << called.output;
+}
+
+/// The numbers that follow a word in an output.
+std::vector<double> numbers_after(const std::string& output, const std::string& word) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; (at = output.find(word + " ", at)) != output.npos; at += word.size())
+    numbers.push_back(std::strtod(output.c_str() + at + word.size() + 1, nullptr));
+  return numbers;
+}
+
+// The shader integrates in steps of 2 cm; it knows the displacement of the noise at every second voxel, which
+// is worth about 1/100 of the light.
+TEST_F(GodotAddOn, DrawsTheSmokeThatLinesOfSightMeet) {
+  if (!draws()) GTEST_SKIP() << "godot3 or xvfb is not installed; script/bootstrap test installs them";
+  const api::ShellRun drawn = run_drawing("compare_rays.gd");
+  ASSERT_EQ(numbers_after(drawn.output, "mean").size(), 1u) << drawn.output;
+  EXPECT_GT(numbers_after(drawn.output, "smoky")[0], 0.1) << drawn.output;
+  EXPECT_LT(numbers_after(drawn.output, "mean")[0], 0.003) << drawn.output;
+  EXPECT_LT(numbers_after(drawn.output, "worst")[0], 0.3) << drawn.output;
+  EXPECT_EQ(drawn.output.find("SHADER ERROR"), drawn.output.npos) << drawn.output;
+}
+
+TEST_F(GodotAddOn, TheDemoShowsSmokeHolesAndABlast) {
+  if (!draws()) GTEST_SKIP() << "godot3 or xvfb is not installed; script/bootstrap test installs them";
+  const char* kept = std::getenv("BRUME_PICTURES");
+  const api::ShellRun drawn =
+      run_drawing("picture.gd", "PICTURES='" + (kept ? std::string(kept) : folder_.path().string()) +
+                                    "' SIZE=" + (kept ? "960x540" : "320x180"));
+  const std::vector<double> smoky = numbers_after(drawn.output, "smoky");
+  ASSERT_EQ(smoky.size(), 4u) << drawn.output;
+  EXPECT_EQ(smoky[0], 0) << drawn.output;
+  EXPECT_GT(smoky[1], 0.08) << drawn.output;
+  EXPECT_LT(smoky[2], smoky[1]) << drawn.output;
+  EXPECT_LT(smoky[3], 0.9 * smoky[2]) << drawn.output;
+  EXPECT_EQ(drawn.output.find("SCRIPT ERROR"), drawn.output.npos) << drawn.output;
 }
 
 }  // namespace

@@ -146,6 +146,10 @@ TEST(House, ExportedShadersAreTheSameInBothLanguages) {
   EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-hlsl --check"), 0);
 }
 
+TEST(House, TheShaderForGodotIsTheExportedOne) {
+  EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-godot --check"), 0);
+}
+
 TEST(House, DeclarationsInCSharpAreThoseOfTheHeader) {
   EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-csharp --check"), 0);
 }

@@ -1,6 +1,6 @@
 extends Spatial
-# Two rooms with smoke. A click shoots, the right button throws a grenade where you look, space sets off a blast there, D
-# opens and shuts the door. Dragging the mouse turns; W, A, S, D walk.
+# Two rooms with smoke. W, A, S, D walk, the middle button turns. A click shoots, the right button throws a grenade
+# where you look, space sets off a blast there.
 
 const SmokeMatch = preload("res://addons/brume/match.gdns")
 const Smoke = preload("res://addons/brume/smoke.gd")
@@ -33,8 +33,8 @@ func _ready():
 		boxes.append(AABB(box[0], box[1]))
 		add_box(box[0], box[1], box[2])
 	match_.level_from_boxes(boxes, 0.25)
-	add_light(Vector3(-4.2, 3.4, -0.5), Color(1.0, 0.78, 0.5))
-	add_light(Vector3(4.4, 3.4, 1.0), Color(0.55, 0.72, 1.0))
+	add_light(Vector3(-4.2, 3.0, -0.5), Color(1.0, 0.78, 0.5))
+	add_light(Vector3(3.6, 3.0, -0.3), Color(0.55, 0.72, 1.0))
 	add_environment()
 	camera = Camera.new()
 	camera.fov = 65
@@ -42,8 +42,8 @@ func _ready():
 	camera.look_at_from_position(Vector3(-6.3, 1.9, 3.6), Vector3(1.2, 1.3, -1.6), Vector3.UP)
 	smoke = Smoke.new()
 	add_child(smoke)
-	smoke.follow(match_, lights, Color(0.05, 0.055, 0.06))
-	throw_smoke(Vector3(-3.0, 1.5, -0.6), Vector3(-1.4, 0.3, -1.4))
+	smoke.follow(match_, lights, Color(0.03, 0.033, 0.036))
+	throw_smoke(Vector3(-3.0, 1.5, -0.6), Vector3(-1.0, 0.3, -0.6))
 
 func add_box(low, size, color):
 	var body = MeshInstance.new()
@@ -59,9 +59,11 @@ func add_light(at, color):
 	var light = OmniLight.new()
 	light.translation = at
 	light.light_color = color
-	light.light_energy = 2.0
+	light.light_energy = 1.4
 	light.omni_range = 12
 	light.shadow_enabled = true
+	light.omni_shadow_mode = OmniLight.SHADOW_CUBE
+	light.shadow_bias = 0.06
 	add_child(light)
 	lights.append(light)
 
@@ -71,7 +73,7 @@ func add_environment():
 	environment.environment.background_mode = Environment.BG_COLOR
 	environment.environment.background_color = Color(0, 0, 0)
 	environment.environment.ambient_light_color = Color(0.85, 0.9, 1.0)
-	environment.environment.ambient_light_energy = 0.25
+	environment.environment.ambient_light_energy = 0.12
 	environment.environment.tonemap_mode = Environment.TONE_MAPPER_FILMIC
 	add_child(environment)
 
