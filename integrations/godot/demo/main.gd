@@ -59,11 +59,11 @@ func add_light(at, color):
 	var light = OmniLight.new()
 	light.translation = at
 	light.light_color = color
-	light.light_energy = 1.4
+	light.light_energy = 1.8
 	light.omni_range = 12
 	light.shadow_enabled = true
 	light.omni_shadow_mode = OmniLight.SHADOW_CUBE
-	light.shadow_bias = 0.06
+	light.shadow_bias = 0.3
 	add_child(light)
 	lights.append(light)
 
@@ -78,7 +78,7 @@ func add_environment():
 	add_child(environment)
 
 func throw_smoke(from, at):
-	match_.throw_smoke(from, at, 45)
+	match_.throw_smoke(from, at, 70)
 
 # Moves the match and its picture to a time.
 func show_at(time):

@@ -127,8 +127,8 @@ void Match::make_textures(std::uint32_t light_count, bool sky) {
   running().textures.emplace(field(), light_count, sky);
 }
 
-void Match::update_textures(double seconds, const std::vector<brume_point>& lights) {
-  textures().update(field(), seconds, lights);
+void Match::update_textures(double seconds, const std::vector<brume_point>& lights, double light_fraction) {
+  textures().update(field(), seconds, lights, light_fraction);
 }
 
 SmokeTextures& Match::textures() {

@@ -43,7 +43,7 @@ class Match {
 
   /// Textures of the field from now on, with light for so many lights.
   void make_textures(std::uint32_t light_count, bool sky);
-  void update_textures(double seconds, const std::vector<brume_point>& lights);
+  void update_textures(double seconds, const std::vector<brume_point>& lights, double light_fraction);
   /// Throws std::logic_error before make_textures.
   SmokeTextures& textures();
 

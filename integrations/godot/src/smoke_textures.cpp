@@ -41,7 +41,8 @@ std::size_t bytes_of(std::uint32_t format) {
 SmokeTextures::SmokeTextures(const api::Field& field, std::uint32_t light_count, bool sky)
     : textures_(field, params_of(light_count, sky)), light_count_(light_count) {}
 
-void SmokeTextures::update(const api::Field& field, double seconds, const std::vector<brume_point>& lights) {
+void SmokeTextures::update(const api::Field& field, double seconds, const std::vector<brume_point>& lights,
+                           double light_fraction) {
   if (lights.size() != light_count_)
     throw std::invalid_argument(std::to_string(light_count_) + " lights are expected, not " +
                                 std::to_string(lights.size()));
@@ -50,6 +51,7 @@ void SmokeTextures::update(const api::Field& field, double seconds, const std::v
   brume_textures_frame frame = brume_textures_frame_defaults();
   frame.seconds = seconds;
   frame.lights = positions.data();
+  frame.light_update_fraction = static_cast<float>(light_fraction);
   textures_.update(field, frame);
 
   const auto list = textures_.list();

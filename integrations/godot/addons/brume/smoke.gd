@@ -1,5 +1,5 @@
 extends MeshInstance
-# Draws the smoke of a match in front of everything that is opaque. A child of the scene's root without a transform:
+# Draws the smoke of a match in front of everything that is opaque:
 #
 #   var smoke = preload("res://addons/brume/smoke.gd").new()
 #   add_child(smoke)
@@ -16,6 +16,9 @@ const REPEATED = [8, 9]
 # Images of the same bytes for each brume_texture_format: Godot has none of integers.
 const FORMATS = {1: Image.FORMAT_R8, 2: Image.FORMAT_RG8, 3: Image.FORMAT_RGBA8, 4: Image.FORMAT_RGBAH,
 		5: Image.FORMAT_RGBAF, 6: Image.FORMAT_RG8, 7: Image.FORMAT_RF, 8: Image.FORMAT_RGF, 9: Image.FORMAT_RGBAF}
+
+# How much of the light is found again in each update: the rest lags. 0: all of it.
+export var light_fraction = 0.125
 
 var match_
 var lights = []
@@ -41,7 +44,7 @@ func update(seconds):
 	var positions = PoolVector3Array()
 	for light in lights:
 		positions.append(light.global_transform.origin)
-	match_.update_textures(seconds, positions)
+	match_.update_textures(seconds, positions, light_fraction)
 	for kind in range(len(NAMES)):
 		update_texture(kind)
 	var constants = match_.constants()
