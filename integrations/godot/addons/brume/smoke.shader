@@ -263,8 +263,8 @@ float brume_sample(ivec3 place, vec3 local, vec3 position, float pixel, uvec4 ho
   float density = brume_local_density(place, local, off);
   bool cut = (holes.x | holes.y | holes.z | holes.w) != uint(0);
   if (density <= 0.0 || (brume_constants_5.w <= 0.0 && !cut)) return density;
-  vec3 point = vec3(place) * brume_constants_8.z + (local + 0.5) * brume_constants_8.w + 0.5;
-  vec3 displacement = textureLod(brume_displacement, point / (brume_constants_3.xyz * brume_constants_8.z), 0.0).xyz;
+  vec3 at = vec3(place) * brume_constants_8.z + (local + 0.5) * brume_constants_8.w + 0.5;
+  vec3 displacement = textureLod(brume_displacement, at / (brume_constants_3.xyz * brume_constants_8.z), 0.0).xyz;
   float rim;
   density = brume_erode(density, position, displacement, pixel, rim);
   if (cut && density > 0.0) density *= brume_after_holes(holes, position, rim);
