@@ -15,6 +15,14 @@ target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshad
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
 target_include_directories(brume_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 target_compile_definitions(brume_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR)
+if(EMSCRIPTEN)
+  # Exceptions and vectors of WebAssembly itself: smaller and faster than what Emscripten emulates. Sizes have 32 bits;
+  # those from files are checked in 64 bits.
+  target_compile_options(brume_options INTERFACE -fwasm-exceptions -msimd128 -Wno-shorten-64-to-32
+                                                 "$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/examples/web/cxx_gaps/gaps.hpp>")
+  target_include_directories(brume_options SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/examples/web/cxx_gaps)
+  target_link_options(brume_options INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=67108864)
+endif()
 # Of the whole folder, which come before the options of single targets: these may take checks away.
 if(BRUME_SANITIZE)
   add_compile_options(-fsanitize=${BRUME_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
