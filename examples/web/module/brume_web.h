@@ -1,0 +1,76 @@
+// What the page calls: flat functions with numbers and arrays over the C interface of the simulation. Each returns 0,
+// or another number after which web_error() is the reason, unless it says otherwise. Lengths are metres.
+#ifndef BRUME_WEB_H
+#define BRUME_WEB_H
+
+#include <stdint.h>
+
+#include <emscripten.h>
+
+#define WEB_API EMSCRIPTEN_KEEPALIVE
+
+// The players: the server's own, and one who gets all from packets.
+enum { kHere = 0, kThere = 1, kPlayers = 2 };
+
+WEB_API const char* web_error(void);
+
+// ---- The match (match.c) ----
+
+/// Adds the image of a glyph, which a shot then cuts out by its number, from 0. Before web_create.
+WEB_API int web_add_mask(uint32_t width, uint32_t height, const uint8_t* texels);
+/// The level, from the triangles of a scene; `roles` may be null.
+WEB_API int web_create(const float* points, uint32_t point_count, const uint32_t* indices, uint32_t index_count,
+                       const float* origin, float voxel_size, const int32_t* size);
+/// Events at the present tick. Points are three numbers.
+WEB_API int web_throw(const float* from, const float* at, float cubic_metres, float bloom_seconds);
+/// `mask` below 0: a round hole.
+WEB_API int web_shoot(const float* from, const float* toward, float radius, float stay_seconds, int32_t mask);
+WEB_API int web_blast(const float* at, float radius);
+/// A box of voxels becomes a wall, or free.
+WEB_API int web_edit(const int32_t* low, const int32_t* high, uint32_t solid);
+/// Goes back, or forwards tick by tick with a packet for each, of which the fraction `loss` is lost.
+WEB_API int web_go_to(uint32_t tick, float loss);
+
+/// Numbers of the match, in this order.
+typedef struct web_report {
+  uint32_t tick[kPlayers];           // of the state that each has
+  uint32_t hash_low[kPlayers], hash_high[kPlayers];
+  uint32_t server_hash_low, server_hash_high;  // the server's, of the tick that the other has
+  uint32_t packets, lost, answers, bytes;      // since the match began
+  uint32_t clouds, holes, blasts, grenades;
+  float grenade[8][3];
+} web_report;
+WEB_API const web_report* web_report_of(void);
+
+// ---- The fields (fields.c) ----
+
+/// Takes over a player's state. Returns how many bricks of 8^3 voxels changed, or -1.
+WEB_API int32_t web_update(uint32_t player);
+/// The changed bricks: three coordinates each, and 512 densities each, x fastest.
+WEB_API const int32_t* web_bricks(void);
+WEB_API const uint8_t* web_densities(void);
+/// The holes of the player's state: 12 numbers each (web_hole in fields.c). Returns how many there are.
+WEB_API int32_t web_holes(uint32_t player);
+WEB_API const float* web_hole_numbers(void);
+/// The optical depth between two points, or -1.
+WEB_API float web_depth(uint32_t player, const float* a, const float* b);
+/// Whether two points see each other: 1 yes, 0 hidden by smoke, 2 by a wall, -1 an error. `drawn`: through the smoke as
+/// it is drawn, with its noise.
+WEB_API int32_t web_sees(uint32_t player, const float* a, const float* b, uint32_t drawn);
+
+// ---- Light in the smoke (light.c) ----
+
+/// A light of the level: position, colour times intensity [W/sr], direction, cosines of the inner and outer angle;
+/// the cosines are -2 for light in all directions.
+WEB_API int web_add_light(const float* position, const float* color, const float* direction, float inner, float outer);
+/// Goes on with the light in the cells: at most `lines` lines of sight. Returns how many cells changed, or -1.
+WEB_API int32_t web_light(uint32_t player, uint32_t lines);
+/// Everything is to be done again, since a wall changed.
+WEB_API void web_light_restart(void);
+/// Cells along each axis; and their texels: light (4 numbers of 16 bits: colour, sky), and what of the light without
+/// smoke remains (4 bytes).
+WEB_API const int32_t* web_light_size(void);
+WEB_API const uint16_t* web_light_texels(uint32_t player);
+WEB_API const uint8_t* web_dim_texels(uint32_t player);
+
+#endif

@@ -1,0 +1,68 @@
+// Two figures that say who sees whom, and the line between their eyes.
+import * as THREE from 'three';
+
+const EYES = 1.62;
+const SAYS = { sees: name => `sees ${name}`, smoke: name => `smoke hides ${name}`, wall: name => `a wall hides ${name}` };
+const TINTS = { sees: 0x57e39a, smoke: 0xff9d5c, wall: 0xff5f5f };
+
+function figure(color) {
+  const outline = [[0, 0], [0.27, 0], [0.29, 0.05], [0.2, 0.16], [0.15, 0.5], [0.19, 1.05], [0.24, 1.22], [0.13, 1.36],
+                   [0.08, 1.42], [0.1, 1.46], [0, 1.46]].map(([x, y]) => new THREE.Vector2(x, y));
+  const material = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
+  const group = new THREE.Group();
+  const body = new THREE.Mesh(new THREE.LatheGeometry(outline, 40), material);
+  const head = new THREE.Mesh(new THREE.SphereGeometry(0.155, 32, 20), material);
+  head.position.y = EYES - 0.02;
+  for (const part of [body, head]) part.castShadow = part.receiveShadow = true;
+  group.add(body, head);
+  return group;
+}
+
+export class Dummies {
+  constructor(scene, labels) {
+    this.people = [
+      { name: 'Ada', at: new THREE.Vector3(-3.6, 0.02, 6.3), color: 0xd9c9a8, tint: '#ffd08a' },
+      { name: 'Ben', at: new THREE.Vector3(-2.6, 0.1, -3.3), color: 0xa9c2d6, tint: '#8ccbff' }
+    ];
+    for (const person of this.people) {
+      const mesh = figure(person.color);
+      mesh.position.copy(person.at);
+      scene.add(mesh);
+      person.eyes = person.at.clone().setY(person.at.y + EYES);
+      person.label = document.createElement('div');
+      person.label.className = 'label';
+      person.label.style.setProperty('--tint', person.tint);
+      labels.append(person.label);
+    }
+    const [a, b] = this.people.map(person => person.eyes);
+    this.line = new THREE.Mesh(new THREE.CylinderGeometry(0.009, 0.009, a.distanceTo(b) - 0.4, 8),
+                               new THREE.MeshBasicMaterial({ color: 0xffffff }));
+    this.line.position.copy(a).lerp(b, 0.5);
+    this.line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), b.clone().sub(a).normalize());
+    scene.add(this.line);
+  }
+
+  /** Asks; true: the answer has changed. */
+  ask(simulation, player, drawn) {
+    const [a, b] = this.people.map(person => person.eyes.toArray());
+    const answer = simulation.sees(player, a, b, drawn);
+    if (answer === this.answer) return false;
+    this.answer = answer;
+    this.line.material.color.set(TINTS[answer]).multiplyScalar(0.55);
+    this.people.forEach((person, i) => { person.says = SAYS[answer](this.people[1 - i].name); });
+    return true;
+  }
+
+  /** Moves the labels above the heads, in an area of the window. */
+  place(camera, area) {
+    const point = new THREE.Vector3();
+    for (const person of this.people) {
+      point.copy(person.eyes).setY(person.eyes.y + 0.32).project(camera);
+      const isShown = point.z < 1 && Math.abs(point.x) < 1 && Math.abs(point.y) < 1;
+      person.label.hidden = !isShown;
+      person.label.textContent = `${person.name} ${person.says}`;
+      const x = area.x + area.width * (0.5 + 0.5 * point.x), y = area.y + area.height * (0.5 - 0.5 * point.y);
+      person.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
+    }
+  }
+}
