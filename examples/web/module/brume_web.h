@@ -42,35 +42,34 @@ typedef struct web_report {
 } web_report;
 WEB_API const web_report* web_report_of(void);
 
-// ---- The fields (fields.c) ----
+// ---- What a player sees (fields.c) ----
 
-/// Takes over a player's state. Returns how many bricks of 8^3 voxels changed, or -1.
-WEB_API int32_t web_update(uint32_t player);
-/// The changed bricks: three coordinates each, and 512 densities each, x fastest.
-WEB_API const int32_t* web_bricks(void);
-WEB_API const uint8_t* web_densities(void);
-/// The holes of the player's state: 12 numbers each (web_hole in fields.c). Returns how many there are.
-WEB_API int32_t web_holes(uint32_t player);
-WEB_API const float* web_hole_numbers(void);
+/// A light of the smoke: its place, or the direction towards it. Before the first web_update.
+WEB_API int web_add_texture_light(const float* at, uint32_t is_directional);
+/// Takes over a player's state, drawn at a time, and makes the textures follow. Then: the list of textures, five words
+/// each (brume_texture), the regions to upload, ten words each (brume_region), and the shader's constants.
+WEB_API int web_update(uint32_t player, double seconds, float light_fraction);
+WEB_API const uint32_t* web_texture_list(void);
+WEB_API const uint32_t* web_regions(void);
+WEB_API uint32_t web_region_count(void);
+WEB_API const float* web_constants(void);
 /// The optical depth between two points, or -1.
 WEB_API float web_depth(uint32_t player, const float* a, const float* b);
 /// Whether two points see each other: 1 yes, 0 hidden by smoke, 2 by a wall, -1 an error. `drawn`: through the smoke as
 /// it is drawn, with its noise.
 WEB_API int32_t web_sees(uint32_t player, const float* a, const float* b, uint32_t drawn);
 
-// ---- Light in the smoke (light.c) ----
+// ---- Light that is left at surfaces (light.c) ----
 
 /// A light of the level: position, colour times intensity [W/sr], direction, cosines of the inner and outer angle;
 /// the cosines are -2 for light in all directions.
 WEB_API int web_add_light(const float* position, const float* color, const float* direction, float inner, float outer);
-/// Goes on with the light in the cells: at most `lines` lines of sight. Returns how many cells changed, or -1.
+/// Goes on through the cells: at most some `lines` lines of sight. Returns how many cells it did, or -1.
 WEB_API int32_t web_light(uint32_t player, uint32_t lines);
-/// Everything is to be done again, since a wall changed.
+/// A wall has changed: which lights reach a cell is found again.
 WEB_API void web_light_restart(void);
-/// Cells along each axis; and their texels: light (4 numbers of 16 bits: colour, sky), and what of the light without
-/// smoke remains (4 bytes).
+/// Cells along each axis, and their texels: what smoke leaves of the light, for red, green and blue.
 WEB_API const int32_t* web_light_size(void);
-WEB_API const uint16_t* web_light_texels(uint32_t player);
-WEB_API const uint8_t* web_dim_texels(uint32_t player);
+WEB_API const uint8_t* web_light_texels(uint32_t player);
 
 #endif

@@ -1,83 +1,63 @@
-// What a player sees: the changed densities for a texture, the holes, and lines of sight.
+// What a player sees: the smoke as textures, and lines of sight.
+#include <brume/brume_textures.h>
 #include <math.h>
-#include <string.h>
+#include <stddef.h>
 
 #include "parts.h"
 
-enum { kMostBricks = 4096, kBrick = 8, kBrickVoxels = 512, kMostHoles = 128 };
+// JavaScript reads these structs as words, in the order of their members.
+_Static_assert(sizeof(brume_texture) == 20, "five words");
+_Static_assert(sizeof(brume_region) == 40 && offsetof(brume_region, texels) == 32, "ten words");
 
-// A hole in what the shader reads: an axis, and how far it is open at the state's tick.
-typedef struct web_hole {
-  float origin[3], radius;
-  float forward[3], depth;
-  float age, stay, mask, pad;
-} web_hole;
+static brume_textures* g_textures[kPlayers];
+static brume_texture g_list[BRUME_TEXTURE_COUNT];
+static const brume_region* g_regions;
+static size_t g_region_count;
+static float g_constants[BRUME_CONSTANTS];
+static brume_texture_light g_smoke_lights[BRUME_MAX_TEXTURE_LIGHTS];
+static uint32_t g_smoke_light_count;
 
-static brume_voxel g_bricks[kMostBricks];
-static uint8_t g_densities[kMostBricks * kBrickVoxels];
-static web_hole g_holes[kMostHoles];
+const uint32_t* web_texture_list(void) { return &g_list[0].format; }
+const uint32_t* web_regions(void) { return &g_regions->texture; }
+uint32_t web_region_count(void) { return (uint32_t)g_region_count; }
+const float* web_constants(void) { return g_constants; }
 
-const int32_t* web_bricks(void) { return &g_bricks[0].x; }
-const uint8_t* web_densities(void) { return g_densities; }
-const float* web_hole_numbers(void) { return g_holes[0].origin; }
-
-static int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
-
-// The densities of a brick, of which the level may have only a part.
-static brume_result read_brick(const brume_field* field, brume_voxel brick, uint8_t* out) {
-  const brume_voxel size = g_match.layout.size;
-  const brume_voxel low = {brick.x * kBrick, brick.y * kBrick, brick.z * kBrick};
-  const brume_voxel high = {lesser(low.x + kBrick, size.x), lesser(low.y + kBrick, size.y),
-                            lesser(low.z + kBrick, size.z)};
-  const int32_t nx = high.x - low.x, ny = high.y - low.y, nz = high.z - low.z;
-  if (nx == kBrick && ny == kBrick && nz == kBrick)
-    return brume_field_densities(field, low, high, out, kBrickVoxels);
-  uint8_t part[kBrickVoxels];
-  const brume_result result = brume_field_densities(field, low, high, part, (size_t)(nx * ny * nz));
-  memset(out, 0, kBrickVoxels);
-  for (int32_t z = 0; z < nz; ++z)
-    for (int32_t y = 0; y < ny; ++y)
-      memcpy(out + kBrick * (y + kBrick * z), part + nx * (y + ny * z), (size_t)nx);
-  return result;
+int web_add_texture_light(const float* at, uint32_t is_directional) {
+  if (g_smoke_light_count == BRUME_MAX_TEXTURE_LIGHTS) return BRUME_ERROR_LIMIT;
+  g_smoke_lights[g_smoke_light_count++] = (brume_texture_light){is_directional, point_of(at)};
+  return 0;
 }
 
-int32_t web_update(uint32_t player) {
-  const brume_state* state = g_match.states[player];
-  const brume_field* field = g_match.fields[player];
-  if (!state) return 0;
-  if (brume_field_update(g_match.fields[player], state) != BRUME_OK) return -1;
-  size_t count = 0;
-  if (brume_field_changed_bricks(field, g_bricks, kMostBricks, &count) != BRUME_OK) return -1;
-  for (size_t i = 0; i < count; ++i)
-    if (read_brick(field, g_bricks[i], g_densities + kBrickVoxels * i) != BRUME_OK) return -1;
-  return (int32_t)count;
+// The look of scenes/demo.toml.
+static brume_drawn_params look(void) {
+  brume_drawn_params params = brume_drawn_defaults();
+  params.erosion = 0.8f;
+  params.noise_size = 1.6f;
+  params.hole_rim = 0.02f;
+  return params;
 }
 
-int32_t web_holes(uint32_t player) {
-  static brume_hole holes[kMostHoles];
-  size_t count = 0;
-  brume_state_info info;
-  if (!g_match.states[player]) return 0;
-  if (brume_state_describe(g_match.states[player], &info) != BRUME_OK) return -1;
-  if (brume_state_holes(g_match.states[player], holes, kMostHoles, &count) != BRUME_OK) return -1;
-  for (size_t i = 0; i < count; ++i) {
-    const brume_hole* from = &holes[i];
-    web_hole* hole = &g_holes[i];
-    const double x = from->toward.x - from->origin.x, y = from->toward.y - from->origin.y,
-                 z = from->toward.z - from->origin.z, length = sqrt(x * x + y * y + z * z);
-    hole->origin[0] = (float)from->origin.x / 1024;
-    hole->origin[1] = (float)from->origin.y / 1024;
-    hole->origin[2] = (float)from->origin.z / 1024;
-    hole->forward[0] = (float)(x / length);
-    hole->forward[1] = (float)(y / length);
-    hole->forward[2] = (float)(z / length);
-    hole->radius = (float)from->radius_1024 / 1024;
-    hole->depth = (float)from->distance_1024 / 1024;
-    hole->age = (float)(info.tick - from->tick) / kTicksPerSecond;
-    hole->stay = from->shape == BRUME_HOLE_MASK ? 6.0f : 1.6f;
-    hole->mask = from->shape == BRUME_HOLE_MASK ? (float)from->mask_index : -1.0f;
-  }
-  return (int32_t)count;
+static int make_textures(uint32_t player) {
+  const brume_drawn_params drawn = look();
+  brume_textures_params params = brume_textures_defaults();
+  params.look = &drawn;
+  params.noise_spacing = 2;
+  params.light_count = g_smoke_light_count;
+  params.sky = 1;
+  return (int)brume_textures_create(g_match.fields[player], &params, &g_textures[player]);
+}
+
+int web_update(uint32_t player, double seconds, float light_fraction) {
+  if (!g_textures[player]) TRY(make_textures(player));
+  if (g_match.states[player]) TRY(brume_field_update(g_match.fields[player], g_match.states[player]));
+  brume_textures_frame frame = brume_textures_frame_defaults();
+  frame.seconds = seconds;
+  frame.lights = g_smoke_lights;
+  frame.light_update_fraction = light_fraction;
+  TRY(brume_textures_update(g_textures[player], g_match.fields[player], &frame));
+  TRY(brume_textures_list(g_textures[player], g_list, BRUME_TEXTURE_COUNT));
+  TRY(brume_textures_regions(g_textures[player], &g_regions, &g_region_count));
+  return (int)brume_textures_constants(g_textures[player], g_constants, BRUME_CONSTANTS);
 }
 
 float web_depth(uint32_t player, const float* a, const float* b) {
@@ -89,10 +69,11 @@ float web_depth(uint32_t player, const float* a, const float* b) {
 int32_t web_sees(uint32_t player, const float* a, const float* b, uint32_t drawn) {
   const brume_field* field = g_match.fields[player];
   const brume_segment line = {point_of(a), point_of(b)};
-  uint8_t free_of_walls = 0, visible = 0;
-  if (brume_field_visible(field, &line, 1, INFINITY, &free_of_walls) != BRUME_OK) return -1;
-  if (!free_of_walls) return 2;
-  const brume_result result = drawn ? brume_field_drawn_visible(field, NULL, &line, 1, 3.0f, &visible)
+  const brume_drawn_params noise = look();
+  uint8_t is_free = 0, visible = 0;
+  if (brume_field_visible(field, &line, 1, INFINITY, &is_free) != BRUME_OK) return -1;
+  if (!is_free) return 2;
+  const brume_result result = drawn ? brume_field_drawn_visible(field, &noise, &line, 1, 3.0f, &visible)
                                     : brume_field_visible(field, &line, 1, 3.0f, &visible);
   return result == BRUME_OK ? visible : -1;
 }

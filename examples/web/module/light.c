@@ -1,5 +1,5 @@
-// The light that reaches cells of two voxels per axis, past walls and through smoke: lines of sight to each light, some
-// in each frame.
+// What smoke leaves of the light that reaches cells of two voxels per axis: lines of sight to each light, some in each
+// frame. With it, surfaces behind smoke get darker.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct Light {
 typedef struct Pair {
   uint32_t cell;
   uint16_t light;
-  uint8_t open, pad;   // whether no wall is between them: 255 unknown
+  uint8_t open;        // whether no wall is between them: 255 unknown
   float weight;        // intensity there [W/m^2], without smoke
 } Pair;
 
@@ -27,14 +27,12 @@ static int32_t g_size[3];
 static uint32_t g_cell_count, g_pair_count;
 static Pair* g_pairs;               // by cell
 static uint32_t* g_pairs_of_cell;   // where each cell's begin, and one more
-static float* g_clear[kPlayers];    // of each pair, what smoke lets through
-static uint16_t* g_texels[kPlayers];
-static uint8_t* g_dims[kPlayers];
+static float* g_clear[kPlayers];    // of each pair, the optical depth between its ends
+static uint8_t* g_texels[kPlayers];
 static uint32_t g_next[kPlayers];   // cell
 
 const int32_t* web_light_size(void) { return g_size; }
-const uint16_t* web_light_texels(uint32_t player) { return g_texels[player]; }
-const uint8_t* web_dim_texels(uint32_t player) { return g_dims[player]; }
+const uint8_t* web_light_texels(uint32_t player) { return g_texels[player]; }
 
 int web_add_light(const float* position, const float* color, const float* direction, float inner, float outer) {
   if (g_light_count == kLights) return BRUME_ERROR_LIMIT;
@@ -86,16 +84,15 @@ static int make_pairs(void) {
     for (uint32_t light = 0; light < g_light_count; ++light) {
       const float weight = weight_of(&g_lights[light], at);
       if (weight * brightest(g_lights[light].color) < 0.04f) continue;
-      g_pairs[g_pair_count++] = (Pair){cell, (uint16_t)light, 255, 0, weight};
+      g_pairs[g_pair_count++] = (Pair){cell, (uint16_t)light, 255, weight};
     }
   }
   g_pairs_of_cell[g_cell_count] = g_pair_count;
   for (int player = 0; player < kPlayers; ++player) {
     g_clear[player] = malloc(g_pair_count * sizeof(float));
-    g_texels[player] = calloc(g_cell_count, 4 * sizeof(uint16_t));
-    g_dims[player] = malloc(g_cell_count * 4);
-    if (!g_clear[player] || !g_texels[player] || !g_dims[player]) return BRUME_ERROR_MEMORY;
-    memset(g_dims[player], 255, g_cell_count * 4);
+    g_texels[player] = malloc((size_t)g_cell_count * 4);
+    if (!g_clear[player] || !g_texels[player]) return BRUME_ERROR_MEMORY;
+    memset(g_texels[player], 255, (size_t)g_cell_count * 4);
   }
   return 0;
 }
@@ -104,44 +101,22 @@ void web_light_restart(void) {
   for (uint32_t i = 0; i < g_pair_count; ++i) g_pairs[i].open = 255;
 }
 
-// The bits of a number of 16 bits, for numbers from 0 to 65504.
-static uint16_t half_of(float value) {
-  union {
-    float number;
-    uint32_t bits;
-  } as = {fminf(value, 65000.0f)};
-  if (value < 6.2e-5f) return 0;
-  return (uint16_t)((as.bits - 0x38000000u + 0x1000u) >> 13);
-}
-
-// Scattered once and many times: light of higher orders is dimmed less (Wrenninge 2015).
-static float passed(float depth) {
-  return 0.6f * expf(-depth) + 0.27f * expf(-0.4f * depth) + 0.13f * expf(-0.12f * depth);
-}
-
-static void write_cell(uint32_t player, uint32_t cell, float up) {
-  float light[3] = {0, 0, 0}, all[3] = {1e-4f, 1e-4f, 1e-4f}, left[3] = {1e-4f, 1e-4f, 1e-4f};
+static void write_cell(uint32_t player, uint32_t cell) {
+  float all[3] = {1e-4f, 1e-4f, 1e-4f}, left[3] = {1e-4f, 1e-4f, 1e-4f};
   for (uint32_t i = g_pairs_of_cell[cell]; i < g_pairs_of_cell[cell + 1]; ++i) {
     const Pair* pair = &g_pairs[i];
     if (pair->open != 1) continue;
     for (int c = 0; c < 3; ++c) {
       const float arriving = pair->weight * g_lights[pair->light].color[c];
-      light[c] += arriving * passed(g_clear[player][i]);
       all[c] += arriving;
       left[c] += arriving * expf(-g_clear[player][i]);
     }
   }
-  uint16_t* texel = g_texels[player] + 4 * (size_t)cell;
-  uint8_t* dim = g_dims[player] + 4 * (size_t)cell;
-  for (int c = 0; c < 3; ++c) {
-    texel[c] = half_of(light[c]);
-    dim[c] = (uint8_t)(255 * left[c] / all[c]);
-  }
-  texel[3] = half_of(passed(up));
-  dim[3] = (uint8_t)(255 * expf(-up));
+  uint8_t* texel = g_texels[player] + 4 * (size_t)cell;
+  for (int c = 0; c < 3; ++c) texel[c] = (uint8_t)(255 * left[c] / all[c]);
 }
 
-// Lines of some cells: to their lights, and upwards.
+// Lines of some cells to their lights.
 static int light_cells(uint32_t player, uint32_t first, uint32_t end) {
   static brume_segment lines[kBatch];
   static uint8_t open[kBatch];
@@ -151,14 +126,14 @@ static int light_cells(uint32_t player, uint32_t first, uint32_t end) {
     const uint32_t from = g_pairs_of_cell[cell], count = g_pairs_of_cell[cell + 1] - from;
     const brume_point at = middle_of(cell);
     for (uint32_t i = 0; i < count; ++i) lines[i] = (brume_segment){g_lights[g_pairs[from + i].light].position, at};
-    lines[count] = (brume_segment){at, {at.x, at.y + 6, at.z}};
-    if (count > 0 && g_pairs[from].open == 255) {
+    if (count == 0) continue;
+    if (g_pairs[from].open == 255) {
       TRY(brume_field_visible(field, lines, count, INFINITY, open));
       for (uint32_t i = 0; i < count; ++i) g_pairs[from + i].open = open[i];
     }
-    TRY(brume_field_optical_depths(field, lines, count + 1, depths));
+    TRY(brume_field_optical_depths(field, lines, count, depths));
     memcpy(g_clear[player] + from, depths, count * sizeof(float));
-    write_cell(player, cell, depths[count]);
+    write_cell(player, cell);
   }
   return 0;
 }

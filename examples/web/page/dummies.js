@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 
 const EYES = 1.62;
-const SAYS = { sees: name => `sees ${name}`, smoke: name => `smoke hides ${name}`, wall: name => `a wall hides ${name}` };
+const SAYS = { sees: other => `sees ${other}`, smoke: other => `${other} is behind smoke`, wall: other => `${other} is behind a wall` };
 const TINTS = { sees: 0x57e39a, smoke: 0xff9d5c, wall: 0xff5f5f };
 
 function figure(color) {
@@ -21,7 +21,7 @@ function figure(color) {
 export class Dummies {
   constructor(scene, labels) {
     this.people = [
-      { name: 'Ada', at: new THREE.Vector3(-3.6, 0.02, 6.3), color: 0xd9c9a8, tint: '#ffd08a' },
+      { name: 'Ada', at: new THREE.Vector3(-1.2, 0.02, 5.2), color: 0xd9c9a8, tint: '#ffd08a' },
       { name: 'Ben', at: new THREE.Vector3(-2.6, 0.1, -3.3), color: 0xa9c2d6, tint: '#8ccbff' }
     ];
     for (const person of this.people) {
@@ -42,14 +42,14 @@ export class Dummies {
     scene.add(this.line);
   }
 
-  /** Asks; true: the answer has changed. */
-  ask(simulation, player, drawn) {
-    const [a, b] = this.people.map(person => person.eyes.toArray());
-    const answer = simulation.sees(player, a, b, drawn);
+  get eyes() { return this.people.map(person => person.eyes.toArray()); }
+
+  /** Takes what is between them: 'sees', 'smoke' or 'wall'. True: it has changed. */
+  hear(answer) {
     if (answer === this.answer) return false;
     this.answer = answer;
     this.line.material.color.set(TINTS[answer]).multiplyScalar(0.55);
-    this.people.forEach((person, i) => { person.says = SAYS[answer](this.people[1 - i].name); });
+    this.people.forEach((person, i) => { person.says = `${person.name}: ${SAYS[answer](this.people[1 - i].name)}`; });
     return true;
   }
 
@@ -60,7 +60,7 @@ export class Dummies {
       point.copy(person.eyes).setY(person.eyes.y + 0.32).project(camera);
       const isShown = point.z < 1 && Math.abs(point.x) < 1 && Math.abs(point.y) < 1;
       person.label.hidden = !isShown;
-      person.label.textContent = `${person.name} ${person.says}`;
+      person.label.textContent = person.says;
       const x = area.x + area.width * (0.5 + 0.5 * point.x), y = area.y + area.height * (0.5 - 0.5 * point.y);
       person.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
     }

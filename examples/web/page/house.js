@@ -4,16 +4,6 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 // From candela of glTF to watts per steradian, which the demo counts in.
 const WATTS = 1 / 683;
-// Level of scenes/demo.toml.
-export const LEVEL = { origin: [-14.1, -0.35, -12.1], voxel: 0.25, size: [114, 38, 114] };
-
-// Doors: the free voxels of their openings, and where their leaves go.
-export const DOORS = [
-  { name: 'Front', low: [44, 2, 47], high: [49, 11, 49] },
-  { name: 'Inner', low: [56, 2, 36], high: [57, 11, 41] },
-  { name: 'Garage', low: [62, 2, 55], high: [74, 13, 57] }
-];
-
 const SKY = `
   varying vec3 direction;
   float random(vec3 p) { return fract(sin(dot(p, vec3(127.1, 311.7, 74.7))) * 43758.5453); }
@@ -58,7 +48,7 @@ function trianglesOf(root) {
   return { points: new Float32Array(points), indices: new Uint32Array(indices) };
 }
 
-function adjustLights(lights) {
+function adjustLights(scene, lights) {
   for (const light of lights) {
     light.intensity *= WATTS;
     if (light.name === 'lamp_sign') {
@@ -74,19 +64,20 @@ function adjustLights(lights) {
     light.shadow.camera.far = 26;
     if (light.isDirectionalLight) {
       light.position.normalize().multiplyScalar(45);
+      scene.add(light.target);
       light.target.position.set(0, 0, 0);
       Object.assign(light.shadow.camera, { left: -24, right: 24, top: 22, bottom: -22, near: 1, far: 90 });
     }
   }
 }
 
-/** What the simulation's light takes: a far light is a point far away. */
+/** What the smoke takes of the lights. The moon has a direction, and for the light at surfaces a place far away. */
 export function lampsOf(lights) {
   return lights.map(light => {
     const position = light.getWorldPosition(new THREE.Vector3());
     const color = [light.color.r, light.color.g, light.color.b].map(c => c * light.intensity);
     if (light.isDirectionalLight)
-      return { position: position.toArray(), color: color.map(c => c * position.lengthSq()) };
+      return { position: position.toArray(), towards: position.clone().normalize().toArray(), color };
     if (!light.isSpotLight) return { position: position.toArray(), color };
     const direction = light.target.getWorldPosition(new THREE.Vector3()).sub(position).normalize();
     return { position: position.toArray(), color, direction: direction.toArray(),
@@ -136,8 +127,8 @@ export async function loadHouse(url) {
     for (const map of [node.material.map, node.material.normalMap]) if (map) map.anisotropy = 8;
   });
   const triangles = trianglesOf(root);
-  adjustLights(lights);
-  scene.add(new THREE.HemisphereLight(new THREE.Color(0.0075, 0.0115, 0.021), new THREE.Color(0.007, 0.006, 0.006), Math.PI));
+  adjustLights(scene, lights);
+  scene.add(new THREE.HemisphereLight(new THREE.Color(0.0095, 0.0135, 0.023), new THREE.Color(0.008, 0.007, 0.007), Math.PI));
   const grenade = root.getObjectByName('Grenade');
   grenade.visible = false;
   const setDoors = makeLeaves(scene, root);

@@ -39,7 +39,7 @@ export class Interface {
     element('play').addEventListener('click', () => does.setPlaying(!this.isPlaying));
     element('slider').addEventListener('input', () => does.seek(Number(element('slider').value)));
     element('loss').addEventListener('input', () => { element('loss-shown').textContent = `${element('loss').value} %`; });
-    if (matchMedia('(min-width: 1000px)').matches) this.#showPanel(true);
+    if (matchMedia('(min-width: 1500px)').matches) this.#showPanel(true);
   }
 
   #showPanel(isShown) {
@@ -71,7 +71,8 @@ export class Interface {
 
   showDoors(shut) {
     this.doors.forEach(({ name, button }, i) => {
-      button.textContent = `${name} ${shut[i] ? 'shut' : 'open'}`;
+      const text = shut[i] ? `${name} shut` : name;
+      if (button.textContent !== text) button.textContent = text;
       button.setAttribute('aria-pressed', shut[i]);
     });
   }
@@ -93,7 +94,7 @@ export class Interface {
   showCost({ samples, uploaded, simulated, frame, quality }) {
     element('samples').textContent = `${thousands(samples)} at most`;
     element('uploaded').textContent = `${thousands(uploaded)}B`;
-    element('simulated').textContent = `${simulated.toFixed(1)} ms CPU`;
+    element('simulated').textContent = `${simulated.toFixed(1)} ms, aside`;
     element('frame').textContent = `${frame.toFixed(0)} ms`;
     element('quality').textContent = quality;
   }

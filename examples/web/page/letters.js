@@ -1,31 +1,24 @@
 // Letters as masks of shots: drawn on a canvas with a font of this machine. All players need the same images.
-import * as THREE from 'three';
 
 const GLYPHS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789!?&+-.♥';
-const TEXELS = 64, COLUMNS = 8;
+const TEXELS = 64;
 const FONT = '700 50px Inter, "Helvetica Neue", Arial, "DejaVu Sans", sans-serif';
 
-/** {masks, texture, layout}: the images for the simulation, an atlas for the shader, and where letters of a word go. */
+/** {masks, texels, layout}: the images with as many texels per edge, and where letters of a word go. */
 export function makeLetters() {
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = TEXELS;
   const context = canvas.getContext('2d', { willReadFrequently: true });
   Object.assign(context, { font: FONT, textAlign: 'center', textBaseline: 'alphabetic', fillStyle: '#fff' });
-  const masks = [], widths = new Map([[' ', 0.36]]), side = TEXELS * COLUMNS, atlas = new Uint8Array(side * side);
-  [...GLYPHS].forEach((glyph, number) => {
+  const masks = [], widths = new Map([[' ', 0.36]]);
+  [...GLYPHS].forEach(glyph => {
     context.clearRect(0, 0, TEXELS, TEXELS);
     context.fillText(glyph, TEXELS / 2, 50);
     widths.set(glyph, Math.min(context.measureText(glyph).width, TEXELS) / TEXELS);
     const pixels = context.getImageData(0, 0, TEXELS, TEXELS).data;
     const texels = Uint8Array.from({ length: TEXELS * TEXELS }, (_, i) => pixels[4 * i + 3]);
     masks.push(texels);
-    const left = TEXELS * (number % COLUMNS), top = TEXELS * Math.floor(number / COLUMNS);
-    for (let y = 0; y < TEXELS; ++y)  // rows of textures go up
-      atlas.set(texels.subarray(TEXELS * y, TEXELS * (y + 1)), left + side * (side - 1 - top - y));
   });
-  const texture = new THREE.DataTexture(atlas, side, side, THREE.RedFormat, THREE.UnsignedByteType);
-  texture.minFilter = texture.magFilter = THREE.LinearFilter;
-  texture.needsUpdate = true;
 
   /** [{mask, right}]: each letter's image and its place, in edges of an image, from the middle of the word. */
   function layout(word) {
@@ -38,5 +31,5 @@ export function makeLetters() {
       return { mask: [...GLYPHS].indexOf(glyph), right: at };
     }).filter(letter => letter.mask >= 0);
   }
-  return { masks, texels: TEXELS, texture, layout };
+  return { masks, texels: TEXELS, layout };
 }

@@ -1,8 +1,9 @@
 // The module of the simulation: its functions with arrays of JavaScript. Every failure is an Error with its reason.
 import createModule from './brume_web.js';
 
-export const HERE = 0, THERE = 1, BRICK = 8;
+export const HERE = 0, THERE = 1;
 export const TICKS_PER_SECOND = 64;
+const TEXTURES = 11;  // BRUME_TEXTURE_COUNT
 
 export class Simulation {
   static async load(url) {
@@ -78,18 +79,30 @@ export class Simulation {
     };
   }
 
-  /** The bricks that changed in what a player sees: {count, places, densities}, valid until the next call. */
-  update(player) {
-    const count = this.module._web_update(player);
-    if (count < 0) this.#checked(count);
-    const places = this.module._web_bricks() >> 2, densities = this.module._web_densities();
-    return { count, places: this.module.HEAP32.subarray(places, places + 3 * count),
-             densities: this.module.HEAPU8.subarray(densities, densities + 512 * count) };
+  addTextureLight(at, isDirectional) {
+    this.#checked(this.module._web_add_texture_light(...this.#points(at), isDirectional ? 1 : 0));
   }
 
-  holes(player) {
-    const count = this.module._web_holes(player), at = this.module._web_hole_numbers() >> 2;
-    return { count, numbers: this.module.HEAPF32.subarray(at, at + 12 * count) };
+  /**
+   * Takes over what a player sees, at a time: {textures, regions, constants}, valid until the next call. `textures`:
+   * {format, width, height, depth, generation} each; `regions`: {texture, x, y, z, width, height, depth, texels}.
+   */
+  update(player, seconds, lightFraction) {
+    const { module } = this;
+    this.#checked(module._web_update(player, seconds, lightFraction));
+    const words = module.HEAPU32, list = module._web_texture_list() >> 2, regions = module._web_regions() >> 2;
+    const textures = Array.from({ length: TEXTURES }, (_, i) => {
+      const [format, width, height, depth, generation] = words.subarray(list + 5 * i, list + 5 * i + 5);
+      return { format, width, height, depth, generation };
+    });
+    const constants = module._web_constants() >> 2;
+    return {
+      textures, constants: module.HEAPF32.subarray(constants, constants + 40),
+      regions: Array.from({ length: module._web_region_count() }, (_, i) => {
+        const [texture, x, y, z, width, height, depth, , at, bytes] = words.subarray(regions + 10 * i, regions + 10 * i + 10);
+        return { texture, x, y, z, width, height, depth, at, bytes };
+      })
+    };
   }
 
   depth(player, a, b) {
@@ -103,17 +116,17 @@ export class Simulation {
     return ['smoke', 'sees', 'wall'][answer];
   }
 
-  addLight({ position, color, direction = [0, -1, 0], inner = -2, outer = -2 }) {
+  addLight({ position, towards, color: given, direction = [0, -1, 0], inner = -2, outer = -2 }) {
+    const square = position.reduce((sum, p) => sum + p * p, 0), color = given.map(c => towards ? c * square : c);
     this.#checked(this.module._web_add_light(...this.#points(position, color, direction), inner, outer));
   }
 
+  /** Goes on with what smoke leaves of the light at surfaces: the texels of all cells. */
   light(player, lines) {
     const changed = this.module._web_light(player, lines);
     if (changed < 0) this.#checked(changed);
-    const size = this.lightSize(), cells = size[0] * size[1] * size[2];
-    const texels = this.module._web_light_texels(player) >> 1, dims = this.module._web_dim_texels(player);
-    return { changed, texels: this.module.HEAPU16.subarray(texels, texels + 4 * cells),
-             dims: this.module.HEAPU8.subarray(dims, dims + 4 * cells) };
+    const size = this.lightSize(), at = this.module._web_light_texels(player);
+    return this.module.HEAPU8.subarray(at, at + 4 * size[0] * size[1] * size[2]);
   }
 
   lightSize() {

@@ -1,177 +1,193 @@
 // The smoke in the picture: textures that follow what a player sees, and the shader's part that reads them. All that
-// depends on how smoke gets to the renderer is here.
+// depends on how smoke gets to the renderer is here; the shader itself is Brume's, shaders/export.
 import * as THREE from 'three';
-import { BRICK } from './simulation.js';
-import { LEVEL } from './house.js';
+import SMOKE from './smoke.glsl';
+import MARCH from './smoke_march.glsl';
+import { LEVEL } from './level.js';
 
-const MOST_HOLES = 64;
-const ALBEDO = [0.90, 0.91, 0.93], AMBIENT = [0.0075, 0.0115, 0.0210];
+const ALBEDO = [0.90, 0.91, 0.93], ANISOTROPY = 0.3, AMBIENT = [0.0075, 0.0115, 0.0210];
+const LAMPS = 15;
 
-/** A texture of three dimensions that is filtered between texels. */
-function volumeTexture(data, [x, y, z], format, type) {
-  const texture = new THREE.Data3DTexture(data, x, y, z);
-  Object.assign(texture, { format, type, minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, unpackAlignment: 1 });
-  texture.needsUpdate = true;
-  return texture;
-}
+// What WebGL calls brume_texture_format: internal format, format, type, and the array of its texels.
+const FORMATS = [
+  null,
+  ['R8', 'RED', 'UNSIGNED_BYTE', Uint8Array], ['RG8', 'RG', 'UNSIGNED_BYTE', Uint8Array],
+  ['RGBA8', 'RGBA', 'UNSIGNED_BYTE', Uint8Array], ['RGBA16F', 'RGBA', 'HALF_FLOAT', Uint16Array],
+  ['RGBA32F', 'RGBA', 'FLOAT', Float32Array], ['R16UI', 'RED_INTEGER', 'UNSIGNED_SHORT', Uint16Array],
+  ['R32UI', 'RED_INTEGER', 'UNSIGNED_INT', Uint32Array], ['RG32UI', 'RG_INTEGER', 'UNSIGNED_INT', Uint32Array],
+  ['RGBA32UI', 'RGBA_INTEGER', 'UNSIGNED_INT', Uint32Array]
+];
+// brume_texture_kind: name in the shader, whether it is flat, filtered, repeats.
+const KINDS = [
+  ['brume_density', false, true], ['brume_displacement', false, true], ['brume_pages', false, false],
+  ['brume_cells', false, false], ['brume_boundary', true, false], ['brume_corners', true, false],
+  ['brume_holes', true, false], ['brume_masks', true, true], ['brume_noise', false, true, true],
+  ['brume_detail', false, true, true], ['brume_light_volume', false, true]
+].map(([name, isFlat, isLinear, repeats = false]) => ({ name, isFlat, isLinear, repeats }));
 
-/** Cells of noise, repeating: 0 at feature points. */
-export function makeNoise(size = 48) {
-  const data = new Uint8Array(size ** 3);
-  let seed = 7;
-  const random = () => ((seed = (seed * 1664525 + 1013904223) >>> 0) / 4294967296);
-  const octaves = [4, 8, 16].map(cells => ({ cells, points: Array.from({ length: cells ** 3 }, () => [random(), random(), random()]) }));
-  for (let z = 0, at = 0; z < size; ++z)
-    for (let y = 0; y < size; ++y)
-      for (let x = 0; x < size; ++x, ++at) {
-        let sum = 0, weight = 0.57;
-        for (const { cells, points } of octaves) {
-          const p = [x, y, z].map(c => (c + 0.5) / size * cells), base = p.map(Math.floor);
-          let nearest = 9;
-          for (let i = 0; i < 27; ++i) {
-            const c = [base[0] + i % 3 - 1, base[1] + Math.floor(i / 3) % 3 - 1, base[2] + Math.floor(i / 9) - 1];
-            const w = c.map(v => (v + cells) % cells), q = points[w[0] + cells * (w[1] + cells * w[2])];
-            nearest = Math.min(nearest, (c[0] + q[0] - p[0]) ** 2 + (c[1] + q[1] - p[1]) ** 2 + (c[2] + q[2] - p[2]) ** 2);
-          }
-          sum += weight * (1 - Math.min(1, Math.sqrt(nearest)));
-          weight *= 0.5;
-        }
-        data[at] = Math.min(255, 255 * sum);
-      }
-  const texture = volumeTexture(data, [size, size, size], THREE.RedFormat, THREE.UnsignedByteType);
-  texture.wrapS = texture.wrapT = texture.wrapR = THREE.RepeatWrapping;
-  return texture;
-}
-
-export class Smoke {
-  /** `shared`: textures of masks and noise, that all players' smoke has in common. */
-  constructor(simulation, player, shared) {
-    Object.assign(this, { simulation, player });
-    const size = LEVEL.size.map(n => BRICK * Math.ceil(n / BRICK));
-    this.density = volumeTexture(new Uint8Array(size[0] * size[1] * size[2]), size, THREE.RedFormat, THREE.UnsignedByteType);
-    this.holes = new THREE.DataTexture(new Float32Array(12 * MOST_HOLES), 3, MOST_HOLES, THREE.RGBAFormat, THREE.FloatType);
-    const lightSize = LEVEL.size.map(n => Math.ceil(n / 2)), cells = lightSize[0] * lightSize[1] * lightSize[2];
-    this.light = volumeTexture(new Uint16Array(4 * cells), lightSize, THREE.RGBAFormat, THREE.HalfFloatType);
-    this.dim = volumeTexture(new Uint8Array(4 * cells).fill(255), lightSize, THREE.RGBAFormat, THREE.UnsignedByteType);
-    this.time = 0;
-    this.uploaded = 0;
-    this.uniforms = {
-      density: { value: this.density }, holes: { value: this.holes }, hole_count: { value: 0 },
-      noise: { value: shared.noise }, masks: { value: shared.masks }, smoke_time: { value: 0 },
-      light: { value: this.light }, dim: { value: this.dim },
-      origin: { value: new THREE.Vector3(...LEVEL.origin) },
-      extent: { value: new THREE.Vector3(...size).multiplyScalar(LEVEL.voxel) },
-      light_extent: { value: new THREE.Vector3(...lightSize).multiplyScalar(2 * LEVEL.voxel) },
-      voxel: { value: LEVEL.voxel }, extinction: { value: 7 }, steps: { value: 48 },
-      albedo: { value: new THREE.Vector3(...ALBEDO) }, ambient: { value: new THREE.Vector3(...AMBIENT) }
-    };
-    this.block = new THREE.Data3DTexture(new Uint8Array(BRICK ** 3), BRICK, BRICK, BRICK);
+/** The textures of one player's smoke, on the device. */
+class Textures {
+  constructor(renderer) {
+    this.renderer = renderer;
+    this.gl = renderer.getContext();
+    this.generations = KINDS.map(() => 0);
+    this.handles = KINDS.map(() => new THREE.ExternalTexture());
+    this.uniforms = Object.fromEntries(KINDS.map(({ name }, i) => [name, { value: this.handles[i] }]));
   }
 
-  /** Uploads what has changed. `lines`: of sight that the light may take. */
-  update(renderer, seconds, lines) {
-    this.uploaded = 0;
-    this.#updateDensity(renderer);
-    const { count, numbers } = this.simulation.holes(this.player);
-    this.holes.image.data.set(numbers.subarray(0, 12 * MOST_HOLES));
-    this.holes.needsUpdate = count > 0;
-    this.uniforms.hole_count.value = Math.min(count, MOST_HOLES);
-    this.uniforms.smoke_time.value = seconds;
-    this.uploaded += count > 0 ? 48 * MOST_HOLES : 0;
-    if (lines > 0) this.#updateLight(lines);
+  #make(kind, { format, width, height, depth }) {
+    const { gl, renderer } = this, { isFlat, isLinear, repeats } = KINDS[kind];
+    const properties = renderer.properties.get(this.handles[kind]);
+    if (properties.__webglTexture) gl.deleteTexture(properties.__webglTexture);
+    const texture = gl.createTexture(), target = isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
+    renderer.state.bindTexture(target, texture);
+    const levels = repeats ? Math.floor(Math.log2(width)) + 1 : 1, internal = gl[FORMATS[format][0]];
+    if (isFlat) gl.texStorage2D(target, levels, internal, width, height);
+    else gl.texStorage3D(target, levels, internal, width, height, depth);
+    const filter = isLinear ? gl.LINEAR : gl.NEAREST;
+    gl.texParameteri(target, gl.TEXTURE_MAG_FILTER, filter);
+    gl.texParameteri(target, gl.TEXTURE_MIN_FILTER, repeats ? gl.LINEAR_MIPMAP_LINEAR : filter);
+    for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R])
+      gl.texParameteri(target, axis, repeats ? gl.REPEAT : gl.CLAMP_TO_EDGE);
+    this.handles[kind].sourceTexture = properties.__webglTexture = texture;
   }
 
-  #updateDensity(renderer) {
-    const { count, places, densities } = this.simulation.update(this.player);
-    if (count === 0) return;
-    const gl = renderer.getContext(), properties = renderer.properties.get(this.density);
-    if (!properties.__webglTexture) renderer.initTexture(this.density);
+  /** Makes what is new and uploads what has changed. Returns the bytes. */
+  follow({ textures, regions }, memory) {
+    const { gl, renderer } = this;
     renderer.state.activeTexture(gl.TEXTURE0);
-    renderer.state.bindTexture(gl.TEXTURE_3D, renderer.properties.get(this.density).__webglTexture);
     gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);
     gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    for (let i = 0; i < count; ++i)
-      gl.texSubImage3D(gl.TEXTURE_3D, 0, BRICK * places[3 * i], BRICK * places[3 * i + 1], BRICK * places[3 * i + 2],
-                       BRICK, BRICK, BRICK, gl.RED, gl.UNSIGNED_BYTE, densities, 512 * i);
+    textures.forEach((texture, kind) => {
+      if (texture.generation === this.generations[kind]) return;
+      this.#make(kind, texture);
+      this.generations[kind] = texture.generation;
+    });
+    let uploaded = 0;
+    for (const { texture: kind, x, y, z, width, height, depth, at, bytes } of regions) {
+      const [, format, type, Texels] = FORMATS[textures[kind].format], target = KINDS[kind].isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
+      const texels = new Texels(memory, at, bytes / Texels.BYTES_PER_ELEMENT);
+      renderer.state.bindTexture(target, this.handles[kind].sourceTexture);
+      if (KINDS[kind].isFlat) gl.texSubImage2D(target, 0, x, y, width, height, gl[format], gl[type], texels);
+      else gl.texSubImage3D(target, 0, x, y, z, width, height, depth, gl[format], gl[type], texels);
+      if (KINDS[kind].repeats) gl.generateMipmap(target);
+      uploaded += bytes;
+    }
     renderer.state.unbindTexture();
-    this.uploaded += 512 * count;
-  }
-
-  #updateLight(lines) {
-    const { texels, dims } = this.simulation.light(this.player, lines);
-    this.light.image.data.set(texels);
-    this.dim.image.data.set(dims);
-    this.light.needsUpdate = this.dim.needsUpdate = true;
-    this.uploaded += texels.byteLength + dims.byteLength;
+    return uploaded;
   }
 }
 
-/** brume_march() and brume_light(): what of smoke.glsl the picture calls, and how much light is left at a surface. */
-export const SMOKE_SHADER = `
-uniform highp sampler3D density, noise, light, dim;
-uniform highp sampler2D holes, masks;
-uniform int hole_count;
-uniform vec3 origin, extent, light_extent, albedo, ambient;
-uniform float voxel, extinction, smoke_time;
-uniform int steps;
+/** Uniforms of the lamps, as lampsOf has them. */
+function lampUniforms(lamps) {
+  const rows = pick => Array.from({ length: LAMPS }, (_, i) => i < lamps.length ? pick(lamps[i]) : new THREE.Vector4());
+  return {
+    lamp_at: { value: rows(lamp => new THREE.Vector4(...(lamp.towards ?? lamp.position), lamp.towards ? 2 : lamp.direction ? 1 : 0)) },
+    lamp_intensity: { value: rows(lamp => new THREE.Vector4(...lamp.color, 0)) },
+    lamp_cone: { value: rows(lamp => new THREE.Vector4(...(lamp.direction ?? [0, 0, 0]), lamp.outer ?? 0)) },
+    lamp_inner: { value: Float32Array.from({ length: LAMPS }, (_, i) => lamps[i]?.inner ?? 0) },
+    lamp_list: { value: new Int32Array(LAMPS) }, lamp_count: { value: 0 }
+  };
+}
+
+export class Smoke {
+  constructor(renderer, lamps) {
+    this.lamps = lamps;
+    this.textures = new Textures(renderer);
+    const size = LEVEL.size.map(n => Math.ceil(n / 2));
+    this.left = new THREE.Data3DTexture(new Uint8Array(4 * size[0] * size[1] * size[2]).fill(255), ...size);
+    this.left.minFilter = this.left.magFilter = THREE.LinearFilter;
+    this.left.needsUpdate = true;
+    this.uploaded = 0;
+    this.uniforms = {
+      ...this.textures.uniforms, ...lampUniforms(lamps),
+      brume_constants: { value: new Float32Array(40) },
+      albedo: { value: new THREE.Vector4(...ALBEDO, ANISOTROPY) }, ambient: { value: new THREE.Vector4(...AMBIENT, 0.3) },
+      light_left: { value: this.left }, light_origin: { value: new THREE.Vector3(...LEVEL.origin) },
+      light_extent: { value: new THREE.Vector3(...size).multiplyScalar(2 * LEVEL.voxel) }
+    };
+  }
+
+  /** Uploads what has changed: `seen` is of an answer of the worker. */
+  follow({ textures, regions, texels, constants, left }) {
+    this.constants = constants;
+    this.uploaded = this.textures.follow({ textures, regions }, texels) + left.byteLength;
+    this.#chooseLamps(constants.subarray(16, 19), constants.subarray(20, 23));
+    this.left.image.data.set(left);
+    this.left.needsUpdate = true;
+  }
+
+  /** Longer steps than the smoke asks for, by a factor. */
+  set stepScale(scale) {
+    if (!this.constants) return;
+    const constants = this.uniforms.brume_constants.value;
+    constants.set(this.constants);
+    constants[19] *= scale;
+  }
+
+  /** Whether there is smoke: between BRUME_LOW and BRUME_HIGH. */
+  get isThere() {
+    return Boolean(this.constants) && this.constants[20] > this.constants[16];
+  }
+
+  /** The lamps that light the smoke between two corners: others cost more than they show. */
+  #chooseLamps(low, high) {
+    const brightness = this.lamps.map(({ towards, position, color }) => {
+      const peak = Math.max(...color);
+      if (towards) return peak;
+      const square = position.reduce((sum, p, i) => sum + Math.max(low[i] - p, 0, p - high[i]) ** 2, 0);
+      return peak / Math.max(square, 1);
+    });
+    const most = Math.max(...brightness);
+    const chosen = brightness.flatMap((value, i) => value > 0.02 * most ? [i] : []);
+    this.uniforms.lamp_list.value.set(chosen);
+    this.uniforms.lamp_count.value = chosen.length;
+  }
+
+  /** Samples of a ray at most. */
+  get samplesOfRay() {
+    const constants = this.uniforms.brume_constants.value;
+    return this.isThere ? Math.hypot(...[0, 1, 2].map(i => constants[20 + i] - constants[16 + i])) / constants[19] : 0;
+  }
+}
+
+/** brume_march(), with the lamps of the house. */
+export const SMOKE_SHADER = `${SMOKE}
+uniform vec4 lamp_at[${LAMPS}], lamp_intensity[${LAMPS}], lamp_cone[${LAMPS}], albedo, ambient;
+uniform float lamp_inner[${LAMPS}];
+uniform int lamp_list[${LAMPS}], lamp_count;
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
-  vec4 arriving = textureLod(light, (position - origin) / light_extent, 0.0);
-  return albedo * (0.19 * arriving.rgb + 1.6 * ambient * arriving.a);
-}
-
-float hole_left(int hole, vec3 p) {
-  vec4 a = texelFetch(holes, ivec2(0, hole), 0), b = texelFetch(holes, ivec2(1, hole), 0), c = texelFetch(holes, ivec2(2, hole), 0);
-  vec3 from = p - a.xyz;
-  float z = dot(from, b.xyz);
-  if (z < 0.0 || z > b.w) return 1.0;
-  float age = c.x - 0.25 * z / max(b.w, 0.1);
-  float closing = 1.0 - clamp((age - 0.05 - c.y) / 0.6, 0.0, 1.0);
-  float radius = a.w * clamp(age / 0.05, 0.0, 1.0) * closing;
-  vec3 across = from - z * b.xyz;
-  if (radius <= 0.0) return 1.0;
-  if (c.z < 0.0) return 1.0 - closing * smoothstep(radius, 0.6 * radius, length(across));
-  vec3 right = normalize(cross(b.xyz, vec3(0.0, 1.0, 0.0))), up = cross(right, b.xyz);
-  vec2 uv = vec2(dot(across, right), dot(across, up)) / radius;
-  if (max(abs(uv.x), abs(uv.y)) >= 1.0) return 1.0;
-  uv = 0.5 + 0.5 * uv;
-  return 1.0 - closing * textureLod(masks, vec2((uv.x + mod(c.z, 8.0)) / 8.0, (uv.y + 7.0 - floor(c.z / 8.0)) / 8.0), 0.0).r;
-}
-
-float density_at(vec3 p, float pixel) {
-  vec3 uvw = (p - origin) / extent;
-  float d = textureLod(density, uvw, 0.0).r;
-  if (d <= 0.004) return 0.0;
-  vec3 q = p + 0.2 * vec3(sin(smoke_time * 0.23 + p.z), -0.6 * smoke_time, cos(smoke_time * 0.19 + p.x));
-  float n = 0.68 * textureLod(noise, q / 3.2, 0.0).r + 0.32 * textureLod(noise, q / 0.83, 0.0).r;
-  float threshold = 0.8 * (1.0 - 1.5 * n);
-  d = clamp(3.0 * (d - threshold) / max(1.0 - threshold, 0.05), 0.0, 1.0);
-  for (int hole = 0; hole < hole_count && d > 0.0; ++hole) d *= hole_left(hole, p);
-  return d;
-}
-
-vec4 brume_march(vec3 eye, vec3 direction, float t_end, float jitter, float pixel_width) {
-  vec3 safe = direction + vec3(lessThan(abs(direction), vec3(1e-5))) * 1e-5;
-  vec3 a = (origin - eye) / safe, b = (origin + extent - eye) / safe, low = min(a, b), high = max(a, b);
-  float t = max(max(low.x, low.y), max(low.z, 0.0)), end = min(min(high.x, high.y), min(high.z, t_end));
-  vec4 gathered = vec4(0.0, 0.0, 0.0, 1.0);
-  float ds = max((end - t) / float(steps), 0.08);
-  for (t += jitter * ds; t < end; t += ds) {
-    vec3 p = eye + t * direction;
-    float d = density_at(p, t * pixel_width);
-    if (d <= 0.0) continue;
-    float passed = exp(-extinction * d * ds);
-    gathered.rgb += gathered.a * (1.0 - passed) * brume_light(p, vec3(0.0), direction);
-    gathered.a *= passed;
-    if (gathered.a < 0.004) return vec4(gathered.rgb, 0.0);
+  vec2 sky = brume_sky_at(texel);
+  vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a, albedo.rgb, albedo.a);
+  for (int k = 0; k < lamp_count; ++k) {
+    int i = lamp_list[k];
+    vec4 at = lamp_at[i], cone = lamp_cone[i];
+    vec2 reach = brume_light_at(texel, i);
+    if (reach.y <= 0.0) continue;
+    vec3 to = at.w > 1.5 ? at.xyz : at.xyz - position;
+    float square = dot(to, to);
+    vec3 towards = to * inversesqrt(square);
+    float falloff = at.w > 1.5 ? 1.0 : 1.0 / max(square, 0.01);
+    if (at.w > 0.5 && at.w < 1.5) {
+      float spot = clamp((dot(-towards, cone.xyz) - cone.w) / max(lamp_inner[i] - cone.w, 1e-4), 0.0, 1.0);
+      falloff *= spot * spot;
+    }
+    sum += lamp_intensity[i].rgb * falloff * reach.y *
+           brume_scattered(reach.x, dot(towards, direction), albedo.rgb, albedo.a, sky.x);
   }
-  return gathered;
+  return sum;
 }
+${MARCH}`;
 
-vec3 light_left(vec3 position) {
-  vec3 uvw = (position - origin) / light_extent;
-  if (any(lessThan(uvw, vec3(0.0))) || any(greaterThan(uvw, vec3(1.0)))) return vec3(1.0);
-  return textureLod(dim, uvw, 0.0).rgb;
+/** light_left_at(): what smoke leaves of the light at a surface. */
+export const SURFACE_SHADER = `
+uniform highp sampler3D light_left;
+uniform vec3 light_origin, light_extent;
+vec3 light_left_at(vec3 position) {
+  vec3 at = (position - light_origin) / light_extent;
+  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return vec3(1.0);
+  return textureLod(light_left, at, 0.0).rgb;
 }
 `;

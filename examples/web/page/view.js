@@ -1,11 +1,12 @@
 // A player's picture: the house in half floats with its depth, the smoke at a lower resolution, both joined, bloom, tone.
 import * as THREE from 'three';
-import { SMOKE_SHADER } from './smoke.js';
+import { SMOKE_SHADER, SURFACE_SHADER } from './smoke.js';
 
 const VERTEX = 'out vec2 uv; void main() { uv = position.xy * 0.5 + 0.5; gl_Position = vec4(position.xy, 0.0, 1.0); }';
-const EXPOSURE = 1.75;
+const EXPOSURE = 3.7;  // 2^1.9, of scenes/demo.toml
 
-const HEAD = `precision highp float; precision highp sampler3D;
+const HEAD = `precision highp float;
+precision highp int;
 in vec2 uv;
 out vec4 color;
 uniform sampler2D depth_map;
@@ -27,7 +28,7 @@ void main() {
 }`;
 
 // Smoke between its own pixels: those whose surface is as far as this pixel's count most.
-const JOIN = `${HEAD}${SMOKE_SHADER}
+const JOIN = `${HEAD}${SURFACE_SHADER}
 uniform sampler2D opaque, smoke_map;
 uniform vec2 planes;
 float metres(float depth) { return planes.x * planes.y / (planes.y - depth * (planes.y - planes.x)); }
@@ -49,7 +50,7 @@ void main() {
   vec3 behind = textureLod(opaque, uv, 0.0).rgb;
   if (depth < 1.0) {
     vec3 surface = world_at(uv, depth);
-    behind *= mix(vec3(1.0), light_left(surface + 0.3 * normalize(eye - surface)), clamp(2.0 - 0.25 * max(behind.r, max(behind.g, behind.b)), 0.0, 1.0));
+    behind *= mix(vec3(1.0), light_left_at(surface + 0.3 * normalize(eye - surface)), clamp(2.0 - 0.25 * max(behind.r, max(behind.g, behind.b)), 0.0, 1.0));
   }
   color = vec4(smoke.rgb + smoke.a * behind, 1.0);
 }`;
@@ -165,7 +166,13 @@ export class View {
     this.frame.to_world.value.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
     this.frame.eye.value.setFromMatrixPosition(camera.matrixWorld);
     this.marching.uniforms.pixel_width.value = 2 * Math.tan(camera.fov * Math.PI / 360) / this.march.height;
-    this.#draw(this.marching, this.march);
+    if (this.smoke.isThere) {
+      this.#draw(this.marching, this.march);
+    } else {
+      renderer.setRenderTarget(this.march);
+      renderer.setClearColor(0x000000, 1);
+      renderer.clear();
+    }
     this.#draw(this.joining, this.joined);
     this.#glow();
     renderer.setRenderTarget(null);
@@ -195,7 +202,7 @@ export class View {
 
   /** Samples of the march at most. */
   get samples() {
-    return this.march.width * this.march.height * this.smoke.uniforms.steps.value;
+    return this.march.width * this.march.height * this.smoke.samplesOfRay;
   }
 
   dispose() {
