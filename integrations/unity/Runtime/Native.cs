@@ -112,7 +112,7 @@ namespace Brume
     {
         /// <summary>The texture does not exist yet: its size is 0.</summary>
         None = 0,
-        /// <summary>Numbers in [0, 1], as those of RG8 and RGBA8.</summary>
+        /// <summary>Numbers in [0, 1], like RG8 and RGBA8.</summary>
         R8 = 1,
         Rg8 = 2,
         Rgba8 = 3,
@@ -676,7 +676,7 @@ namespace Brume
         /// <summary>Number of lights whose way through smoke and walls is found on the CPU, [0,
         /// BRUME_MAX_TEXTURE_LIGHTS].</summary>
         public uint LightCount;
-        /// <summary>1: also that of the sky's light; 0: not.</summary>
+        /// <summary>1: the sky's light is found, too; 0: it is not.</summary>
         public uint Sky;
     }
 
@@ -729,8 +729,7 @@ namespace Brume
         public const uint MaxQueries = 268435456;
         /// <summary>The number of constants that the shader reads: ten rows of four.</summary>
         public const uint Constants = 40;
-        /// <summary>The largest number of holes that the shader cuts. Of more open ones the latest
-        /// count.</summary>
+        /// <summary>The largest number of holes that the shader cuts: the latest ones.</summary>
         public const uint MaxTextureHoles = 128;
         /// <summary>The largest number of lights of a texture of light.</summary>
         public const uint MaxTextureLights = 15;

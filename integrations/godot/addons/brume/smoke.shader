@@ -35,7 +35,8 @@ uvec4 brume_words(vec4 bytes) {
 ivec3 brume_place(ivec3 brick) {
   ivec3 at = brick - ivec3(brume_constants_1.xyz);
   ivec3 size = ivec3(brume_constants_2.xyz);
-  if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= size.x || at.y >= size.y || at.z >= size.z) return ivec3(-1, 0, 0);
+  bool below = at.x < 0 || at.y < 0 || at.z < 0;
+  if (below || at.x >= size.x || at.y >= size.y || at.z >= size.z) return ivec3(-1, 0, 0);
   int slot = int(brume_words(texelFetch(brume_pages, at, 0)).r) - 1;
   if (slot < 0) return ivec3(-1, 0, 0);
   ivec3 atlas = ivec3(brume_constants_3.xyz);
@@ -44,8 +45,8 @@ ivec3 brume_place(ivec3 brick) {
 
 // ---- Cells that a surface runs through: smoke ends at the surface, not at a voxel ----
 
-// On which side of a plane a point is, 1 or 0. The plane is an octahedral normal of 2 x 10 bits and an offset of 12 bits
-// from the middle of its cell; 0: there is none. Moves `off` to a voxel off the plane.
+// On which side of a plane a point is, 1 or 0. The plane is an octahedral normal of 2 x 10 bits and an offset of 12
+// bits from the middle of its cell; 0: there is none. Moves `off` to a voxel off the plane.
 uint brume_side(uint plane, vec3 from_middle, inout vec3 off) {
   if (plane == uint(0)) return uint(0);
   vec2 e = vec2(float(plane & uint(1023)), float((plane >> uint(10)) & uint(1023))) * (2.0 / 1022.0) - vec2(1.0, 1.0);
@@ -60,11 +61,12 @@ uint brume_side(uint plane, vec3 from_middle, inout vec3 off) {
 }
 
 vec4 brume_bytes(uint word) {
-  return vec4(float(word & uint(255)), float((word >> uint(8)) & uint(255)), float((word >> uint(16)) & uint(255)), float(word >> uint(24))) * (1.0 / 255.0);
+  vec4 bytes = vec4(float(word & uint(255)), float((word >> uint(8)) & uint(255)), float((word >> uint(16)) & uint(255)), float(word >> uint(24)));
+  return bytes * (1.0 / 255.0);
 }
 
-// Smoke of a cell at `f`, from its low corner, each coordinate in [0, 1]: between the densities of its eight corners, as
-// they are on the point's side of its planes. `number` is above 0.
+// Smoke of a cell at `f`, from its low corner, each coordinate in [0, 1]: between the densities of its eight corners,
+// as they are on the point's side of its planes. `number` is above 0.
 float brume_cell_density(uint number, vec3 f, inout vec3 off) {
   int cell = int(number) - 1;
   uvec4 boundary = floatBitsToUint(texelFetch(brume_boundary, ivec2(cell % 256, cell / 256), 0));
@@ -78,8 +80,8 @@ float brume_cell_density(uint number, vec3 f, inout vec3 off) {
   return mix(row.x, row.y, f.x);
 }
 
-// Density before noise and holes at a point of a brick, [0, 1]. `local`: from the brick's low corner [voxels]. `off`: how
-// far from the point its light is to be read, so that none leaks through walls [voxels].
+// Density before noise and holes at a point of a brick, [0, 1]. `local`: from the brick's low corner [voxels]. `off`:
+// how far from the point its light is to be read, so that none leaks through walls [voxels].
 float brume_local_density(ivec3 place, vec3 local, out vec3 off) {
   off = vec3(0.0, 0.0, 0.0);
   vec3 uvw = (vec3(place) * 10.0 + local + 1.0) / (brume_constants_3.xyz * 10.0);
@@ -119,7 +121,8 @@ float brume_erode(float density, vec3 position, vec3 displacement, float pixel, 
   vec2 detail = vec2(0.0, 0.0);
   if (weight > 0.0) {
     float level = log2(max(128.0 * brume_constants_7.w * pixel, 1.0));
-    vec2 texel = textureLod(brume_detail, p * brume_constants_7.w + brume_constants_7.xyz, level).rg;
+    vec3 at = p * brume_constants_7.w + brume_constants_7.xyz;
+    vec2 texel = textureLod(brume_detail, at, level).rg;
     detail = weight * 0.54 * (2.0 * texel - 1.0);
   }
   rim = clamp(2.0 * noise.g - 1.0 + 1.5 * detail.x, -1.0, 1.0);
@@ -237,15 +240,16 @@ float brume_phase(float g, float cosine) {
 }
 
 // What smoke scatters towards the eye of a light's irradiance [1/sr], once and many times, the way of Brume's renderer
-// (docs/how/light.md). `depth`: of brume_light_at; `cosine`: between the light's direction and that to the eye; `escape`: x
-// of brume_sky_at, or 0.3; `g`: mean cosine of the phase function.
+// (docs/how/light.md). `depth`: x of brume_light_at; `cosine`: between the directions towards the light and of the ray;
+// `escape`: x of brume_sky_at, or 0.3; `g`: mean cosine of the phase function.
 vec3 brume_scattered(float depth, float cosine, vec3 albedo, float g, float escape) {
   float forward = max(g, 0.0);
   vec3 again = albedo * (1.0 - escape);
   vec3 decay = 1.05 * sqrt((1.0 - 0.951 * albedo) * (1.0 - forward * albedo));
   vec3 fraction = 0.788 * exp(-0.481 * forward) * again / (1.0 - 0.775 * again);
   float even = forward / (1.0 + exp(3.409 - 4.663 * forward));
-  return albedo * (exp(-depth) * brume_phase(g, cosine) + fraction * exp(-decay * depth) * brume_phase(even, cosine));
+  vec3 often = fraction * exp(-decay * depth) * brume_phase(even, cosine);
+  return albedo * (exp(-depth) * brume_phase(g, cosine) + often);
 }
 
 // What smoke scatters of a sky of `ambient`, of which walls around reflect `bounce`. `sky`: of brume_sky_at.
@@ -264,7 +268,8 @@ float brume_sample(ivec3 place, vec3 local, vec3 position, float pixel, uvec4 ho
   bool cut = (holes.x | holes.y | holes.z | holes.w) != uint(0);
   if (density <= 0.0 || (brume_constants_5.w <= 0.0 && !cut)) return density;
   vec3 at = vec3(place) * brume_constants_8.z + (local + 0.5) * brume_constants_8.w + 0.5;
-  vec3 displacement = textureLod(brume_displacement, at / (brume_constants_3.xyz * brume_constants_8.z), 0.0).xyz;
+  at /= brume_constants_3.xyz * brume_constants_8.z;
+  vec3 displacement = textureLod(brume_displacement, at, 0.0).xyz;
   float rim;
   density = brume_erode(density, position, displacement, pixel, rim);
   if (cut && density > 0.0) density *= brume_after_holes(holes, position, rim);
