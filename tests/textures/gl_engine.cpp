@@ -3,9 +3,11 @@
 #include <EGL/eglext.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "core/file.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::textures {
 namespace {
@@ -94,6 +96,8 @@ void upload(const brume_region& region, std::uint32_t texture_format) {
                     i(region.height), i(region.depth), format.format, format.type, region.texels);
   }
 }
+
+const std::string kVersion = "#version 300 es\n";
 
 std::string exported(const char* name) {
   const auto text = read_text_file(std::string(BRUME_SOURCE_DIR "/shaders/export/") + name);
@@ -187,22 +191,10 @@ std::size_t GlEngine::follow(const brume_textures* textures) {
   return bytes;
 }
 
-GLuint GlEngine::program(const std::string& light, const std::string& main) {
-  const std::string start = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
-  const std::string vertex = start +
+GLuint GlEngine::link(const std::string& fragment) const {
+  const std::string vertex = kVersion +
                              "void main() { vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
                              "  gl_Position = vec4(4.0 * p - 1.0, 0.0, 1.0); }\n";
-  const std::string fragment =
-      start +
-      "uniform vec4 eye, forward, right, up, size;\n"
-      "out vec4 color;\n" +
-      exported("smoke.glsl") + light + exported("smoke_march.glsl") +
-      "void main() {\n"
-      "  vec2 at = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y) / size.xy * vec2(2.0, -2.0) + vec2(-1.0, "
-      "1.0);\n"
-      "  vec3 origin = eye.xyz, direction = normalize(forward.xyz + at.x * right.xyz + at.y * up.xyz);\n"
-      "  float pixel_width = size.z;\n" +
-      main + "}\n";
   const GLuint linked = glCreateProgram();
   glAttachShader(linked, compile(GL_VERTEX_SHADER, vertex));
   glAttachShader(linked, compile(GL_FRAGMENT_SHADER, fragment));
@@ -211,6 +203,66 @@ GLuint GlEngine::program(const std::string& light, const std::string& main) {
   glGetProgramiv(linked, GL_LINK_STATUS, &done);
   if (done != GL_TRUE) throw std::runtime_error("the program does not link");
   return linked;
+}
+
+GLuint GlEngine::program(const std::string& light, const std::string& main) {
+  return link(kVersion +
+              "precision highp float;\nprecision highp int;\nuniform vec4 view[5];\nout vec4 color;\n" +
+              exported("smoke.glsl") + light + exported("smoke_march.glsl") +
+              "void main() {\n"
+              "  vec2 at = vec2(gl_FragCoord.x, view[4].y - gl_FragCoord.y) / view[4].xy;\n"
+              "  at = at * vec2(2.0, -2.0) + vec2(-1.0, 1.0);\n"
+              "  vec3 origin = view[0].xyz, direction = normalize(view[1].xyz + at.x * view[2].xyz + at.y * "
+              "view[3].xyz);\n"
+              "  float pixel_width = view[4].z;\n" +
+              main + "}\n");
+}
+
+GLuint GlEngine::program_of_hlsl(const std::string& light, const std::string& main) {
+  const cli::WorkFolder folder;
+  folder.write("shader.hlsl",
+               exported("smoke.hlsl") + light + exported("smoke_march.hlsl") +
+                   "cbuffer view { float4 view_rows[5]; };\n"
+                   "float4 main(float4 place : SV_Position) : SV_Target {\n"
+                   "  float2 at = float2(place.x, view_rows[4].y - place.y) / view_rows[4].xy;\n"
+                   "  at = at * float2(2.0, -2.0) + float2(-1.0, 1.0);\n"
+                   "  float3 origin = view_rows[0].xyz;\n"
+                   "  float3 direction = normalize(view_rows[1].xyz + at.x * view_rows[2].xyz + at.y * "
+                   "view_rows[3].xyz);\n"
+                   "  float pixel_width = view_rows[4].z;\n  float4 color;\n" +
+                   main + "  return color;\n}\n");
+  const std::string start = "cd '" + folder.path().string() + "' && ";
+  const std::string commands = start +
+                               "glslc -x hlsl -fshader-stage=fragment shader.hlsl -o shader.spv "
+                               "--target-env=vulkan1.1 -fauto-bind-uniforms -fauto-map-locations && "
+                               "spirv-cross shader.spv --version 300 --es --flatten-ubo --output shader.glsl";
+  if (std::system(commands.c_str()) != 0) throw std::runtime_error("the HLSL does not compile");
+  const auto text = read_text_file(folder.path() / "shader.glsl");
+  if (!text) throw std::runtime_error(text.failure().message);
+  return link(*text);
+}
+
+/// Textures and constants by their names, which those of samplers in translated HLSL contain.
+void GlEngine::bind_smoke(GLuint program) const {
+  for (std::uint32_t kind = 0; kind < BRUME_TEXTURE_COUNT; ++kind) {
+    glActiveTexture(GL_TEXTURE0 + kind);
+    glBindTexture(target_of(kind), textures_[kind]);
+  }
+  GLint count = 0;
+  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    std::array<char, 256> text{};
+    GLint size = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program, static_cast<GLuint>(i), static_cast<GLsizei>(text.size()), nullptr, &size,
+                       &type, text.data());
+    const std::string name = text.data();
+    const GLint at = glGetUniformLocation(program, text.data());
+    if (name.find("brume_constants") != std::string::npos)
+      glUniform4fv(at, BRUME_CONSTANTS / 4, constants_.data());
+    for (std::uint32_t kind = 0; kind < BRUME_TEXTURE_COUNT; ++kind)
+      if (name.find(kNames[kind]) != std::string::npos) glUniform1i(at, static_cast<GLint>(kind));
+  }
 }
 
 Picture GlEngine::draw(GLuint program, const Eye& eye, int width, int height,
@@ -227,22 +279,14 @@ Picture GlEngine::draw(GLuint program, const Eye& eye, int width, int height,
   glViewport(0, 0, width, height);
 
   glUseProgram(program);
-  const auto set = [&](const std::string& name, glm::vec4 value) {
-    glUniform4f(glGetUniformLocation(program, name.c_str()), value.x, value.y, value.z, value.w);
-  };
   const float across = eye.tan_half_height * static_cast<float>(width) / static_cast<float>(height);
-  set("eye", glm::vec4(eye.position, 0));
-  set("forward", glm::vec4(eye.forward, 0));
-  set("right", glm::vec4(across * eye.right, 0));
-  set("up", glm::vec4(eye.tan_half_height * eye.up, 0));
-  set("size", {width, height, 2 * eye.tan_half_height / static_cast<float>(height), 0});
-  for (const auto& [name, value] : values) set(name, value);
-  glUniform4fv(glGetUniformLocation(program, "brume_constants"), BRUME_CONSTANTS / 4, constants_.data());
-  for (std::uint32_t kind = 0; kind < BRUME_TEXTURE_COUNT; ++kind) {
-    glActiveTexture(GL_TEXTURE0 + kind);
-    glBindTexture(target_of(kind), textures_[kind]);
-    glUniform1i(glGetUniformLocation(program, kNames[kind]), static_cast<GLint>(kind));
-  }
+  const std::array view{glm::vec4(eye.position, 0), glm::vec4(eye.forward, 0),
+                        glm::vec4(across * eye.right, 0), glm::vec4(eye.tan_half_height * eye.up, 0),
+                        glm::vec4(width, height, 2 * eye.tan_half_height / static_cast<float>(height), 0)};
+  glUniform4fv(glGetUniformLocation(program, "view"), static_cast<GLsizei>(view.size()), &view[0].x);
+  for (const auto& [name, value] : values)
+    glUniform4f(glGetUniformLocation(program, name.c_str()), value.x, value.y, value.z, value.w);
+  bind_smoke(program);
   std::vector<GLuint> made(maps.size());
   glGenTextures(static_cast<GLsizei>(made.size()), made.data());
   for (std::size_t i = 0; i < maps.size(); ++i) {

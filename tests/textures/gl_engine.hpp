@@ -52,12 +52,17 @@ class GlEngine {
   /// A program of a fragment shader's main, with smoke.glsl, `light` and smoke_march.glsl. `main` writes
   /// `color` from `origin` and `direction`. Throws with the compiler's messages.
   GLuint program(const std::string& light, const std::string& main);
+  /// The same of smoke.hlsl and smoke_march.hlsl, translated by glslc and spirv-cross.
+  GLuint program_of_hlsl(const std::string& light, const std::string& main);
   /// Draws all pixels. `values` are set as uniforms by name.
   Picture draw(GLuint program, const Eye& eye, int width, int height,
                const std::vector<std::pair<std::string, glm::vec4>>& values = {},
                const std::vector<FloatMap>& maps = {});
 
  private:
+  GLuint link(const std::string& fragment) const;
+  void bind_smoke(GLuint program) const;
+
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLContext context_ = EGL_NO_CONTEXT;
   std::array<GLuint, BRUME_TEXTURE_COUNT> textures_{};

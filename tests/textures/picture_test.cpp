@@ -77,7 +77,7 @@ class PictureTest : public testing::TestWithParam<Scene> {
                                    glm::dot(eye.direction(size, x, y), eye.forward));
     const GLuint program = engine.program(
         kShadowLookup + kLights,
-        "ivec3 pixel = ivec3(gl_FragCoord.x, size.y - gl_FragCoord.y, 0);\n"
+        "ivec3 pixel = ivec3(gl_FragCoord.x, view[4].y - gl_FragCoord.y, 0);\n"
         "float jitter = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));\n"
         "color = brume_march(origin, direction, texelFetch(distances, pixel, 0).r, jitter, pixel_width);\n");
     return engine.draw(program, eye, kWidth, kHeight, stage.uniforms(), {distances, stage.shadows()});

@@ -90,6 +90,42 @@ TEST_F(ShaderTest, LetsThroughWhatLinesOfSightDo) {
   }
 }
 
+TEST_F(ShaderTest, HlslDrawsWhatGlslDoes) {
+  brume_textures_params params = brume_textures_defaults();
+  params.light_count = 1;
+  params.sky = 1;
+  api::Textures textures(*field_, params);
+  const std::string main = "color = brume_march(origin, direction, 40.0, 0.5, pixel_width);\n";
+  const std::string body =
+      "return brume_scattered(brume_light_at(texel, 0).x, direction.y, albedo, 0.2, brume_sky_at(texel).x) "
+      "+\n"
+      "  brume_scattered_sky(brume_sky_at(texel), albedo, 0.2, albedo, 0.2); }\n";
+  const GLuint glsl = engine_.program(
+      "vec3 brume_light(vec3 position, vec3 texel, vec3 direction) { vec3 albedo = vec3(0.9, 0.8, 0.7);\n" +
+          body,
+      main);
+  const GLuint hlsl = engine_.program_of_hlsl(
+      "float3 brume_light(float3 position, float3 texel, float3 direction) { float3 albedo = float3(0.9, "
+      "0.8, 0.7);\n" +
+          body,
+      main);
+  const brume_texture_light light{0, {6, 3, 6}};
+  brume_textures_frame frame = brume_textures_frame_defaults();
+  frame.lights = &light;
+  for (const std::uint32_t tick : {130u, 222u, 300u}) {
+    world_->advance_to(tick);
+    field_->update(world_->state());
+    frame.seconds = tick / 64.0;
+    textures.update(*field_, frame);
+    engine_.follow(textures.get());
+    const Picture a = engine_.draw(glsl, kEye, 96, 54), b = engine_.draw(hlsl, kEye, 96, 54);
+    double apart = 0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i)
+      apart += double{glm::dot(glm::abs(a.texels[i] - b.texels[i]), glm::vec4(0.25f))};
+    EXPECT_LT(apart / static_cast<double>(a.texels.size()), 1e-4) << tick;
+  }
+}
+
 TEST_F(ShaderTest, LetsThroughWhatDrawnLinesOfSightDo) {
   const brume_drawn_params drawn = brume_drawn_defaults();
   api::Textures textures(*field_);
