@@ -7,22 +7,13 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "core/data_files.hpp"
+#include "core/platform/machine.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::bench {
 namespace {
-
-std::string processor_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
 
 bool matches(const std::string& name, const std::vector<std::string>& names) {
   return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
@@ -130,7 +121,7 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
     report.device = bench.context().info().name;
     report.driver = bench.context().info().driver;
   }
-  report.processor = processor_name();
+  report.processor = platform::processor_name();
   report.threads = thread_count();
   report.commit = commit();
   return report;

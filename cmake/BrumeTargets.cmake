@@ -104,3 +104,20 @@ endfunction()
 function(brume_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
+
+# brume_exports(LIBRARY SYMBOLS): a shared library that exports the functions of include/brume alone: no symbol of the
+# static libraries or of the C++ runtime's templates. SYMBOLS is a version script of GNU ld; on Windows the headers say
+# what is exported.
+function(brume_exports library symbols)
+  set_target_properties(${library} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_link_options(${library} PRIVATE -Wl,--gc-sections)
+  if(WIN32)
+    set_target_properties(${library} PROPERTIES PREFIX "")
+    return()
+  endif()
+  set_target_properties(${library} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0 LINK_DEPENDS ${symbols})
+  target_link_options(${library} PRIVATE -Wl,--version-script=${symbols} -Wl,-Bsymbolic-functions)
+  if(NOT BRUME_SANITIZE)
+    target_link_options(${library} PRIVATE -Wl,--no-undefined)
+  endif()
+endfunction()

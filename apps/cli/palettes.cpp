@@ -1,7 +1,5 @@
 #include "palettes/palette.hpp"
 
-#include <unistd.h>
-
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 #include "apps/cli/palette_sheet.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
+#include "core/platform/console.hpp"
 #include "image/png.hpp"
 #include "palettes/file.hpp"
 #include "palettes/sample.hpp"
@@ -50,9 +49,7 @@ void read_counts(const std::string& text, palettes::Filter& filter) {
 /// no-color.org, and terminals without escape sequences.
 bool has_colors() {
   const char* const none = std::getenv("NO_COLOR");
-  const char* const terminal = std::getenv("TERM");
-  return ::isatty(STDOUT_FILENO) == 1 && (none == nullptr || *none == '\0') && terminal != nullptr &&
-         std::string_view(terminal) != "dumb";
+  return (none == nullptr || *none == '\0') && platform::shows_escape_sequences(platform::kOutput);
 }
 
 std::string make_swatch(const palettes::Palette& palette) {

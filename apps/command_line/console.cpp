@@ -1,17 +1,12 @@
 #include "apps/command_line/console.hpp"
 
-#include <fcntl.h>
-#include <pthread.h>
-#include <signal.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -21,6 +16,8 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/platform/console.hpp"
+#include "core/platform/files.hpp"
 #include "core/progress.hpp"
 
 namespace brume::cli {
@@ -54,7 +51,7 @@ extern "C" void on_signal(int signal) {
 }
 
 bool shows_progress() {
-  return !g_console->quiet && ::isatty(STDERR_FILENO) == 1;
+  return !g_console->quiet && platform::is_terminal(platform::kErrors);
 }
 
 // Overwrites the current line; blanks erase the rest of a longer one. The last column stays free: a cursor
@@ -62,7 +59,7 @@ bool shows_progress() {
 void show_line() {
   const std::lock_guard lock(g_console->line_mutex);
   std::size_t& shown = g_console->line_length;
-  const std::size_t width = terminal_width(STDERR_FILENO) - 1;
+  const std::size_t width = terminal_width(platform::kErrors) - 1;
   std::string line;
   if (const auto job = progress_to_show(kLongJobSeconds)) line = progress_line(*job, width);
   if (line.empty() && shown == 0) return;
@@ -122,9 +119,8 @@ std::string json_text(const Json& object) {
 }  // namespace
 
 std::size_t terminal_width(int descriptor) {
-  winsize size{};
-  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
-  return size.ws_col;
+  const std::size_t columns = platform::terminal_columns(descriptor);
+  return columns > 0 ? columns : kDefaultWidth;
 }
 
 Console::Console() : state_(std::make_unique<State>()) {
@@ -139,28 +135,13 @@ Console::~Console() {
   g_console = nullptr;
 }
 
-void reserve_standard_descriptors() {
-  // The other direction: reading from standard input and writing to the others still fails. open() takes the
-  // lowest free number, which is the closed one.
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(descriptor, F_GETFD) < 0)
-      (void)!::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
-
 void start_console(bool quiet, ProgressForm progress) {
   g_console->quiet = quiet;
   g_console->progress = progress;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
     if (!quiet && level == LogLevel::warning) print_to_error("brume: warning: " + line);
   });
-  struct sigaction action {
-  }, old{};
-  action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) ::sigaction(signal, &action, nullptr);
-  ::sigaction(SIGHUP, nullptr, &old);
-  if (old.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
-  ::signal(SIGXFSZ, SIG_IGN);
+  platform::catch_stops(on_signal);
 }
 
 struct Attendant::Thread {
@@ -196,7 +177,7 @@ struct Attendant::Thread {
       if (!signalled) signalled = now;
       if (now - *signalled < std::chrono::duration<double>(grace_seconds)) continue;
       if (g_console->ending.exchange(true)) return;  // The command is reporting its own end.
-      ::_exit(end_of(signal));
+      std::_Exit(end_of(signal));
     }
   }
 };
@@ -204,11 +185,7 @@ struct Attendant::Thread {
 Attendant::Attendant(const std::atomic<double>& grace_seconds, std::function<int(int signal)> end_of)
     : thread_(new Thread(grace_seconds, std::move(end_of))) {
   // Signals interrupt the system calls of the main thread, not of this one.
-  sigset_t all, old;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &old);
-  thread_->thread = std::thread([thread = thread_] { thread->run(); });
-  ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
+  thread_->thread = platform::start_without_signals([thread = thread_] { thread->run(); });
 }
 
 Attendant::~Attendant() {
@@ -223,7 +200,7 @@ Attendant::~Attendant() {
 
 void claim_end() {
   if (!g_console->ending.exchange(true)) return;
-  for (;;) ::pause();
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
 bool is_interrupted() {
@@ -280,7 +257,7 @@ void write_json_error(int code, const std::string& message, bool may_write_file)
 
 void finish_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  const bool full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+  const bool full = platform::is_full(errno);
   throw Error(ErrorCode::resource_limit,
               std::string("standard output: cannot write: ") + std::strerror(errno) +
                   (full ? "; free some space" : "; redirect it to a file or a program"));

@@ -31,20 +31,15 @@ class Console {
   std::unique_ptr<State> state_;
 };
 
-/// Opens the standard descriptors that the caller closed, without access: otherwise the next file that is
-/// opened would get what is printed. Comes first in the program.
-void reserve_standard_descriptors();
-
 /// How the progress of long jobs is reported.
 enum class ProgressForm {
   line,  ///< A line that is overwritten, on a terminal only.
   json,  ///< progress_json, a line every half second, wherever standard error leads to.
 };
 
-/// Routes library warnings to standard error (drops them if `quiet`) and installs signal handlers. The first
-/// SIGINT, SIGTERM, SIGHUP (unless the caller ignores it, as nohup does) or SIGXCPU requests a stop, the
-/// second ends the process. The handlers outlive the run: a complete command ends with its own exit code. A
-/// file that reaches the size limit fails to be written, like one on a full disk (SIGXFSZ is ignored).
+/// Routes library warnings to standard error (drops them if `quiet`) and installs signal handlers
+/// (platform::catch_stops): the first signal requests a stop, the second ends the process. The handlers
+/// outlive the run: a complete command ends with its own exit code.
 void start_console(bool quiet, ProgressForm progress);
 
 /// Shows the progress of long jobs (core/progress.hpp), and enforces stops, from a thread of

@@ -1,11 +1,10 @@
 #include "apps/command_line/help.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <sstream>
 
 #include "apps/command_line/console.hpp"
+#include "core/platform/console.hpp"
 
 namespace brume::cli {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 constexpr std::size_t kColumn = 30, kNarrowest = 60, kWidest = 100;
 
 std::size_t help_width() {
-  return std::clamp(terminal_width(STDOUT_FILENO), kNarrowest, kWidest);
+  return std::clamp(terminal_width(platform::kOutput), kNarrowest, kWidest);
 }
 
 // The words in lines of at most `width` characters, each but the first indented by `indent`.

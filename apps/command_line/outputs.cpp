@@ -1,12 +1,11 @@
 #include "apps/command_line/outputs.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/frame_names.hpp"
 #include "core/file.hpp"
+#include "core/platform/files.hpp"
 
 namespace brume::cli {
 namespace {
@@ -36,10 +35,10 @@ Error is_input(const std::string& option, const fs::path& file, const fs::path& 
 FileIdentity identity_of(const fs::path& path) {
   const auto target = follow_links(path);
   const fs::path& place = target ? *target : path;
-  struct stat info {};
-  if (::stat(place.c_str(), &info) == 0) return {info.st_dev, info.st_ino, ""};
+  if (const auto info = platform::info_of(place)) return {info->device, info->file, ""};
   const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
-  if (::stat(folder.c_str(), &info) == 0) return {info.st_dev, info.st_ino, place.filename().string()};
+  if (const auto info = platform::info_of(folder))
+    return {info->device, info->file, place.filename().string()};
   return {0, 0, place.string()};
 }
 

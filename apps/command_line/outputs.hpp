@@ -1,8 +1,6 @@
 // The files that a command reads and writes. The one place that decides what may be written.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -18,11 +16,10 @@
 
 namespace brume::cli {
 
-/// One file, whatever path leads to it: its device and inode or, where nothing exists yet, its folder's
-/// and its name. Symbolic links are followed.
+/// One file, whatever path leads to it: its device and its number there or, where nothing exists yet, its
+/// folder's and its name. Symbolic links are followed.
 struct FileIdentity {
-  dev_t device = 0;
-  ino_t inode = 0;
+  std::uint64_t device = 0, file = 0;
   std::string name;  ///< Empty for a file that exists.
   auto operator<=>(const FileIdentity&) const = default;
 };

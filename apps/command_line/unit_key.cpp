@@ -9,6 +9,7 @@
 
 #include "apps/command_line/console.hpp"
 #include "core/key.hpp"
+#include "core/platform/process.hpp"
 
 namespace brume::cli {
 namespace {
@@ -79,8 +80,8 @@ std::string exact_text(double number) {
 
 std::string program_hash() {
   std::error_code ignored;
-  const fs::path helper = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "brume-vdb";
-  return hash_of_files({"/proc/self/exe", fs::exists(helper, ignored) ? helper : fs::path()});
+  const fs::path helper = platform::program_file().parent_path() / platform::program_name("brume-vdb");
+  return hash_of_files({platform::program_image(), fs::exists(helper, ignored) ? helper : fs::path()});
 }
 
 void print_reasons(std::uint32_t first, const std::vector<std::string>& reasons) {

@@ -1,16 +1,13 @@
 #include "apps/viewer/autosave.hpp"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "apps/viewer/screenshot.hpp"
+#include "core/platform/process.hpp"
 #include "scene/files/timeline_writer.hpp"
 
 namespace brume::viewer {
@@ -22,19 +19,19 @@ constexpr std::string_view kBegin = "autosave_", kEnd = ".toml";
 constexpr std::chrono::seconds kPathEvery{10};
 
 // The process that writes a file of this name.
-std::optional<pid_t> owner_of(std::string_view name) {
+std::optional<int> owner_of(std::string_view name) {
   if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return std::nullopt;
   name.remove_prefix(kBegin.size());
   name.remove_suffix(kEnd.size());
-  pid_t process = 0;
+  int process = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
   if (error != std::errc() || end != name.data() + name.size() || process <= 0) return std::nullopt;
   return process;
 }
 
 // Our own number belongs to an earlier process: this one has saved nothing yet.
-bool is_gone(pid_t process) {
-  return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
+bool is_gone(int process) {
+  return process == platform::process_id() || !platform::is_running(process);
 }
 
 /// How much there is to save: nothing of a session in which the player only walked.
@@ -45,7 +42,7 @@ std::size_t work_of(const Session& session) {
 }  // namespace
 
 Autosave::Autosave(const fs::path& folder)
-    : file_(folder / (std::string(kBegin) + std::to_string(::getpid()) + std::string(kEnd))),
+    : file_(folder / (std::string(kBegin) + std::to_string(platform::process_id()) + std::string(kEnd))),
       copies_(folder / (file_.stem().string() + "_files")),
       last_(std::chrono::steady_clock::now()) {
   std::error_code error;

@@ -1,10 +1,10 @@
 #include "apps/viewer/figures.hpp"
 
 #include <malloc.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+
+#include "core/platform/machine.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -14,16 +14,6 @@ double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-/// A figure of /proc/self/statm in bytes; 0 if it cannot be read. Fields: 0 all, 1 resident, 5 data and
-/// stacks.
-std::uint64_t statm_bytes(int field) {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t pages = 0;
-  for (int i = 0; i <= field; ++i)
-    if (!(file >> pages)) return 0;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
@@ -57,7 +47,7 @@ double Figures::frames_per_second() const {
 }
 
 std::uint64_t resident_bytes() {
-  return statm_bytes(1);
+  return platform::memory_use().resident;
 }
 
 std::uint64_t heap_bytes() {
@@ -72,7 +62,7 @@ std::uint64_t heap_bytes() {
 std::uint64_t mapped_bytes() {
 #ifdef __GLIBC__
   const struct mallinfo2 heap = ::mallinfo2();
-  const std::uint64_t of_malloc = heap.arena + heap.hblkhd, all = statm_bytes(5);
+  const std::uint64_t of_malloc = heap.arena + heap.hblkhd, all = platform::memory_use().data;
   return all > of_malloc ? all - of_malloc : 0;
 #else
   return 0;

@@ -91,7 +91,14 @@ extern "C" {
 #define BRUME_CAST(type, value) ((type)(value))
 #endif
 
-#if defined(__GNUC__)
+// On Windows, who links a static library defines BRUME_STATIC.
+#if defined(_WIN32) && defined(BRUME_STATIC)
+#define BRUME_API
+#elif defined(_WIN32) && defined(BRUME_EXPORTS)
+#define BRUME_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define BRUME_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define BRUME_API __attribute__((visibility("default")))
 #else
 #define BRUME_API

@@ -4,6 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/platform/process.hpp"
+#include "core/utf8.hpp"
 
 namespace brume {
 
@@ -14,12 +16,11 @@ namespace {
 constexpr std::uint64_t kMostPathBytes = 4096;
 
 std::vector<fs::path> data_folders() {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path program = platform::program_file().parent_path();
   std::vector<fs::path> folders{program, program.parent_path() / "share/brume"};
   if (auto tree = read_text_file(program / "brume-source.txt", kMostPathBytes)) {
     tree->erase(tree->find_last_not_of('\n') + 1);
-    folders.push_back((program / *tree).lexically_normal());
+    folders.push_back((program / to_path(*tree)).lexically_normal());
   }
   return folders;
 }
@@ -29,7 +30,7 @@ std::vector<fs::path> data_folders() {
 std::optional<fs::path> find_data_file(const std::string& name) {
   std::error_code ignored;
   for (const fs::path& folder : data_folders())
-    if (fs::exists(folder / name, ignored)) return folder / name;
+    if (fs::exists(folder / to_path(name), ignored)) return folder / to_path(name);
   return std::nullopt;
 }
 

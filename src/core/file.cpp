@@ -1,11 +1,5 @@
 #include "core/file.hpp"
 
-#include <dirent.h>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -17,40 +11,36 @@
 #include <tuple>
 #include <utility>
 
+#include "core/platform/files.hpp"
+#include "core/platform/process.hpp"
+#include "core/utf8.hpp"
+
 namespace brume {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Descriptor {
-  int value = -1;
-  ~Descriptor() {
-    if (value >= 0) ::close(value);  // Read-only: errors lose no data.
-  }
-};
-
 // Reads as many bytes as `wanted` returns for the size of the file.
 template <typename Container, typename Wanted>
 Result<Container> read_bytes(const std::filesystem::path& path, const Wanted& wanted) {
-  // Open the file and check its type and size. O_NONBLOCK: a pipe without a writer is refused, not waited
-  // for.
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
-  if (file.value < 0) return system_failure(path, "open", errno);
-  struct stat info {};
-  if (::fstat(file.value, &info) != 0) return system_failure(path, "inspect", errno);
-  if (!S_ISREG(info.st_mode))
+  // Open the file and check its type and size.
+  const platform::Descriptor file(platform::open_to_read(path));
+  if (file.get() < 0) return system_failure(path, "open", errno);
+  const auto info = platform::info_of(file.get());
+  if (!info) return system_failure(path, "inspect", errno);
+  if (!info->is_regular)
     return Failure{ErrorCode::bad_input, path.string() + ": not a regular file; check the path"};
-  const Result<std::size_t> size = wanted(static_cast<std::uint64_t>(info.st_size));
+  const Result<std::size_t> size = wanted(info->size);
   if (!size) return size.failure();
 
   // Read it.
   Container bytes(*size, {});
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
-    if (got < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t got =
+        platform::read_some(file.get(), std::as_writable_bytes(std::span(bytes)).subspan(done));
     if (got < 0) return system_failure(path, "read", errno);
-    if (got == 0) break;  // The file has shrunk since fstat.
+    if (got == 0) break;  // The file has shrunk meanwhile.
     done += static_cast<std::size_t>(got);
   }
   bytes.resize(done);
@@ -79,8 +69,8 @@ fs::path folder_of(const fs::path& path) {
 fs::path fresh_part(const fs::path& target) {
   static std::atomic<unsigned> number{0};
   const std::string stem = target.filename().string().substr(0, kLongestStem);
-  return folder_of(target) /
-         ("." + stem + std::string(kPartMark) + std::to_string(::getpid()) + "-" + std::to_string(number++));
+  return folder_of(target) / to_path("." + stem + std::string(kPartMark) +
+                                     std::to_string(platform::process_id()) + "-" + std::to_string(number++));
 }
 
 // ".NAME.brume-part-PID-N"
@@ -92,91 +82,41 @@ bool is_part(std::string_view name) {
          numbers.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
-int retry_lock(int descriptor, int operation) {
-  int locked = 0;
-  do locked = ::flock(descriptor, operation);
-  while (locked != 0 && errno == EINTR);
-  return locked;
-}
-
-bool same_file(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
-// Removes a part if its writer is gone.
-void remove_if_stale(const fs::path& part) {
-  const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) return;
-  struct stat opened {
-  }, named{};
-  if (::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) &&
-      retry_lock(descriptor, LOCK_EX | LOCK_NB) == 0 && ::lstat(part.c_str(), &named) == 0 &&
-      same_file(opened, named)) {
-    ::unlink(part.c_str());
-  }
-  ::close(descriptor);
-}
-
 // Once per folder and process: a sequence of frames would otherwise list its folder at every frame.
 bool is_first_visit(const fs::path& folder) {
   static std::mutex mutex;
-  static std::set<std::tuple<pid_t, dev_t, ino_t>> visited;  // A forked child is another process.
-  struct stat info {};
-  if (::stat(folder.c_str(), &info) != 0) return false;
+  // A forked child is another process.
+  static std::set<std::tuple<int, std::uint64_t, std::uint64_t>> visited;
+  const auto info = platform::info_of(folder);
+  if (!info) return false;
   const std::lock_guard lock(mutex);
-  return visited.emplace(::getpid(), info.st_dev, info.st_ino).second;
+  return visited.emplace(platform::process_id(), info->device, info->file).second;
 }
 
 void remove_stale_parts(const fs::path& folder) {
   if (!is_first_visit(folder)) return;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (is_part(entry->path().filename().string())) remove_if_stale(entry->path());
+    if (is_part(entry->path().filename().string())) platform::remove_if_stale(entry->path());
 }
 
-// The path of an open file, to link it or to open it again.
-std::string descriptor_path(int descriptor) {
-  return "/proc/self/fd/" + std::to_string(descriptor);
-}
-
-int open_nameless(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-  if (descriptor < 0) return -1;
-  if (::access(descriptor_path(descriptor).c_str(), F_OK) == 0) {
-    retry_lock(descriptor, LOCK_EX);
-    return descriptor;
-  }
-  ::close(descriptor);  // Without /proc it could never get a name.
-  errno = EOPNOTSUPP;
-  return -1;
-}
-
-// Creates and locks a part. A process that cleans up may remove it before the lock: then tries again.
+// Creates and locks a part.
 int open_part(const fs::path& target, fs::path& part) {
-  // Readable by others only once it has the permissions of the file that it replaces.
-  const mode_t mode = ::access(target.c_str(), F_OK) == 0 ? 0600 : 0666;
-  for (;;) {
-    part = fresh_part(target);
-    const int descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (descriptor < 0 && errno == EEXIST) continue;
-    if (descriptor < 0) return -1;
-    retry_lock(descriptor, LOCK_EX);
-    struct stat info {};
-    if (::fstat(descriptor, &info) != 0 || info.st_nlink > 0) return descriptor;
-    ::close(descriptor);
-  }
+  int descriptor = -1;
+  do descriptor = platform::create_part(part = fresh_part(target), target);
+  while (descriptor < 0 && errno == EEXIST);
+  return descriptor;
 }
 
 // Why a file that exists cannot be replaced.
 std::optional<Failure> obstacle(const fs::path& path, const fs::path& target) {
-  struct stat info {};
-  if (::stat(target.c_str(), &info) != 0) return std::nullopt;
-  if (S_ISDIR(info.st_mode))
+  const auto info = platform::info_of(target);
+  if (!info) return std::nullopt;
+  if (info->is_folder)
     return Failure{ErrorCode::bad_input, path.string() + ": is a folder; name a file inside it"};
-  if (!S_ISREG(info.st_mode))
+  if (!info->is_regular)
     return Failure{ErrorCode::bad_input, path.string() + ": is not a regular file; name another file"};
-  if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
-    return system_failure(path, "write", errno);
+  if (!platform::may_write(target)) return system_failure(path, "write", errno);
   return std::nullopt;
 }
 
@@ -189,20 +129,10 @@ Failure cannot_open(const fs::path& path, const fs::path& folder, int error) {
   return system_failure(path, "write", error);
 }
 
-// Gives the new file the owner and the permissions of the one that it replaces.
-void copy_permissions(int descriptor, const fs::path& target) {
-  struct stat info {};
-  if (::stat(target.c_str(), &info) != 0) return;
-  // Only root may give files away; the group is often allowed alone.
-  if (::fchown(descriptor, info.st_uid, info.st_gid) != 0)
-    (void)!::fchown(descriptor, static_cast<uid_t>(-1), info.st_gid);
-  (void)!::fchmod(descriptor, info.st_mode & 0777);
-}
-
 }  // namespace
 
 Failure system_failure(const std::filesystem::path& path, const char* action, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  const bool full = platform::is_full(error);
   std::string fix;
   if (error == ENOENT) fix = "; check the path";
   if (error == EACCES || error == EPERM || error == EROFS) fix = "; check its permissions";
@@ -246,7 +176,7 @@ Result<AtomicFile> AtomicFile::open(const fs::path& path, Naming naming) {
   remove_stale_parts(folder);
   fs::path part;
   int descriptor = -1;
-  if (naming == Naming::nameless_if_possible) descriptor = open_nameless(folder);
+  if (naming == Naming::nameless_if_possible) descriptor = platform::open_nameless(folder);
   if (descriptor < 0) descriptor = open_part(*target, part);
   if (descriptor < 0) return cannot_open(path, folder, errno);
   return AtomicFile(path, *target, std::move(part), descriptor);
@@ -263,50 +193,46 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ < 0) return;
-  if (!part_.empty()) ::unlink(part_.c_str());
-  ::close(descriptor_);
+  platform::close(descriptor_);
+  if (!part_.empty()) platform::remove(part_);
 }
 
 Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t put = platform::write_some(descriptor_, bytes);
     if (put < 0) return system_failure(path_, "write", errno);
     bytes = bytes.subspan(static_cast<std::size_t>(put));
   }
   return {};
 }
 
-// Gives the file its final name. Returns 0 or an errno.
+// Closes the file and gives it its final name. Returns 0 or an errno.
 int AtomicFile::publish() {
   // A nameless file gets a free name directly. To replace a file it needs a name that can be renamed, for as
   // long as that takes.
   if (part_.empty()) {
-    const std::string open_file = descriptor_path(descriptor_);
-    const auto link_as = [&](const fs::path& name) {
-      return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0
-                                                                                                   : errno;
-    };
-    int error = link_as(target_);
+    int error = platform::link_nameless(descriptor_, target_);
+    if (error == 0) platform::close(std::exchange(descriptor_, -1));  // All bytes are on disk already.
     if (error != EEXIST) return error;
     fs::path part;
-    do error = link_as(part = fresh_part(target_));
+    do error = platform::link_nameless(descriptor_, part = fresh_part(target_));
     while (error == EEXIST);
     if (error != 0) return error;
     part_ = std::move(part);
   }
-  if (::rename(part_.c_str(), target_.c_str()) != 0) return errno;
-  part_.clear();
-  return 0;
+  return platform::replace(std::exchange(descriptor_, -1), std::exchange(part_, {}), target_);
+}
+
+std::string AtomicFile::path_for_child() const {
+  return platform::path_for_child(descriptor_, part_);
 }
 
 Result<void> AtomicFile::commit() {
   BRUME_ASSERT(descriptor_ >= 0, path_.string());
-  if (::fsync(descriptor_) != 0) return system_failure(path_, "write", errno);
-  copy_permissions(descriptor_, target_);
+  if (!platform::sync(descriptor_)) return system_failure(path_, "write", errno);
+  platform::copy_permissions(descriptor_, target_);
   const int error = publish();
   if (error != 0) return system_failure(path_, "write", error);
-  ::close(std::exchange(descriptor_, -1));  // All bytes are on disk already.
   return {};
 }
 

@@ -27,10 +27,11 @@ Result<std::string> read_file_start(const std::filesystem::path& path, std::size
 /// A file that appears under its name only when it is complete. Until then it has no name (O_TMPFILE): a
 /// killed program leaves nothing behind. On a file system without nameless files it is called
 /// ".NAME.brume-part-PID-N", and holds a lock for as long as its writer lives: the first `open` of a process
-/// in a folder removes parts that nobody locks.
+/// in a folder removes parts that nobody locks. Windows has no nameless files.
 ///
 /// Symbolic links are followed: the file that they lead to is replaced. A replaced file keeps its
-/// permissions, and its owner where the system allows it. Its other hard links keep the old contents.
+/// permissions, and its owner where the system allows it; on Windows, it gets those of its folder. Its other
+/// hard links keep the old contents.
 class AtomicFile {
  public:
   enum class Naming {
@@ -53,6 +54,8 @@ class AtomicFile {
   Result<void> commit();
   /// The open file until the commit, for programs that write the file themselves.
   int descriptor() const { return descriptor_; }
+  /// Where a child that inherits the descriptor opens the file.
+  std::string path_for_child() const;
 
  private:
   AtomicFile(std::filesystem::path path, std::filesystem::path target, std::filesystem::path part,

@@ -1,4 +1,5 @@
 #include "core/numbered_files.hpp"
+#include "core/utf8.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -85,9 +86,9 @@ std::map<std::int64_t, fs::path> numbered_files(const fs::path& file) {
     std::int64_t number = 0;
     const auto read = std::from_chars(name.data() + place->before.size(), last, number);
     if (read.ec != std::errc() || read.ptr != last) continue;
-    const auto [same, is_new] = found.emplace(number, file.parent_path() / name);
+    const auto [same, is_new] = found.emplace(number, file.parent_path() / to_path(name));
     if (!is_new && same->second.filename().string().size() < name.size())
-      same->second = file.parent_path() / name;
+      same->second = file.parent_path() / to_path(name);
   }
   return found;
 }

@@ -29,6 +29,10 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+std::filesystem::path to_path(std::string_view utf8) {
+  return std::u8string_view(reinterpret_cast<const char8_t*>(utf8.data()), utf8.size());
+}
+
 void append_utf8(std::string& text, char32_t character) {
   const auto add = [&](char32_t byte) { text.push_back(static_cast<char>(byte)); };
   const auto add_tail = [&](int shift) { add(0x80 | (character >> shift & 0x3f)); };

@@ -1,10 +1,9 @@
 #include "gpu/functions.hpp"
 
-#include <dlfcn.h>
-
 #include <string>
 
 #include "core/error.hpp"
+#include "core/platform/library.hpp"
 
 namespace brume::gpu {
 namespace {
@@ -59,15 +58,17 @@ void Functions::load_swapchain(VkDevice device) {
 
 PFN_vkGetInstanceProcAddr system_loader() {
   // Never closed: drivers do not support being unloaded.
-  static void* const library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  const auto& [file, install] = platform::kVulkanLoader;
+  static void* const library = platform::load_library(file);
   if (!library) {
-    throw Error(
-        ErrorCode::no_device,
-        "no Vulkan loader (libvulkan.so.1); install libvulkan1 and a driver such as mesa-vulkan-drivers");
+    throw Error(ErrorCode::no_device, std::string("no Vulkan loader (") + file + "); install " + install +
+                                          " and a driver such as mesa-vulkan-drivers");
   }
-  const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(library, "vkGetInstanceProcAddr"));
+  const auto get =
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(platform::find_symbol(library, "vkGetInstanceProcAddr"));
   if (!get)
-    throw Error(ErrorCode::no_device, "libvulkan.so.1 has no vkGetInstanceProcAddr; reinstall libvulkan1");
+    throw Error(ErrorCode::no_device,
+                std::string(file) + " has no vkGetInstanceProcAddr; reinstall " + install);
   return get;
 }
 

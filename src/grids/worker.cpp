@@ -1,26 +1,19 @@
 #include "grids/worker.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "core/child_process.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/platform/child_process.hpp"
+#include "core/platform/process.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 #include "grids/brv_file.hpp"
 #include "grids/suffix.hpp"
 
@@ -28,6 +21,7 @@ namespace brume::grids {
 namespace {
 
 namespace fs = std::filesystem;
+using Cause = platform::ChildEnd::Cause;
 using Bytes = std::vector<std::byte>;
 using Clock = std::chrono::steady_clock;
 
@@ -40,9 +34,10 @@ constexpr std::size_t kReadBytes = 1 << 20;
 constexpr double kWallFactor = 10, kLeastWallSeconds = 60;
 
 std::string program() {
-  if (const char* named = std::getenv("BRUME_VDB"); named != nullptr && *named != '\0') return named;
+  if (const std::string named = platform::environment("BRUME_VDB"); !named.empty()) return named;
   std::error_code ignored;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "brume-vdb";
+  const fs::path beside =
+      platform::program_file().parent_path() / to_path(platform::program_name("brume-vdb"));
   return fs::exists(beside, ignored) ? beside.string() : "brume-vdb";
 }
 
@@ -70,21 +65,24 @@ void pass_warnings(const fs::path& path, const std::string& messages) {
 }
 
 // Why the child ended without success.
-Failure failure_of(const fs::path& path, int status, const std::string& messages) {
+Failure failure_of(const fs::path& path, const platform::ChildEnd& end, const std::string& messages) {
   const std::string file = path.string();
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    if (signal == SIGXCPU || signal == SIGKILL)
-      return {ErrorCode::resource_limit,
-              file + (signal == SIGXCPU ? ": takes more processor time than a file of its size may"
-                                        : ": brume-vdb was killed; is there enough memory?")};
-    if (signal == SIGXFSZ) return system_failure(path, "write", EFBIG);
-    return {ErrorCode::bad_input, file + ": OpenVDB's reader crashed on it (signal " +
-                                      std::to_string(signal) + "); the file is damaged"};
+  switch (end.cause) {
+    case Cause::exited:
+      break;
+    case Cause::processor_time:
+      return {ErrorCode::resource_limit, file + ": takes more processor time than a file of its size may"};
+    case Cause::killed:
+      return {ErrorCode::resource_limit, file + ": brume-vdb was killed; is there enough memory?"};
+    case Cause::file_size:
+      return system_failure(path, "write", EFBIG);
+    case Cause::crashed:
+      return {ErrorCode::bad_input, file + ": OpenVDB's reader crashed on it (signal " +
+                                        std::to_string(end.code) + "); the file is damaged"};
   }
-  const int code = WEXITSTATUS(status);
+  const int code = end.code;
   const std::vector<std::string> lines = split_lines(messages);
-  std::string reason = lines.empty() ? last_line(messages) : lines.back();
+  std::string reason = lines.empty() ? platform::last_line(messages) : lines.back();
   if (reason.empty()) reason = "brume-vdb ended with exit code " + std::to_string(code);
   const bool known =
       code == static_cast<int>(ErrorCode::bad_input) || code == static_cast<int>(ErrorCode::resource_limit);
@@ -103,12 +101,10 @@ Result<Bytes> read_all(int descriptor, const fs::path& path, const GridLimits& l
     const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     if (limits.is_stopped()) return Failure{ErrorCode::internal, path.string() + ": stopped"};
     if (rest <= 0) return Failure{ErrorCode::resource_limit, path.string() + ": brume-vdb does not answer"};
-    pollfd waiting{descriptor, POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(rest, limits.stopped ? 100 : 1000))) <= 0)
-      continue;
+    const auto wait = std::min<std::int64_t>(rest, limits.stopped ? 100 : 1000);
+    if (!platform::wait_readable(descriptor, static_cast<int>(wait))) continue;
     if (bytes.size() < used + kReadBytes) bytes.resize(std::max(2 * bytes.size(), used + kReadBytes));
-    const ssize_t got = ::read(descriptor, &bytes[used], bytes.size() - used);
-    if (got < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t got = platform::read_some(descriptor, std::span(bytes).subspan(used));
     if (got <= 0) {
       bytes.resize(used);
       return bytes;
@@ -125,24 +121,22 @@ Result<Bytes> read_all(int descriptor, const fs::path& path, const GridLimits& l
 Result<GridFile> read_in_child(const fs::path& path, const GridLimits& limits) {
   // The file exists, and the child can be reached.
   if (const auto start = read_file_start(path, 1); !start) return start.failure();
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure(path, "read", errno);
-  const Descriptor results(ends[0]);
-  Descriptor child_end(ends[1]);
-  ChildProcess child;
+  auto stream = platform::make_child_output();
+  if (!stream) return system_failure(path, "read", errno);
+  platform::ChildProcess child;
   const int error = child.start(
       {program(), "read", path.string(), "--bytes", std::to_string(limits.bytes), "--active-voxels",
        std::to_string(limits.active_voxels), "--seconds", std::to_string(limits.seconds)},
-      {.output = child_end.get()});
+      {.output = stream->childs.get()});
   if (error != 0) return cannot_start(path, error);
-  child_end.close();
+  stream->childs.close();
 
   // Its bytes.
   const Progress progress("read " + path.filename().string());
-  const auto bytes = read_all(results.get(), path, limits);
+  const auto bytes = read_all(stream->ours.get(), path, limits);
   if (!bytes) return bytes.failure();
-  const int status = child.wait();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failure_of(path, status, child.messages());
+  const platform::ChildEnd end = child.wait();
+  if (!end.is_success()) return failure_of(path, end, child.messages());
   pass_warnings(path, child.messages());
   auto file = decode_brv(*bytes, limits);
   if (file) return file;
@@ -153,17 +147,13 @@ Result<void> write_in_child(const fs::path& path, const GridFile& file) {
   auto target = AtomicFile::open(path);
   if (!target) return target.failure();
 
-  // A socket pair instead of a pipe: MSG_NOSIGNAL avoids SIGPIPE when the child ends early.
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    return system_failure(path, "write", errno);
-  Descriptor ours(ends[0]);
-  Descriptor child_end(ends[1]);
-  ChildProcess child;
+  auto stream = platform::make_child_input();
+  if (!stream) return system_failure(path, "write", errno);
+  platform::ChildProcess child;
   const int error = child.start({program(), "write", lower_suffix(path).substr(1)},
-                                {.input = child_end.get(), .output = target->descriptor()});
+                                {.input = stream->childs.get(), .output = target->descriptor()});
   if (error != 0) return cannot_start(path, error);
-  child_end.close();
+  stream->childs.close();
 
   // It writes to our open file, which has no name until it is complete.
   const Progress progress("write " + path.filename().string());
@@ -171,8 +161,7 @@ Result<void> write_in_child(const fs::path& path, const GridFile& file) {
   BrvWriter writer(
       [&](std::span<const std::byte> bytes) {
         while (!bytes.empty() && !closed) {
-          const ssize_t put = ::send(ours.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-          if (put < 0 && errno == EINTR) continue;
+          const std::ptrdiff_t put = platform::send_some(stream->ours.get(), bytes);
           closed = put < 0;  // Why, its exit code tells.
           if (!closed) bytes = bytes.subspan(static_cast<std::size_t>(put));
         }
@@ -184,9 +173,9 @@ Result<void> write_in_child(const fs::path& path, const GridFile& file) {
     if (!added) return Failure{added.failure().code, path.string() + ": " + added.failure().message};
   }
   if (auto finished = writer.finish(file.metadata); !finished) return finished;
-  ours.close();
-  const int status = child.wait();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failure_of(path, status, child.messages());
+  stream->ours.close();
+  const platform::ChildEnd end = child.wait();
+  if (!end.is_success()) return failure_of(path, end, child.messages());
   pass_warnings(path, child.messages());
   return target->commit();
 }

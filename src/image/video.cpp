@@ -1,18 +1,14 @@
 #include "image/video.hpp"
 
-#include <signal.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/child_process.hpp"
 #include "core/file.hpp"
+#include "core/platform/child_process.hpp"
 #include "image/formats.hpp"
 
 namespace brume::image {
@@ -41,8 +37,8 @@ struct VideoWriter::Encoder {
   std::filesystem::path path;
   VideoOptions options;
   AtomicFile file;
-  Descriptor frames;  // Our end of ffmpeg's standard input.
-  ChildProcess process;
+  platform::Descriptor frames;  // Our end of ffmpeg's standard input.
+  platform::ChildProcess process;
   std::vector<std::uint8_t> rgb;
 
   Encoder(std::filesystem::path target, const VideoOptions& film, AtomicFile&& output)
@@ -50,23 +46,20 @@ struct VideoWriter::Encoder {
 
   Result<void> start();
   /// The failure, once ffmpeg has exited.
-  Failure stopped(int status) const;
+  Failure stopped(const platform::ChildEnd& end) const;
 };
 
 Result<void> VideoWriter::Encoder::start() {
-  // A socket pair instead of a pipe: MSG_NOSIGNAL avoids SIGPIPE.
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+  auto stream = platform::make_child_input();
+  if (!stream) {
     return Failure{ErrorCode::resource_limit,
                    path.string() + ": cannot start ffmpeg: " + std::strerror(errno)};
   }
-  frames = Descriptor(ends[0]);
-  const Descriptor child_end(ends[1]);
+  frames = std::move(stream->ours);
 
   // Start it. It writes to our open file, which has no name that a killed program could leave behind.
-  const int error =
-      process.start(ffmpeg_arguments(options, "file:/proc/self/fd/" + std::to_string(file.descriptor())),
-                    {.input = child_end.get(), .inherited = file.descriptor()});
+  const int error = process.start(ffmpeg_arguments(options, "file:" + file.path_for_child()),
+                                  {.input = stream->childs.get(), .inherited = file.descriptor()});
   if (error == 0) return {};
   if (error == ENOENT) {
     return Failure{ErrorCode::no_device,
@@ -77,15 +70,16 @@ Result<void> VideoWriter::Encoder::start() {
   return Failure{ErrorCode::internal, path.string() + ": cannot start ffmpeg: " + std::strerror(error)};
 }
 
-Failure VideoWriter::Encoder::stopped(int status) const {
+Failure VideoWriter::Encoder::stopped(const platform::ChildEnd& end) const {
   const std::string text = process.messages();
-  std::string reason = last_line(text);
-  bool full = WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ;
-  for (const int error : {ENOSPC, EDQUOT, EFBIG})
+  std::string reason = platform::last_line(text);
+  using Cause = platform::ChildEnd::Cause;
+  bool full = end.cause == Cause::file_size;
+  for (const int error : platform::full_errors())
     full = full || text.find(std::strerror(error)) != std::string::npos;
-  if (reason.empty() && WIFSIGNALED(status))
-    reason = "signal " + std::to_string(WTERMSIG(status)) + " ended it";
-  if (reason.empty()) reason = "it ended with exit code " + std::to_string(WEXITSTATUS(status));
+  if (reason.empty() && end.cause != Cause::exited)
+    reason = "signal " + std::to_string(end.code) + " ended it";
+  if (reason.empty()) reason = "it ended with exit code " + std::to_string(end.code);
   return {full ? ErrorCode::resource_limit : ErrorCode::internal,
           path.string() + ": ffmpeg could not write the film: " + reason +
               (full ? "; free some space or choose another folder" : "")};
@@ -122,8 +116,8 @@ Result<void> VideoWriter::add_frame(const Image8& frame) {
     std::memcpy(&rgb[to], &frame.rgba[from], 3);
   }
   for (std::size_t done = 0; done < rgb.size();) {
-    const ssize_t put = ::send(encoder_->frames.get(), &rgb[done], rgb.size() - done, MSG_NOSIGNAL);
-    if (put < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t put =
+        platform::send_some(encoder_->frames.get(), std::as_bytes(std::span(rgb)).subspan(done));
     if (put < 0) return encoder_->stopped(encoder_->process.wait());
     done += static_cast<std::size_t>(put);
   }
@@ -133,10 +127,9 @@ Result<void> VideoWriter::add_frame(const Image8& frame) {
 Result<void> VideoWriter::finish() {
   BRUME_ASSERT(encoder_ && encoder_->process.running(), "after finish or a failure");
   encoder_->frames.close();  // End of input: ffmpeg completes the file and exits.
-  const int status = encoder_->process.wait();
+  const platform::ChildEnd end = encoder_->process.wait();
   // An error message counts even when the exit code is 0.
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->process.messages().empty();
-  if (!well) return encoder_->stopped(status);
+  if (!end.is_success() || !encoder_->process.messages().empty()) return encoder_->stopped(end);
   return encoder_->file.commit();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/utf8.hpp"
 #include "palettes/choice.hpp"
 #include "palettes/sample.hpp"
 #include "scene/files/tank_reader.hpp"
@@ -77,7 +78,7 @@ std::vector<std::filesystem::path> files_of(const scene::TankScene& scene) {
   if (!scene.file.empty()) return {scene.file};
   const std::string_view palette = palettes::file_of_choice(scene.palette);
   if (palette.empty()) return {};
-  return {palette};
+  return {to_path(palette)};
 }
 
 std::vector<std::filesystem::path> files_of_tank_input(const std::filesystem::path& path) {

@@ -1,22 +1,24 @@
 #include "trace/embree.hpp"
 
-#include <dlfcn.h>
-
 #include <string>
+
+#include "core/platform/library.hpp"
 
 namespace brume::trace {
 
 Result<Embree> load_embree(const char* library) {
   // Never closed: other threads may trace until the process ends.
-  void* const loaded = ::dlopen(library, RTLD_NOW | RTLD_LOCAL);
+  void* const loaded = platform::load_library(library);
   if (!loaded)
     return Failure{ErrorCode::no_device, "Embree 3 (" + std::string(library) +
-                                             "), which traces rays, is not installed; install libembree3-3, "
-                                             "or place the library where the program finds it"};
+                                             "), which traces rays, is not installed; install " +
+                                             std::string(platform::kEmbree.install) +
+                                             ", or place the library where the program finds it"};
   Embree embree{};
   const char* missing = nullptr;
   const auto find = [&](auto& function, const char* name) {
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(loaded, name));
+    function =
+        reinterpret_cast<std::remove_reference_t<decltype(function)>>(platform::find_symbol(loaded, name));
     if (!function) missing = name;
   };
   find(embree.AttachGeometry, "rtcAttachGeometry");
@@ -43,13 +45,13 @@ Result<Embree> load_embree(const char* library) {
   find(embree.SetSceneFlags, "rtcSetSceneFlags");
   find(embree.SetSceneProgressMonitorFunction, "rtcSetSceneProgressMonitorFunction");
   if (missing)
-    return Failure{ErrorCode::no_device,
-                   std::string(library) + " has no " + missing + "; install Embree 3 (libembree3-3)"};
+    return Failure{ErrorCode::no_device, std::string(library) + " has no " + missing +
+                                             "; install Embree 3 (" + platform::kEmbree.install + ")"};
   return embree;
 }
 
 const Result<Embree>& find_embree() {
-  static const Result<Embree> found = load_embree("libembree3.so.3");
+  static const Result<Embree> found = load_embree(platform::kEmbree.file);
   return found;
 }
 

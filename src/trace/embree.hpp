@@ -39,7 +39,7 @@ struct Embree {
 /// function.
 Result<Embree> load_embree(const char* library);
 
-/// Loads libembree3.so.3 in the first call; any thread may make it.
+/// Loads Embree 3 in the first call; any thread may make it.
 const Result<Embree>& find_embree();
 
 /// After find_embree() was a success.

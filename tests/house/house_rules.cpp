@@ -102,6 +102,15 @@ std::vector<std::string> vulkan_calls(std::string_view text) {
   return matches(text, call);
 }
 
+std::vector<std::string> platform_code(std::string_view text) {
+  static const std::regex used(
+      R"re((#\s*(?:el)?if[^\n]*\b(?:_WIN32|_WIN64|WIN32|_MSC_VER|__MINGW\w+__|__CYGWIN__)re"
+      R"re(|__linux__|__unix__|__APPLE__|__EMSCRIPTEN__)\b)re"
+      R"re(|#\s*include\s*<(?:windows|unistd|dlfcn|poll|fcntl|signal|pthread|dirent|spawn|process|io)\.h)re"
+      R"re(|#\s*include\s*<(?:sys|linux|netinet|arpa)/|"[^"\n]*/proc/))re");
+  return matches(text, used);
+}
+
 std::vector<std::string> unsized_structs(std::string_view text) {
   static const std::regex declared(R"re(\bstruct\s+(\w+)\s*\{)re");
   static const std::regex sized(R"re(\bSHARED_(?:SIZE|LOCAL)\(\s*(\w+)\s*[,)])re");

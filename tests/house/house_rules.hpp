@@ -22,6 +22,9 @@ std::vector<std::string> upward_includes(std::string_view folder, std::string_vi
 /// The calls of Vulkan functions, `vkName(`, and includes of its headers.
 std::vector<std::string> vulkan_calls(std::string_view text);
 
+/// The conditions on a system, includes of its headers and paths in /proc, which belong to src/core/platform.
+std::vector<std::string> platform_code(std::string_view text);
+
 /// The structs of a shared header without SHARED_SIZE or SHARED_LOCAL.
 std::vector<std::string> unsized_structs(std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "core/file.hpp"
@@ -36,6 +37,17 @@ TEST(HouseRules, DetectACallOfVulkan) {
   EXPECT_EQ(vulkan_calls("f.vkCmdDraw (c);"), Strings{"vkCmdDraw ("});
   EXPECT_EQ(vulkan_calls("#include <vulkan/vulkan.h>"), Strings{"#include <vulkan/vulkan.h"});
   EXPECT_EQ(vulkan_calls("VkImage image; recorder.dispatch(1); // as vkCmdDraw does"), Strings{});
+}
+
+TEST(HouseRules, DetectPlatformCode) {
+  EXPECT_EQ(platform_code("#if defined(_WIN32) && x\n"), Strings{"#if defined(_WIN32"});
+  EXPECT_EQ(platform_code("# elif __linux__\n#ifdef __MINGW32__\n"),
+            (Strings{"# elif __linux__", "#ifdef __MINGW32__"}));
+  EXPECT_EQ(platform_code("#include <sys/stat.h>\n#  include <windows.h>\n"),
+            (Strings{"#include <sys/", "#  include <windows.h"}));
+  EXPECT_EQ(platform_code("open(\"/proc/self/exe\");"), Strings{"\"/proc/"});
+  EXPECT_TRUE(
+      platform_code("#include <csignal>\n#if defined(__GNUC__)\nint _WIN32_like; // /proc/x").empty());
 }
 
 TEST(HouseRules, DetectAStructWithoutASize) {
@@ -97,6 +109,34 @@ TEST(House, OnlyTheGpuFolderCallsVulkan) {
     for (const auto& call : vulkan_calls(text)) ADD_FAILURE() << path << " has " << call;
   };
   for (const char* folder : {"src", "bench", "apps", "python"}) for_each_source(kRoot / folder, check);
+}
+
+TEST(House, PlatformCodeIsInOneRoom) {
+  // Beside src/core/platform:
+  const std::set<std::filesystem::path> exceptions{
+      "include/brume/brume.h",  // what exports a function is spelled differently
+      "apps/vdb/main.cpp",      // limits its memory, time and files; OpenVDB has no build for Windows
+      "apps/vdb/vdb.cpp",       // OpenVDB writes to the descriptor that it inherits
+      "apps/mpi/main.cpp",      // the peak of its memory; not built for Windows
+      "python/calls.cpp",       // permissions, as errno of Python; not built for Windows
+  };
+  std::set<std::filesystem::path> used;
+  const auto check = [&](const std::filesystem::path& path, const std::string& text) {
+    const std::filesystem::path file = path.lexically_relative(kRoot);
+    if (file.parent_path() == "src/core/platform") return;
+    for (const auto& found : platform_code(text)) {
+      if (!exceptions.contains(file)) ADD_FAILURE() << file << " has " << found;
+      used.insert(file);
+    }
+  };
+  for (const char* folder : {"include", "src", "bench", "apps", "examples", "fuzz", "python", "shaders"})
+    for_each_source(kRoot / folder, check);
+  EXPECT_EQ(used, exceptions);
+  // No header has what windows.h defines.
+  for (const auto& header : std::filesystem::directory_iterator(kRoot / "src/core/platform"))
+    if (header.path().extension() == ".hpp") {
+      EXPECT_EQ(platform_code(*read_text_file(header.path())), Strings{}) << header.path();
+    }
 }
 
 TEST(House, SharedStructsHaveASize) {

@@ -8,6 +8,7 @@
 
 #include "core/checked.hpp"
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "grids/check.hpp"
 #include "grids/files/json.hpp"
 #include "grids/suffix.hpp"
@@ -43,7 +44,7 @@ bool set_member(ArrayDescription& to, const std::string& key, const Json& value)
     if (!value.is_string()) return false;
     (key == "raw" ? to.raw : to.name) = value.get<std::string>();
     // In the same folder: a description may come from elsewhere.
-    return key == "name" || (!to.raw.empty() && fs::path(to.raw).filename() == fs::path(to.raw));
+    return key == "name" || (!to.raw.empty() && to_path(to.raw).filename() == to_path(to.raw));
   }
   if (key == "class") {
     const auto found = std::find(kClasses.begin(), kClasses.end(), value);
@@ -178,7 +179,7 @@ bool is_raw_description(const fs::path& path) {
 Result<fs::path> read_raw_path(const fs::path& json) {
   const auto description = read_description(json);
   if (!description) return description.failure();
-  return json.parent_path() / description->raw;
+  return json.parent_path() / to_path(description->raw);
 }
 
 Result<GridFile> load_raw(const fs::path& json, const GridLimits& limits) {
@@ -190,7 +191,7 @@ Result<GridFile> load_raw(const fs::path& json, const GridLimits& limits) {
   if (!length || *length > limits.bytes)
     return Failure{ErrorCode::resource_limit, json.string() + ": its array is larger than the limit of " +
                                                   std::to_string(limits.bytes >> 20) + " MiB"};
-  const fs::path raw = json.parent_path() / d->raw;
+  const fs::path raw = json.parent_path() / to_path(d->raw);
   const auto array = read_file(raw, limits.bytes);
   if (!array) return array.failure();
   if (array->size() != *length)

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "grids/check.hpp"
 #include "grids/files/json.hpp"
 #include "grids/suffix.hpp"
@@ -199,7 +200,7 @@ bool set_images(AtlasDescription& to, const Json& list) {
     if (!name.is_string()) return false;
     to.images.push_back(name.get<std::string>());
     // In the same folder: a description may come from elsewhere.
-    const fs::path path = to.images.back();
+    const fs::path path = to_path(to.images.back());
     if (path.empty() || path.filename() != path) return false;
   }
   return true;
@@ -416,7 +417,7 @@ std::optional<std::string> fault_of(const SliceAtlas& atlas) {
 fs::path atlas_image_path(const fs::path& json, AtlasDepth depth, std::uint32_t level) {
   fs::path path = json;
   path.replace_extension();
-  if (level > 0) path += "_mip" + std::to_string(level);
+  if (level > 0) path += to_path("_mip" + std::to_string(level));
   path += is_png(depth) ? ".png" : ".exr";
   return path;
 }
@@ -456,7 +457,7 @@ Result<std::vector<fs::path>> read_atlas_images(const fs::path& json) {
   const auto description = read_atlas_description(json);
   if (!description) return description.failure();
   std::vector<fs::path> images;
-  for (const std::string& name : description->images) images.push_back(json.parent_path() / name);
+  for (const std::string& name : description->images) images.push_back(json.parent_path() / to_path(name));
   return images;
 }
 
@@ -468,7 +469,7 @@ Result<SliceAtlas> load_slice_atlas(const fs::path& json, const GridLimits& limi
   const std::uint64_t voxels = std::uint64_t{size.x} * size.y * size.z;
   if (auto fits = check_memory(voxels * atlas.channels.size() * sizeof(float), limits); !fits)
     return Failure{fits.failure().code, json.string() + ": " + fits.failure().message};
-  const fs::path image = json.parent_path() / description->images.front();
+  const fs::path image = json.parent_path() / to_path(description->images.front());
   const auto bytes = read_file(image, limits.bytes);
   if (!bytes) return bytes.failure();
   const auto read =

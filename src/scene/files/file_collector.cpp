@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/scene_files.hpp"
 #include "scene/files/toml_text.hpp"
 
@@ -11,7 +12,7 @@ namespace brume::scene {
 namespace fs = std::filesystem;
 
 FileCollector::FileCollector(const fs::path& scene)
-    : folder_(scene.parent_path()), own_(scene.parent_path() / (scene.stem().string() + "_files")) {}
+    : folder_(scene.parent_path()), own_(scene.parent_path() / to_path(scene.stem().string() + "_files")) {}
 
 Result<void> FileCollector::collect(fs::path& file) {
   if (file.empty() || is_safe_relative(path_from(file, folder_).generic_string())) return {};
@@ -44,7 +45,7 @@ Result<void> FileCollector::copy_files() const {
 fs::path FileCollector::place_for(const fs::path& file, const std::vector<std::byte>& bytes) const {
   fs::path place = own_ / file.filename();
   for (int number = 2; !is_free_for(place, bytes); ++number)
-    place = own_ / (file.stem().string() + "-" + std::to_string(number) + file.extension().string());
+    place = own_ / to_path(file.stem().string() + "-" + std::to_string(number) + file.extension().string());
   return place;
 }
 

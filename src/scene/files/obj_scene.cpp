@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/mesh_tools.hpp"
 #include "scene/files/obj.hpp"
 #include "scene/files/scene_builder.hpp"
@@ -133,7 +134,7 @@ std::string folder_of(const std::string& file) {
 /// of other machines lead nowhere, its last part there and beside the scene.
 std::vector<std::string> places_of(const std::string& name, const std::string& folder) {
   const auto normal = [](const std::string& path) {
-    return std::filesystem::path(path).lexically_normal().generic_string();
+    return to_path(path).lexically_normal().generic_string();
   };
   const std::string last = name.substr(folder_of(name).size());
   return {name, normal(folder + name), normal(name), folder + last, last};

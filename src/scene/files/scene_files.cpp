@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::scene {
 namespace {
@@ -24,7 +25,7 @@ std::string forward_slashes(std::string name) {
 /// The entry of the folder whose name equals `wanted` except for letter case.
 std::optional<std::string> matching_entry(const std::filesystem::path& folder, const std::string& wanted) {
   std::error_code error;
-  if (std::filesystem::exists(folder / wanted, error)) return wanted;
+  if (std::filesystem::exists(folder / to_path(wanted), error)) return wanted;
   std::optional<std::string> best;
   std::filesystem::directory_iterator entries(folder, error);
   for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
@@ -53,7 +54,7 @@ std::string why_not_found(const std::string& name) {
   const bool has_drive = name.size() > 1 && name[1] == ':';
   if (has_drive || name.starts_with('/') || name.starts_with('\\'))
     return "is an absolute path, and no file of its name is beside the scene or what names it";
-  const bool may_be = is_safe_relative(std::filesystem::path(name).lexically_normal().generic_string());
+  const bool may_be = is_safe_relative(to_path(name).lexically_normal().generic_string());
   return may_be ? "does not exist" : "lies outside of the scene's folder, from which alone files are read";
 }
 
@@ -69,15 +70,15 @@ std::optional<std::string> FolderFiles::find(const std::string& name) const {
     if (part.empty() || part == ".") continue;
     const auto entry = matching_entry(folder_ / found, part);
     if (!entry) return std::nullopt;
-    found /= *entry;
+    found /= to_path(*entry);
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(folder_ / found, error)) return std::nullopt;
-  return found.string();
+  return found.generic_string();
 }
 
 Result<std::vector<std::byte>> FolderFiles::read(const std::string& found) const {
-  const std::filesystem::path path = folder_ / found;
+  const std::filesystem::path path = folder_ / to_path(found);
   if (std::find(read_.begin(), read_.end(), path) == read_.end()) read_.push_back(path);
   return read_file(path);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "palettes/choice.hpp"
 #include "palettes/sample.hpp"
 #include "scene/files/load.hpp"
@@ -129,7 +130,7 @@ class TankReader {
         table.fail("palette", in_quotes("palette") + kExpectedFile);
         return;
       }
-      scene_.palette = (path_.parent_path() / scene_.palette).string();
+      scene_.palette = (path_.parent_path() / to_path(scene_.palette)).string();
     }
     if (const auto choice = palettes::parse_palette_choice(scene_.palette); !choice)
       table.fail("palette", "\"palette\": " + choice.failure().message);
@@ -212,7 +213,7 @@ std::vector<std::filesystem::path> files_named_by_tank_scene(const std::filesyst
   if (!document) return {};
   std::vector<std::filesystem::path> files;
   const auto add = [&](std::string_view name) {
-    if (!name.empty()) files.push_back(path.parent_path() / name);
+    if (!name.empty()) files.push_back(path.parent_path() / to_path(name));
   };
   const auto tank = (*document)["tank"];
   add(tank["file"].value_or(std::string_view()));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "palettes/choice.hpp"
 #include "scene/files/file_collector.hpp"
 #include "scene/files/tank_reader.hpp"
@@ -16,7 +17,7 @@ namespace {
 std::pair<std::filesystem::path, std::string> palette_file(const std::string& palette) {
   const std::string_view file = palettes::file_of_choice(palette);
   if (file.empty()) return {};
-  return {file, palette.substr(file.size())};
+  return {to_path(file), palette.substr(file.size())};
 }
 
 class TankWriter : private TomlText {

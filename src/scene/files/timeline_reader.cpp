@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "core/similar.hpp"
+#include "core/utf8.hpp"
 #include "scene/event_fields.hpp"
 #include "scene/files/scene_files.hpp"
 #include "scene/files/timeline_parts.hpp"
@@ -95,7 +96,7 @@ class TimelineReader {
     if (auto done = root.finish(); !done) return done.failure();
 
     // The tables, up to the first fault.
-    timeline_.scene = path_.parent_path() / scene;
+    timeline_.scene = path_.parent_path() / to_path(scene);
     Result<void> outcome;
     if (grid != nullptr && outcome) outcome = read_grid(*grid);
     if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);

@@ -1,6 +1,7 @@
 // What timelines and scenes of tanks both have: choices, files, camera, sky.
 #include <algorithm>
 
+#include "core/utf8.hpp"
 #include "scene/files/scene_files.hpp"
 #include "scene/files/timeline_parts.hpp"
 #include "scene/text_reader.hpp"
@@ -29,7 +30,7 @@ void read_file_name(TomlTable& table, const std::filesystem::path& path, const c
   table.read(key, name);
   if (name.empty()) return;
   if (!is_safe_relative(name)) table.fail(key, in_quotes(key) + kExpectedFile);
-  file = path.parent_path() / name;
+  file = path.parent_path() / to_path(name);
 }
 
 Result<void> read_sky(const toml::table& source, const std::filesystem::path& path, SkyOptions& sky) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/similar.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/timeline_parts.hpp"
 #include "scene/tank_scene.hpp"
 #include "scene/text_reader.hpp"
@@ -31,7 +32,7 @@ void read_part_file(TomlTable& table, const std::filesystem::path& path, const s
   table.read("file", name);
   if (name.empty() || name.find('\0') != std::string::npos)
     table.fail("file", "\"file\": expected the name of " + what);
-  file = path.parent_path() / name;
+  file = path.parent_path() / to_path(name);
 }
 
 Result<void> read_masks(TomlTable& volume_table, const std::filesystem::path& path, VolumeOptions& volume) {

@@ -1,9 +1,9 @@
-#include "core/child_process.hpp"
-
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,8 +12,9 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "core/platform/child_process.hpp"
 
-namespace brume {
+namespace brume::platform {
 namespace {
 
 // In the child: puts `from`, or /dev/null, in the place of a standard descriptor.
@@ -24,14 +25,29 @@ bool redirect(int from, int to, int mode) {
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  close();
-  value_ = std::exchange(other.value_, -1);
-  return *this;
+std::optional<ChildStream> make_child_input() {
+  // A socket pair instead of a pipe: MSG_NOSIGNAL avoids SIGPIPE when the child ends early.
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return std::nullopt;
+  return ChildStream{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-void Descriptor::close() {
-  if (value_ >= 0) ::close(std::exchange(value_, -1));
+std::optional<ChildStream> make_child_output() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
+  return ChildStream{Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+std::ptrdiff_t send_some(int descriptor, std::span<const std::byte> bytes) {
+  ssize_t put = 0;
+  do put = ::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  while (put < 0 && errno == EINTR);
+  return put;
+}
+
+bool wait_readable(int descriptor, int milliseconds) {
+  pollfd waiting{descriptor, POLLIN, 0};
+  return ::poll(&waiting, 1, milliseconds) > 0;
 }
 
 ChildProcess::~ChildProcess() {
@@ -81,16 +97,22 @@ int ChildProcess::start(const std::vector<std::string>& arguments, const Streams
 }
 
 void ChildProcess::kill() {
-  if (running()) ::kill(process_, SIGKILL);
+  if (running()) ::kill(static_cast<pid_t>(process_), SIGKILL);
 }
 
-int ChildProcess::wait() {
+ChildEnd ChildProcess::wait() {
   BRUME_ASSERT(running(), "");
   int status = 0;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(static_cast<pid_t>(process_), &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
-  return status;
+  if (!WIFSIGNALED(status)) return {ChildEnd::Cause::exited, WEXITSTATUS(status)};
+  const int signal = WTERMSIG(status);
+  return {signal == SIGKILL   ? ChildEnd::Cause::killed
+          : signal == SIGXCPU ? ChildEnd::Cause::processor_time
+          : signal == SIGXFSZ ? ChildEnd::Cause::file_size
+                              : ChildEnd::Cause::crashed,
+          signal};
 }
 
 std::string ChildProcess::messages() const {
@@ -102,11 +124,4 @@ std::string ChildProcess::messages() const {
   return text;
 }
 
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of("\r\n");
-  if (end == std::string::npos) return "";
-  const std::size_t begin = text.find_last_of("\r\n", end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin + 1) + 1);
-}
-
-}  // namespace brume
+}  // namespace brume::platform

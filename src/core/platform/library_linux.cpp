@@ -1,0 +1,18 @@
+#include <dlfcn.h>
+
+#include "core/platform/library.hpp"
+
+namespace brume::platform {
+
+const Library kVulkanLoader{"libvulkan.so.1", "libvulkan1"};
+const Library kEmbree{"libembree3.so.3", "libembree3-3"};
+
+void* load_library(const char* file) {
+  return ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+}
+
+void* find_symbol(void* library, const char* name) {
+  return ::dlsym(library, name);
+}
+
+}  // namespace brume::platform
