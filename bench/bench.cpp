@@ -10,7 +10,9 @@
 
 #include "core/data_files.hpp"
 #include "core/platform/machine.hpp"
+#include "core/platform/process.hpp"
 #include "core/tasks.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::bench {
 namespace {
@@ -135,12 +137,11 @@ std::string commit() {
   return BRUME_COMMIT;
 }
 
-Result<std::string> motel_scene() {
-  const char* folder = std::getenv("BRUME_MOTEL");
-  const std::filesystem::path path =
-      std::filesystem::path(folder ? folder : "../shared/data/motel") / "Scene.txt";
+Result<std::filesystem::path> motel_scene() {
+  const std::string folder = platform::environment("BRUME_MOTEL");
+  const std::filesystem::path path = to_path(folder.empty() ? "../shared/data/motel" : folder) / "Scene.txt";
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) return path.string();
+  if (std::filesystem::is_regular_file(path, ignored)) return path;
   return Failure{ErrorCode::bad_input,
                  path.string() + ": not found; set BRUME_MOTEL to the folder of the motel"};
 }

@@ -108,6 +108,6 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
 
 /// Path of the motel's Scene.txt, in $BRUME_MOTEL or else in ../shared/data/motel; bad_input if it is
 /// missing.
-Result<std::string> motel_scene();
+Result<std::filesystem::path> motel_scene();
 
 }  // namespace brume::bench

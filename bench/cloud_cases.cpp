@@ -4,6 +4,7 @@
 
 #include "bench/frames.hpp"
 #include "core/platform/process.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 
@@ -31,8 +32,9 @@ struct CloudScene {
 
 /// A volume in an empty world under one sun, from a file that is removed again.
 Result<scenario::Scenario> volume_scenario(const grids::CloudSettings& settings, const CloudScene& drawn) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() /
-                                     ("brume_bench_" + std::to_string(platform::process_id()) + ".brv");
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() /
+      to_path("brume_bench_" + std::to_string(platform::process_id()) + ".brv");
   grids::GridFile grids;
   grids.grids.push_back(grids::generate_cloud(settings));
   if (drawn.away > 0) add_far_voxel(grids.grids[0], drawn.away);

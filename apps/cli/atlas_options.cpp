@@ -7,6 +7,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/command_line/parse.hpp"
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/load.hpp"
 
 namespace brume::cli {
@@ -30,7 +31,7 @@ std::vector<std::string> preset_names() {
 }
 
 AtlasDepth depth_of(const AtlasOptions& options) {
-  const std::string suffix = scene::lower_extension(options.output);
+  const std::string suffix = scene::lower_extension(to_path(options.output));
   if (suffix == ".png") {
     const std::uint32_t bits = options.bits.value_or(8);
     if (bits == 32) throw Error(ErrorCode::usage, "--bits 32: a PNG stores 8 or 16; name an .exr file");
@@ -151,7 +152,7 @@ AtlasTarget atlas_target(const AtlasOptions& options, glm::uvec3 size, const gri
                          Outputs& outputs) {
   check_atlas_options(options);
   AtlasTarget target;
-  target.json = std::filesystem::path(options.output).replace_extension(".json");
+  target.json = to_path(options.output).replace_extension(".json");
   target.depth = depth_of(options);
   if (const auto range = parse_atlas_range(options.range)) target.ranges = {*range};
   target.layout = {size, axes_of(options, axes), 1, options.padding};
@@ -160,7 +161,7 @@ AtlasTarget atlas_target(const AtlasOptions& options, glm::uvec3 size, const gri
     throw Error(ErrorCode::resource_limit, options.output + ": " + *fault);
   if (options.mips) target.levels = grids::level_count(target.layout);
 
-  const bool is_png = scene::lower_extension(options.output) == ".png";
+  const bool is_png = scene::lower_extension(to_path(options.output)) == ".png";
   for (std::uint32_t level = 0; level < target.levels; ++level)
     outputs.writes(level == 0 ? "-o" : "--mips", grids::atlas_image_path(target.json, target.depth, level),
                    is_png ? FileKind::png : FileKind::exr);

@@ -10,6 +10,7 @@
 #include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "grids/generate.hpp"
 #include "passes/generate_cloud.hpp"
@@ -29,7 +30,7 @@ struct BakeOptions {
 const std::vector<std::string> kShapes{"pyroclastic", "sphere", "slab", "torus"};
 
 FileKind kind_of(const std::string& file) {
-  const std::string suffix = scene::lower_extension(file);
+  const std::string suffix = scene::lower_extension(to_path(file));
   return suffix == ".png"    ? FileKind::png
          : suffix == ".vdb"  ? FileKind::vdb
          : suffix == ".nvdb" ? FileKind::nvdb
@@ -105,8 +106,8 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
   if (is_atlas)
     atlas = slice_target(options.output, settings.edge, outputs);
   else
-    outputs.writes("-o", options.output, kind_of(options.output));
-  outputs.writes("--json", options.json, FileKind::json);
+    outputs.writes("-o", to_path(options.output), kind_of(options.output));
+  outputs.writes("--json", to_path(options.json), FileKind::json);
 
   // Generate and write it.
   grids::Grid grid = generate(options, settings);
@@ -118,7 +119,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
   } else {
     grids::GridFile file;
     file.grids.push_back(std::move(grid));
-    grids::save_grid_file(options.output, file).value_or_throw();
+    grids::save_grid_file(to_path(options.output), file).value_or_throw();
   }
 
   // Report.

@@ -10,6 +10,7 @@
 #include "apps/command_line/targets.hpp"
 #include "bake/occlusion.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/load.hpp"
 
 namespace brume::cli {
@@ -60,10 +61,10 @@ struct Targets {
 Targets make_targets(const OcclusionBake& bake, glm::uvec3 size, Outputs& outputs) {
   const auto target = [&](const std::string& suffix) {
     AtlasOptions options = bake.atlas;
-    std::filesystem::path path = options.output;
+    std::filesystem::path path = to_path(options.output);
     if (!suffix.empty())
       options.output =
-          path.replace_filename(path.stem().string() + suffix + path.extension().string()).string();
+          path.replace_filename(to_path(path.stem().string() + suffix + path.extension().string())).string();
     return atlas_target(options, size, kPlanes, outputs);
   };
   if (!bake.separate) return {target(""), std::nullopt, std::nullopt};
@@ -85,13 +86,14 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
   // Check the options and declare all outputs before any work.
   if (!bake.box.empty()) arguments.refuse("--margin", "--box sets the box; give one of the two");
   expect_suffix("", bake.input, {".glb", ".gltf", ".obj", ".txt"});
-  outputs.reads(std::filesystem::path(bake.input));
+  outputs.reads(to_path(bake.input));
   const auto given_box = parse_box(bake.box);
   const Targets targets = make_targets(bake, *parse_voxels(bake.size), outputs);
-  outputs.writes("--json", bake.json, FileKind::json);
+  outputs.writes("--json", to_path(bake.json), FileKind::json);
 
   // Read the meshes.
-  const scene::Scene scene = scene::load_scene(bake.input, false, scene::ImageUse::none).value_or_throw();
+  const scene::Scene scene =
+      scene::load_scene(to_path(bake.input), false, scene::ImageUse::none).value_or_throw();
   outputs.reads(scene.files);
   stop_if_interrupted();
   const std::vector<voxel::Triangle> triangles = chosen_triangles(scene, bake);
@@ -185,7 +187,7 @@ Command add_bake_occlusion(CommandLine& program) {
               {bake->input,
                "-o",
                bake->atlas.output,
-               target_file_kind(bake->atlas.output),
+               target_file_kind(to_path(bake->atlas.output)),
                {},
                {kAtlasDescription}},
               [&](const Unit& unit, Outputs& outputs) {

@@ -15,6 +15,7 @@
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
 #include "core/similar.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "scene/files/load.hpp"
 
@@ -117,7 +118,8 @@ Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
   const grids::AtlasAxes axes = axes_of(options.atlas, grids::kUprightAxes);
   const AtlasTarget target =
       atlas_target(options.atlas, size.value_or(default_size(axes)), grids::kUprightAxes, outputs);
-  const scene::Scene scene = scene::load_scene(options.input, false, scene::ImageUse::none).value_or_throw();
+  const scene::Scene scene =
+      scene::load_scene(to_path(options.input), false, scene::ImageUse::none).value_or_throw();
   outputs.reads(scene.files);
   stop_if_interrupted();
 
@@ -246,7 +248,7 @@ SequenceBake measure_sequence(const SliceOptions& options) {
   const auto choices = parse_channels(options.channels);
   SequenceBake all;
   bool is_first = true;
-  for (const auto& [number, file] : numbered_files(options.input)) {
+  for (const auto& [number, file] : numbered_files(to_path(options.input))) {
     stop_if_interrupted();
     const auto grids = readable_frame(file);
     if (!grids) continue;
@@ -284,7 +286,7 @@ Baked bake_volume(const SliceOptions& options, const SequenceBake* sequence, Out
   parse_box(options.box);
   const auto choices = parse_channels(options.channels);
   check_atlas_options(options.atlas);
-  const grids::GridFile file = load_volumes(options.input, outputs);
+  const grids::GridFile file = load_volumes(to_path(options.input), outputs);
   stop_if_interrupted();
   const std::vector<const grids::Grid*> channels = volume_channels(file, options.input, choices);
   const grids::GridBox box = volume_box(options, channels, sequence ? sequence->box : std::nullopt);
@@ -305,12 +307,12 @@ Baked bake_volume(const SliceOptions& options, const SequenceBake* sequence, Out
 /// `sequence`: null for a single file.
 void bake_slices(const SliceOptions& options, const SequenceBake* sequence, Outputs& outputs) {
   const Stopwatch watch;
-  const bool is_volume = grids::is_grid_file(options.input);
+  const bool is_volume = grids::is_grid_file(to_path(options.input));
   if (!is_volume)
     expect_suffix("", options.input,
                   {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
-  outputs.reads(std::filesystem::path(options.input));
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.reads(to_path(options.input));
+  outputs.writes("--json", to_path(options.json), FileKind::json);
   const Baked baked = is_volume ? bake_volume(options, sequence, outputs) : bake_mesh(options, outputs);
 
   const double seconds = watch.seconds();
@@ -367,7 +369,7 @@ Command add_bake_slices(CommandLine& program) {
   command.run = [options, arguments, common = command.common] {
     expect_suffix("-o", options->atlas.output, {".png", ".exr"});
     std::optional<SequenceBake> sequence;
-    if (is_numbered("-o", options->atlas.output) && grids::is_grid_file(options->input)) {
+    if (is_numbered("-o", to_path(options->atlas.output)) && grids::is_grid_file(to_path(options->input))) {
       check_atlas_options(options->atlas);
       sequence = measure_sequence(*options);
     }
@@ -375,7 +377,7 @@ Command add_bake_slices(CommandLine& program) {
               {.input = options->input,
                .output_option = "-o",
                .output = options->atlas.output,
-               .kind = target_file_kind(options->atlas.output),
+               .kind = target_file_kind(to_path(options->atlas.output)),
                .device = {},
                .beside = {kAtlasDescription},
                .holds_missing = true,

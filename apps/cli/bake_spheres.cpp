@@ -18,6 +18,7 @@
 #include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "palettes/choice.hpp"
 #include "scenario/tank.hpp"
 #include "scene/tank_options.hpp"
@@ -100,10 +101,10 @@ void warn_of_fewer(const SpheresBake& bake, std::size_t packed, bool timed_out) 
 void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs) {
   // Files and options.
   const Stopwatch watch;
-  outputs.reads(std::filesystem::path(palettes::file_of_choice(bake.palette)));
+  outputs.reads(to_path(palettes::file_of_choice(bake.palette)));
   expect_suffix("-o", bake.output, {".spheres"});
-  outputs.writes("-o", bake.output, FileKind::spheres);
-  outputs.writes("--json", bake.json, FileKind::json);
+  outputs.writes("-o", to_path(bake.output), FileKind::spheres);
+  outputs.writes("--json", to_path(bake.json), FileKind::json);
   spheres::PackOptions& options = bake.options;
   options.arrangement =
       scene::choice_of(bake.arrangement, scene::kArrangements, scene::arrangement_name).value_or_throw();
@@ -127,7 +128,7 @@ void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs
   const bool timed_out = packed->spheres.size() < options.count && is_over();
   warn_of_fewer(bake, packed->spheres.size(), timed_out);
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
-  spheres::save_tank(bake.output, *packed).value_or_throw();
+  spheres::save_tank(to_path(bake.output), *packed).value_or_throw();
 
   // The result.
   const TankFacts facts = facts_of(*packed);

@@ -9,6 +9,7 @@
 #include "bench/names.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -54,7 +55,7 @@ std::string names() {
 }
 
 void measure(const BenchOptions& options, Outputs& outputs) {
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
   std::optional<Progress> job;
   const auto starting = [&](const std::string& name) {
     stop_if_interrupted();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/load.hpp"
 
 namespace brume::cli {
@@ -41,7 +42,7 @@ void declare_device(const Arguments& arguments, std::string& device) {
 
 void expect_suffix(const std::string& argument, const std::string& file,
                    std::initializer_list<const char*> suffixes) {
-  const std::string found = scene::lower_extension(file);
+  const std::string found = scene::lower_extension(to_path(file));
   if (std::find(suffixes.begin(), suffixes.end(), found) != suffixes.end()) return;
   std::string list;
   for (const char* const* suffix = suffixes.begin(); suffix != suffixes.end(); ++suffix)

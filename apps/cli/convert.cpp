@@ -11,6 +11,7 @@
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "grids/files/raw_file.hpp"
 #include "scene/files/load.hpp"
@@ -69,14 +70,14 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
   // Check the files and declare all outputs before any work.
   expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr", ".spheres"});
   expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
-  const fs::path output = options.output;
-  outputs.reads(fs::path(options.input));
+  const fs::path output = to_path(options.output);
+  outputs.reads(to_path(options.input));
   outputs.writes("", output, kind_of(output));
   if (grids::is_raw_description(output)) outputs.writes("", grids::raw_path_of(output), FileKind::raw);
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
 
   // Convert.
-  grids::GridFile file = load_volumes(options.input, outputs);
+  grids::GridFile file = load_volumes(to_path(options.input), outputs);
   stop_if_interrupted();
   select(file, options.input, options.grids);
   save(output, file);
@@ -105,9 +106,9 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
 void convert_one(ConvertOptions options, const Arguments& arguments, const Unit& unit, Outputs& outputs) {
   options.input = unit.input;
   options.output = unit.output;
-  const std::string suffix = scene::lower_extension(options.output);
+  const std::string suffix = scene::lower_extension(to_path(options.output));
   const bool is_volume = suffix == kVdb || suffix == kNvdb || suffix == kBrv || suffix == kJson;
-  if (is_volume || !spheres::is_tank_file(options.input)) return convert(options, outputs);
+  if (is_volume || !spheres::is_tank_file(to_path(options.input))) return convert(options, outputs);
   arguments.refuse("--grid", "is for volumes");
   convert_tank(options.input, options.output, options.json, outputs);
 }
@@ -164,7 +165,7 @@ Command add_convert(CommandLine& program) {
   declare_json(arguments, options->json);
   // A film, or units of volumes.
   command.run = [options, arguments, common = command.common] {
-    if (scene::lower_extension(options->output) == ".mp4") {
+    if (scene::lower_extension(to_path(options->output)) == ".mp4") {
       refuse_idle_for_film(arguments);
       return convert_film({options->input, options->output, options->units.frames, options->fps}, *common);
     }
@@ -173,8 +174,8 @@ Command add_convert(CommandLine& program) {
               {.input = options->input,
                .output_option = "OUTPUT",
                .output = options->output,
-               .kind = output_kind(options->output),
-               .beside = array_beside(options->output),
+               .kind = output_kind(to_path(options->output)),
+               .beside = array_beside(to_path(options->output)),
                .skips_missing = true},
               [&](const Unit& unit, Outputs& outputs) { convert_one(*options, arguments, unit, outputs); });
   };

@@ -8,6 +8,7 @@
 #include "apps/command_line/unit_key.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "image/decode.hpp"
 #include "image/png.hpp"
 #include "scene/files/load.hpp"
@@ -38,7 +39,7 @@ UnitKey key_of(const std::string& text) {
 // The frames, each of which must be like the first one.
 class Frames {
  public:
-  explicit Frames(const FilmConversion& conversion) : pattern_(conversion.input) {}
+  explicit Frames(const FilmConversion& conversion) : pattern_(to_path(conversion.input)) {}
 
   image::Image8 load(std::uint32_t frame) {
     const fs::path file = sequence_name(pattern_, frame);
@@ -77,18 +78,18 @@ class Frames {
 void convert_film(const FilmConversion& conversion, CommonOptions& common) {
   // What is converted.
   expect_suffix("", conversion.input, {".png"});
-  if (!is_numbered("INPUT", conversion.input))
+  if (!is_numbered("INPUT", to_path(conversion.input)))
     throw Error(ErrorCode::usage,
                 conversion.input + ": a film is made of numbered frames, such as f_%04d.png");
-  if (is_numbered("OUTPUT", conversion.output))
+  if (is_numbered("OUTPUT", to_path(conversion.output)))
     throw Error(ErrorCode::usage, conversion.output + ": a film is a single file; remove the number");
   if (conversion.frames.empty())
     throw Error(ErrorCode::usage, conversion.output + ": requires --frames, such as --frames 0-119");
   const FrameRange range = parse_frames("--frames", conversion.frames);
   const FrameRate rate = parse_rate("--fps", conversion.fps);
-  const fs::path output = plain_name(conversion.output);
+  const fs::path output = plain_name(to_path(conversion.output));
   for (std::uint32_t i = range.first; i <= range.last; ++i)
-    common.outputs.reads(sequence_name(conversion.input, i));
+    common.outputs.reads(sequence_name(to_path(conversion.input), i));
   common.outputs.writes("", output, FileKind::mp4);
 
   // The film. A frame is checked before it is encoded, all of them before the film appears.

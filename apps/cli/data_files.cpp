@@ -3,6 +3,7 @@
 #include "bench/bench.hpp"
 #include "core/data_files.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 
@@ -11,9 +12,9 @@ namespace fs = std::filesystem;
 fs::path scenes_folder(const std::string& folder) {
   if (folder.empty()) return data_file("scenes/demo.toml").parent_path();
   std::error_code ignored;
-  if (!fs::exists(fs::path(folder) / "demo.toml", ignored))
+  if (!fs::exists(to_path(folder) / "demo.toml", ignored))
     throw Error(ErrorCode::usage, "--scenes " + folder + ": has no demo.toml; name the folder with the demo");
-  return folder;
+  return to_path(folder);
 }
 
 std::string build_facts() {

@@ -6,6 +6,7 @@
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "film/playback.hpp"
 #include "gpu/context.hpp"
 #include "image/png.hpp"
@@ -28,7 +29,7 @@ struct DemoOptions {
 };
 
 void demo(const DemoOptions& options, CommonOptions& common) {
-  const std::filesystem::path folder = options.folder;
+  const std::filesystem::path folder = to_path(options.folder);
   const auto picture = folder / "demo.png", film = folder / "demo.mp4";
   const std::filesystem::path timeline = scenes_folder(options.scenes) / "demo.toml";
   if (options.folder == kDefaultFolder) {

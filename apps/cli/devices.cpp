@@ -2,6 +2,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
+#include "core/utf8.hpp"
 #include "gpu/device_list.hpp"
 
 namespace brume::cli {
@@ -44,7 +45,7 @@ Command add_devices(CommandLine& program) {
   auto json = std::make_shared<std::string>();
   declare_json(command.arguments, *json, "the list");
   command.run = [json, common = command.common] {
-    common->outputs.writes("--json", *json, FileKind::json);
+    common->outputs.writes("--json", to_path(*json), FileKind::json);
     list_devices(*json);
   };
   return command;

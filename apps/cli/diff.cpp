@@ -7,6 +7,7 @@
 #include "apps/command_line/json.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 #include "image/decode.hpp"
 #include "image/metrics.hpp"
 #include "image/png.hpp"
@@ -89,11 +90,11 @@ std::string to_text(const Comparison& c) {
 
 void diff(const DiffOptions& options, Outputs& outputs) {
   if (!options.map.empty()) expect_suffix("-o", options.map, {".png"});
-  outputs.reads({options.reference, options.test});
-  outputs.writes("-o", options.map, FileKind::png);
-  outputs.writes("--json", options.json, FileKind::json);
-  const image::Image8 reference = image::load_image(options.reference).value_or_throw();
-  const image::Image8 test = image::load_image(options.test).value_or_throw();
+  outputs.reads({to_path(options.reference), to_path(options.test)});
+  outputs.writes("-o", to_path(options.map), FileKind::png);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
+  const image::Image8 reference = image::load_image(to_path(options.reference)).value_or_throw();
+  const image::Image8 test = image::load_image(to_path(options.test)).value_or_throw();
   if (reference.width != test.width || reference.height != test.height) {
     throw Error(ErrorCode::comparison_failed, options.test + ": expected " + size_of(reference) +
                                                   " texels as in " + options.reference + ", found " +
@@ -102,7 +103,7 @@ void diff(const DiffOptions& options, Outputs& outputs) {
   const Comparison comparison = compare(reference, test);
   stop_if_interrupted();
   if (!options.map.empty())
-    image::save_png(options.map, image::heat_map(comparison.flip_map)).value_or_throw();
+    image::save_png(to_path(options.map), image::heat_map(comparison.flip_map)).value_or_throw();
   if (!options.json.empty()) write_json(options.json, to_json(options, reference, comparison));
   if (options.json != "-") print(to_text(comparison));
   if (const auto failure = failure_of(options, comparison))

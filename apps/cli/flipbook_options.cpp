@@ -6,6 +6,7 @@
 
 #include "apps/command_line/targets.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -56,7 +57,7 @@ bool is_exr(const FlipbookPlan& plan) {
 std::filesystem::path map_file(const FlipbookPlan& plan, const std::string& map) {
   std::filesystem::path file = plan.output;
   file.replace_extension();
-  file += map + plan.output.extension().string();
+  file += to_path(map + plan.output.extension().string());
   return file;
 }
 std::filesystem::path description_file(const FlipbookPlan& plan) {

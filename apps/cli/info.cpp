@@ -6,6 +6,7 @@
 #include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
@@ -85,7 +86,7 @@ struct Choices {
 };
 
 Summary summarize(const std::filesystem::path& path, const Choices& choices, Outputs& outputs) {
-  expect_suffix("", path,
+  expect_suffix("", path.string(),
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
                  ".png", ".exr", ".jpg", ".jpeg", ".webp", ".spheres"});
   const std::string extension = scene::lower_extension(path);
@@ -124,14 +125,14 @@ Command add_info(CommandLine& program) {
   declare_json(command.arguments, options->json, "the summary");
   command.run = [arguments = command.arguments, options, common = command.common] {
     // Refuse options of other kinds of files, and declare what is read.
-    if (scene::lower_extension(options->input) != ".toml")
+    if (scene::lower_extension(to_path(options->input)) != ".toml")
       arguments.refuse("--check", "is for timelines and scenes of tanks (.toml)");
-    if (!is_scene_file(options->input))
+    if (!is_scene_file(to_path(options->input)))
       arguments.refuse("--objects", "is for scenes (.glb, .gltf, .obj, .txt)");
-    declare_input(common->outputs, options->input);
-    common->outputs.writes("--json", options->json, FileKind::json);
+    declare_input(common->outputs, to_path(options->input));
+    common->outputs.writes("--json", to_path(options->json), FileKind::json);
     // The same facts as JSON and as text.
-    const Summary summary = summarize(options->input, options->choices, common->outputs);
+    const Summary summary = summarize(to_path(options->input), options->choices, common->outputs);
     if (!options->json.empty()) {
       Json info{{"file", options->input}};
       info.update(summary.json());

@@ -1,3 +1,4 @@
+#include "core/utf8.hpp"
 #include "palettes/palette.hpp"
 
 #include <charconv>
@@ -98,8 +99,8 @@ std::vector<palettes::Palette> files_of(std::vector<std::string>& words, Outputs
       rest.push_back(word);
       continue;
     }
-    outputs.reads(std::filesystem::path(word));
-    files.push_back(palettes::load_palette(word).value_or_throw());
+    outputs.reads(to_path(word));
+    files.push_back(palettes::load_palette(to_path(word)).value_or_throw());
   }
   words = rest;
   return files;
@@ -108,8 +109,8 @@ std::vector<palettes::Palette> files_of(std::vector<std::string>& words, Outputs
 void list_palettes(const PaletteOptions& options, Outputs& outputs) {
   // Outputs
   if (!options.sheet.empty()) expect_suffix("-o", options.sheet, {".png"});
-  outputs.writes("-o", options.sheet, FileKind::png);
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.writes("-o", to_path(options.sheet), FileKind::png);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
   palettes::Filter filter;
   if (!options.colors.empty()) read_counts(options.colors, filter);
   filter.hue = options.hue;
@@ -128,7 +129,7 @@ void list_palettes(const PaletteOptions& options, Outputs& outputs) {
 
   // Results
   if (!options.sheet.empty())
-    image::save_png(options.sheet, palette_sheet(all, found).value_or_throw()).value_or_throw();
+    image::save_png(to_path(options.sheet), palette_sheet(all, found).value_or_throw()).value_or_throw();
   if (!options.json.empty()) {
     Json list = Json::list({});
     for (const std::uint32_t i : found) list.push_back(to_json(all[i]));

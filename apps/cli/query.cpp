@@ -11,6 +11,7 @@
 #include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "smoke/sight.hpp"
 
 namespace brume::cli {
@@ -226,8 +227,8 @@ void query(const Arguments& arguments, const QueryOptions& options, Outputs& out
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
     throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two distinct ones");
-  outputs.reads(std::filesystem::path(options.timeline));
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.reads(to_path(options.timeline));
+  outputs.writes("--json", to_path(options.json), FileKind::json);
   const scenario::Scenario scenario =
       load_with_options(options.timeline, "", parse_scene_options(options.scene));
   outputs.reads(scenario::files_of(scenario));

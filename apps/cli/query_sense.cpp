@@ -13,6 +13,7 @@
 #include "apps/command_line/json.hpp"
 #include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "scenario/tank.hpp"
@@ -135,20 +136,20 @@ void declare_sense(const Arguments& arguments, SenseOptions& options) {
 }
 
 void sense_tank(const SenseOptions& options, Outputs& outputs) {
-  if (!scenario::is_tank_input(options.input))
+  if (!scenario::is_tank_input(to_path(options.input)))
     throw Error(ErrorCode::usage,
                 "--sense: " + options.input + " is no tank; expected a .spheres file or a scene of a tank");
   const spheres::Eye eye = parse_eye(options);
-  outputs.reads(scenario::files_of_tank_input(options.input));
+  outputs.reads(scenario::files_of_tank_input(to_path(options.input)));
   if (!options.output.empty()) {
     expect_suffix("-o", options.output, {".exr", ".png"});
-    outputs.writes("-o", options.output, picture_kind(options.output));
+    outputs.writes("-o", to_path(options.output), picture_kind(to_path(options.output)));
   }
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
 
   // The tank, and where its spheres are.
   const scenario::TankScenario scenario =
-      scenario::load_tank_scenario(options.input, is_interrupted).value_or_throw();
+      scenario::load_tank_scenario(to_path(options.input), is_interrupted).value_or_throw();
   stop_if_interrupted();
   check_place(eye, scenario.tank);
   const spheres::BrickLists bricks = spheres::list_bricks(scenario.tank);
@@ -159,7 +160,7 @@ void sense_tank(const SenseOptions& options, Outputs& outputs) {
   const std::vector<Sensed> seen = spheres::sense({scenario.tank, bricks, ids}, eye);
   const double seconds = std::max(watch.seconds(), 1e-9);
   stop_if_interrupted();
-  if (!options.output.empty()) save_picture(options.output, eye.size, seen);
+  if (!options.output.empty()) save_picture(to_path(options.output), eye.size, seen);
   if (!options.json.empty()) {
     Json report{{"tank", options.input},
                 {"from", point_json(eye.position_world)},

@@ -8,6 +8,7 @@
 #include "apps/command_line/unit_key.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 #include "reference/picture.hpp"
 #include "scenario/frame.hpp"
 #include "scene/text_reader.hpp"
@@ -151,8 +152,8 @@ reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInpu
 void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
                  std::uint64_t key, double spent) {
   const std::string& checkpoint = options.checkpoint;
-  if (!checkpoint.empty() && std::filesystem::exists(checkpoint))
-    render.load(checkpoint, key).value_or_throw();
+  if (!checkpoint.empty() && std::filesystem::exists(to_path(checkpoint)))
+    render.load(to_path(checkpoint), key).value_or_throw();
   PictureProgress progress(options, samples);
   const Stopwatch sampling;
   Stopwatch since_saved;
@@ -165,7 +166,7 @@ void add_samples(reference::Render& render, const ReferenceOptions& options, std
     progress.show(render, sampling.seconds());
     if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < interval)) continue;
     const Stopwatch saving;
-    render.save(checkpoint, key).value_or_throw();
+    render.save(to_path(checkpoint), key).value_or_throw();
     // A hundredth of the time.
     interval = std::clamp(100 * saving.seconds(), kLeastInterval, kMostInterval);
     since_saved = {};

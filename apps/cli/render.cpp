@@ -21,6 +21,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "film/playback.hpp"
 #include "gpu/context.hpp"
 #include "grids/files/grid_files.hpp"
@@ -295,7 +296,7 @@ Json no_frames(const RenderOptions& options, const Loaded& loaded) {
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const Stopwatch watch;
   Plan plan = make_plan(arguments, options, common.outputs);
-  if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
+  if (scenario::is_tank_input(to_path(options.input))) return render_tank(arguments, options, plan, common);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, Json::list({})};
   check_view(options, plan, loaded.scenario);
   set_shutter(options, plan, loaded.scenario);

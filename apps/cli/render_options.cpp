@@ -5,6 +5,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/tank_options.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 
 namespace brume::cli {
@@ -12,16 +13,17 @@ namespace {
 
 // The files that are known before any is read.
 void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
-  declare_input(outputs, options.input);
-  outputs.reads(options.timeline);
-  outputs.writes("--json", options.json, FileKind::json);
-  outputs.writes("--checkpoint", options.reference.checkpoint, FileKind::checkpoint);
-  const FileKind kind = target_file_kind(options.output);
+  declare_input(outputs, to_path(options.input));
+  outputs.reads(to_path(options.timeline));
+  outputs.writes("--json", to_path(options.json), FileKind::json);
+  outputs.writes("--checkpoint", to_path(options.reference.checkpoint), FileKind::checkpoint);
+  const FileKind kind = target_file_kind(to_path(options.output));
   if (plan.flipbook) return declare_flipbook_files(*plan.flipbook, outputs);
-  if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(options.output), kind);
+  if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(to_path(options.output)), kind);
   // Without --frames the timeline decides how many there are.
   if (plan.kind == TargetKind::sequence && plan.frames) declare_frames(options, plan, *plan.frames, outputs);
-  if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
+  if (plan.kind == TargetKind::sequence && !plan.frames)
+    check_writable(sequence_name(to_path(options.output), 0));
 }
 
 // Refuses options of the other mode.
@@ -177,12 +179,13 @@ void declare_view(const Arguments& arguments, RenderOptions& options) {
 
 void declare_frames(const RenderOptions& options, const Plan& plan, FrameRange range, Outputs& outputs) {
   if (const auto part = part_of(range, plan.shard))
-    outputs.writes_frames("-o", options.output, target_file_kind(options.output), part->first, part->last);
+    outputs.writes_frames("-o", to_path(options.output), target_file_kind(to_path(options.output)),
+                          part->first, part->last);
 }
 
 Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs) {
   Plan plan;
-  plan.kind = target_kind(options.output);
+  plan.kind = target_kind(to_path(options.output));
   plan.renderer.size_px = parse_size("--size", options.size);
   if (!options.raycast.empty()) {
     if (options.march != "full")
@@ -192,10 +195,10 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   }
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.smoke.temporal = plan.renderer.antialias = options.temporal;
-  plan.has_layers = target_file_kind(options.output) == FileKind::exr;
+  plan.has_layers = target_file_kind(to_path(options.output)) == FileKind::exr;
   if (!options.flipbook.grid.empty()) {
     const glm::uvec2 tile_px = arguments.given("--size") ? plan.renderer.size_px : glm::uvec2(256);
-    plan.flipbook = parse_flipbook(options.flipbook, tile_px, options.output);
+    plan.flipbook = parse_flipbook(options.flipbook, tile_px, to_path(options.output));
     plan.renderer.size_px = plan.flipbook->layout.picture_px();
     arguments.refuse("--background", "is none in a flipbook");
   } else {
@@ -214,12 +217,13 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   plan.rate = parse_rate("--fps", options.fps);
   plan.scene = parse_scene_options(options.scene);
   // Each frame of a film shows one of a sequence, unless the options differ.
-  if (grids::is_grid_file(options.input) && options.timeline.empty() && !plan.scene.volume_frame_rate)
+  if (grids::is_grid_file(to_path(options.input)) && options.timeline.empty() &&
+      !plan.scene.volume_frame_rate)
     plan.scene.volume_frame_rate = static_cast<float>(plan.rate.per_second());
   plan.scene.camera = plan.camera;
   // A ground by default would be before all of the transparency.
   if (background == image::Background::none && options.timeline.empty() &&
-      !scenario::is_timeline(options.input))
+      !scenario::is_timeline(to_path(options.input)))
     plan.scene.has_ground = false;
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "scene/text_reader.hpp"
 
@@ -57,8 +58,9 @@ UnitKey sequence_key(const RenderOptions& options, std::vector<std::filesystem::
                fps, raycast, mode, shard, background, scene_options, reference, flipbook, time, orbit,
                shutter, samples, temporal, resume, step, light_update_fraction, resolve_error_scale,
                volume_memory] = options;
-  files.push_back(timeline);
-  if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
+  files.push_back(to_path(timeline));
+  if (!grids::is_grid_file(to_path(input)))
+    files.push_back(to_path(input));  // Otherwise it is among the scenario's.
 
   std::vector<std::string> settings{size, march, camera, view, slice, fps, raycast, mode, background};
   for (const auto& more : {to_texts(scene_options), to_texts(reference)})
@@ -84,14 +86,15 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
   if (plan.kind == TargetKind::picture) {
     const Picture picture = draw(picture_time(options, film.duration), 0);
     stop_if_interrupted();
-    save_picture(plain_name(options.output), picture);
+    save_picture(plain_name(to_path(options.output)), picture);
     return;
   }
   const FrameRange range = frames_of(plan, film.duration);
   const std::uint32_t warm_up = warm_up_of(options, range.first);
   if (plan.kind == TargetKind::film) {
-    write_film(plain_name(options.output), {plan.renderer.size_px, plan.rate, common.threads, warm_up},
-               range.first, range.last, common.outputs,
+    write_film(plain_name(to_path(options.output)),
+               {plan.renderer.size_px, plan.rate, common.threads, warm_up}, range.first, range.last,
+               common.outputs,
                [&](std::uint32_t i) { return std::get<image::Image8>(draw(plan.rate.time_of(i), i)); });
     return;
   }
@@ -99,7 +102,7 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
   if (!part) return;
   // Frames that depend on those before are drawn from the first of the whole on, whatever the shard.
   const std::uint32_t before = frames_depend(options) ? part->first - range.first : 0;
-  write_sequence({options.output, part->first, part->last, warm_up + before,
+  write_sequence({to_path(options.output), part->first, part->last, warm_up + before,
                   sequence_key(options, film.files, film.device, range), frames_depend(options),
                   options.resume, plan.shard.count > 1},
                  common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });

@@ -8,6 +8,7 @@
 #include "apps/cli/tank_options.hpp"
 #include "apps/command_line/console.hpp"
 #include "apps/command_line/json.hpp"
+#include "core/utf8.hpp"
 #include "film/tank_playback.hpp"
 #include "gpu/context.hpp"
 #include "reference/picture.hpp"
@@ -103,7 +104,7 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
   const Stopwatch watch;
   // The tank, the cameras, and how many frames there are.
   refuse_options_of_levels(arguments);
-  scenario::TankScenario scenario = load_tank(options.input, plan.scene, is_interrupted);
+  scenario::TankScenario scenario = load_tank(to_path(options.input), plan.scene, is_interrupted);
   if (options.reference.max_bounces) scenario.scene.bounces = *options.reference.max_bounces;
   stop_if_interrupted();
   TankJob job{options, plan, common, scenario};

@@ -12,6 +12,7 @@
 #include "apps/command_line/console.hpp"
 #include "core/error.hpp"
 #include "core/tasks.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -77,7 +78,9 @@ int run_command(const Command& command, const std::string& json) {
   start_console(common.quiet, common.progress == "json" ? ProgressForm::json : ProgressForm::line);
   set_thread_count(common.threads);
   common.outputs.set_force(common.force);
-  const auto report = [&](const Outputs::End& end) { return fail(end, common.outputs.may_hold_error(json)); };
+  const auto report = [&](const Outputs::End& end) {
+    return fail(end, common.outputs.may_hold_error(to_path(json)));
+  };
   const Attendant attendant(common.grace_seconds,
                             [&](int signal) { return report(common.outputs.explain_interruption(signal)); });
   const std::optional<Outputs::End> end = end_of(command);

@@ -9,6 +9,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/command_line/parse.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/daylight.hpp"
@@ -311,21 +312,22 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
 
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options) {
-  if (!grids::is_grid_file(input))
+  if (!grids::is_grid_file(to_path(input)))
     expect_suffix("", input,
                   {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
-  if (grids::is_grid_file(input) && options.smoke_size)
+  if (grids::is_grid_file(to_path(input)) && options.smoke_size)
     throw Error(ErrorCode::usage, "--smoke-size is for a scene; " + input + " is a volume");
-  if (!grids::is_grid_file(input) && !scenario::is_timeline(input))
+  if (!grids::is_grid_file(to_path(input)) && !scenario::is_timeline(to_path(input)))
     refuse_transfer(options, "is for a volume; " + input + " is a scene");
   if (!timeline.empty()) expect_suffix("--timeline", timeline, {".toml"});
-  const bool is_timeline = scenario::is_timeline(input);
+  const bool is_timeline = scenario::is_timeline(to_path(input));
   if (is_timeline && !timeline.empty())
     throw Error(ErrorCode::usage, "--timeline: " + input + " is already a timeline; name a scene");
   scenario::Scenario scenario = [&] {
-    if (!is_timeline && timeline.empty()) return scenario::load_scenario(input, {}, options).value_or_throw();
-    scene::Timeline read = scene::load_timeline(is_timeline ? input : timeline).value_or_throw();
-    if (!is_timeline) read.scene = input;
+    if (!is_timeline && timeline.empty())
+      return scenario::load_scenario(to_path(input), {}, options).value_or_throw();
+    scene::Timeline read = scene::load_timeline(to_path(is_timeline ? input : timeline)).value_or_throw();
+    if (!is_timeline) read.scene = to_path(input);
     apply_to_timeline(read, options);
     return scenario::make_scenario(std::move(read), {}).value_or_throw();
   }();

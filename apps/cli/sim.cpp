@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 #include "grids/files/grid_files.hpp"
 #include "planning/smoke_look.hpp"
 #include "scenario/events.hpp"
@@ -58,16 +59,17 @@ void check_volumes(const Arguments& arguments, const SimOptions& options, Output
   if (options.detail)
     arguments.refuse("--rate", "cannot be combined with --detail, which draws 64 ticks a second");
   parse_rate("--fps", options.fps);
-  if (!is_numbered("--volumes", options.volumes)) {
+  if (!is_numbered("--volumes", to_path(options.volumes))) {
     for (const char* option : {"--frames", "--fps"})
       arguments.refuse(option, "requires numbered files, such as --volumes smoke_%04d.vdb");
-    outputs.writes("--volumes", plain_name(options.volumes), volume_kind(options.volumes));
+    outputs.writes("--volumes", plain_name(to_path(options.volumes)), volume_kind(to_path(options.volumes)));
     return;
   }
   outputs.set_resumable(false);
-  if (options.frames.empty()) return check_writable(sequence_name(options.volumes, 0));
+  if (options.frames.empty()) return check_writable(sequence_name(to_path(options.volumes), 0));
   const FrameRange range = parse_frames("--frames", options.frames);
-  outputs.writes_frames("--volumes", options.volumes, volume_kind(options.volumes), range.first, range.last);
+  outputs.writes_frames("--volumes", to_path(options.volumes), volume_kind(to_path(options.volumes)),
+                        range.first, range.last);
 }
 
 void check_options(const Arguments& arguments, const SimOptions& options, Outputs& outputs) {
@@ -81,10 +83,9 @@ void check_options(const Arguments& arguments, const SimOptions& options, Output
       arguments.refuse(option, "cannot be combined with --replay, whose recording sets it; remove one");
     expect_suffix("--replay", options.replay, {".brp"});
   }
-  for (const std::string& input : {options.timeline, options.replay})
-    outputs.reads(std::filesystem::path(input));
-  outputs.writes("--record", options.record, FileKind::brp);
-  outputs.writes("--json", options.json, FileKind::json);
+  for (const std::string& input : {options.timeline, options.replay}) outputs.reads(to_path(input));
+  outputs.writes("--record", to_path(options.record), FileKind::brp);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
   check_volumes(arguments, options, outputs);
 }
 
@@ -138,7 +139,7 @@ class VolumeFiles {
  public:
   VolumeFiles(const SimOptions& options, const scenario::Scenario& scenario, const Schedule& schedule,
               Outputs& outputs)
-      : path_(options.volumes),
+      : path_(to_path(options.volumes)),
         numbered_(!path_.empty() && is_numbered("--volumes", path_)),
         schedule_(schedule),
         scenario_(scenario),
@@ -285,13 +286,13 @@ void simulate(const SimOptions& options, Outputs& outputs) {
     volumes.take(world);
     job.advance();
   }
-  if (!options.record.empty()) wire::save_replay(options.record, replay).value_or_throw();
+  if (!options.record.empty()) wire::save_replay(to_path(options.record), replay).value_or_throw();
   report(options, run, schedule.rate, Simulated{smokes, volumes.written()});
 }
 
 void verify_replay(const SimOptions& options) {
   Run run;
-  const wire::Replay replay = wire::load_replay(options.replay).value_or_throw();
+  const wire::Replay replay = wire::load_replay(to_path(options.replay)).value_or_throw();
   if (replay.checksums.empty())
     throw Error(ErrorCode::bad_input, options.replay + ": the recording has no ticks; record it again");
   Progress job("ticks", replay.checksums.size());

@@ -11,6 +11,7 @@
 #include "apps/cli/stopwatch.hpp"
 #include "apps/command_line/console.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/load.hpp"
 #include "scene/files/tank_reader.hpp"
 #include "scene/tank_scene.hpp"
@@ -178,21 +179,22 @@ void convert_tank(const std::string& input, const std::string& output, const std
   const Stopwatch watch;
   // Volume files are written from the tank's voxels, by the caller.
   expect_suffix("", output, {".obj", ".ply", ".vdb", ".nvdb", ".brv", ".json"});
-  const bool is_mesh = scene::lower_extension(output) == ".obj";
-  outputs.reads(std::filesystem::path(input));
-  outputs.writes("", output, is_mesh ? FileKind::obj : FileKind::ply);
-  outputs.writes("--json", json, FileKind::json);
+  const bool is_mesh = scene::lower_extension(to_path(output)) == ".obj";
+  outputs.reads(to_path(input));
+  outputs.writes("", to_path(output), is_mesh ? FileKind::obj : FileKind::ply);
+  outputs.writes("--json", to_path(json), FileKind::json);
 
-  const spheres::Tank tank = spheres::load_tank(input).value_or_throw();
+  const spheres::Tank tank = spheres::load_tank(to_path(input)).value_or_throw();
   stop_if_interrupted();
-  (is_mesh ? spheres::save_tank_obj(output, tank) : spheres::save_tank_ply(output, tank)).value_or_throw();
+  (is_mesh ? spheres::save_tank_obj(to_path(output), tank) : spheres::save_tank_ply(to_path(output), tank))
+      .value_or_throw();
 
   const double seconds = watch.seconds();
   if (!json.empty())
     write_json(json, {{"input", input},
                       {"output", output},
                       {"spheres", tank.spheres.size()},
-                      {"bytes", std::uint64_t{std::filesystem::file_size(output)}},
+                      {"bytes", std::uint64_t{std::filesystem::file_size(to_path(output))}},
                       {"milliseconds", 1000 * seconds}});
   if (json == "-") return;
   print(std::to_string(tank.spheres.size()) + " spheres, in " + number_text("%.3g", seconds) + " s\n");

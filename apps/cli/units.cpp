@@ -16,6 +16,7 @@
 #include "core/log.hpp"
 #include "core/numbered_files.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -26,8 +27,8 @@ constexpr const char* kKeyMagic = "BRUMEKEY 1";
 
 // Hidden: engines that import a folder skip it.
 fs::path key_path(const std::string& output) {
-  const fs::path path(output);
-  return path.parent_path() / ("." + path.filename().string() + ".key");
+  const fs::path path = to_path(output);
+  return path.parent_path() / to_path(("." + path.filename().string() + ".key"));
 }
 
 // "input HEX PATH" or "output HEX NAME".
@@ -50,7 +51,7 @@ std::string fault_of(const std::string& line, const fs::path& folder) {
   words >> kind >> hash >> std::ws;
   std::getline(words, name);
   const bool is_output = kind == "output";
-  const fs::path file = is_output ? folder / name : fs::path(name);
+  const fs::path file = is_output ? folder / to_path(name) : to_path(name);
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return is_output ? "missing" : "of other inputs";
   if (hash_of_files({file}) == hash) return "";
@@ -60,7 +61,7 @@ std::string fault_of(const std::string& line, const fs::path& folder) {
 // Why a unit is to be made again; empty: it is complete.
 std::string reason_of(const Unit& unit, const UnitKey& key) {
   std::error_code ignored;
-  if (!fs::exists(unit.output, ignored)) return "missing";
+  if (!fs::exists(to_path(unit.output), ignored)) return "missing";
   const auto text = read_text_file(key_path(unit.output));
   if (!text) return "without a key";
   std::istringstream lines(*text);
@@ -69,7 +70,7 @@ std::string reason_of(const Unit& unit, const UnitKey& key) {
   if (const std::string fault = difference(line, key, *unit.number); !fault.empty()) return fault;
   std::size_t outputs = 0;
   while (std::getline(lines, line)) {
-    if (const std::string fault = fault_of(line, fs::path(unit.output).parent_path()); !fault.empty())
+    if (const std::string fault = fault_of(line, to_path(unit.output).parent_path()); !fault.empty())
       return fault;
     if (line.starts_with("output ")) ++outputs;
   }
@@ -80,11 +81,11 @@ std::string reason_of(const Unit& unit, const UnitKey& key) {
 using Inputs = std::map<std::int64_t, fs::path>;
 Inputs inputs_of(const UnitJob& job) {
   if (job.input.empty()) return {};
-  if (!numbered_name(fs::path(job.input).filename().string()))
+  if (!numbered_name(to_path(job.input).filename().string()))
     throw Error(ErrorCode::usage, job.output_option + " " + job.output +
                                       ": has a number; INPUT requires one, too, such as f_%04d" +
-                                      fs::path(job.input).extension().string());
-  Inputs files = numbered_files(job.input);
+                                      to_path(job.input).extension().string());
+  Inputs files = numbered_files(to_path(job.input));
   // Frames go as far.
   std::erase_if(files, [](const auto& one) { return one.first < 0 || one.first > 1'000'000; });
   if (files.empty()) throw Error(ErrorCode::bad_input, job.input + ": no such files");
@@ -96,12 +97,12 @@ fs::path input_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number
   if (after != inputs.begin() && (job.holds_missing || std::prev(after)->first == number))
     return std::prev(after)->second;
   if (job.holds_missing) return after->second;
-  const fs::path pattern(job.input);
-  return pattern.parent_path() / numbered_name(pattern.filename().string())->with(number);
+  const fs::path pattern = to_path(job.input);
+  return pattern.parent_path() / to_path(numbered_name(pattern.filename().string())->with(number));
 }
 
 Unit unit_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number) {
-  Unit unit{number, {}, sequence_name(job.output, number).string()};
+  Unit unit{number, {}, sequence_name(to_path(job.output), number).string()};
   if (!job.input.empty()) unit.input = input_of(job, inputs, number).string();
   return unit;
 }
@@ -111,8 +112,8 @@ Unit unit_of(const UnitJob& job, const Inputs& inputs, std::uint32_t number) {
 UnitKey key_of(const Arguments& arguments, const UnitJob& job) {
   std::vector<std::string> settings = arguments.given_texts(
       {"--frames", "--shard", "--resume", "--threads", "--force", "--progress", "--quiet", "--output"});
-  settings.push_back(fs::path(job.output).filename().string());
-  settings.push_back(fs::path(job.input).extension().string());
+  settings.push_back(to_path(job.output).filename().string());
+  settings.push_back(to_path(job.input).extension().string());
   settings.insert(settings.end(), job.depends_on.begin(), job.depends_on.end());
   UnitKey key{"", hash_of_texts(settings), "", program_hash()};
   if (!job.device.empty()) key.device = hash_of_texts(job.device);
@@ -120,7 +121,7 @@ UnitKey key_of(const Arguments& arguments, const UnitJob& job) {
 }
 
 void refuse_of_one(const Arguments& arguments, const UnitJob& job) {
-  const fs::path input(job.input), output(job.output);
+  const fs::path input = to_path(job.input), output = to_path(job.output);
   std::error_code ignored;
   if (numbered_name(input.filename().string()) && !fs::exists(input, ignored))
     throw Error(ErrorCode::usage, job.output_option + " " + job.output +
@@ -128,7 +129,7 @@ void refuse_of_one(const Arguments& arguments, const UnitJob& job) {
                                       output.stem().string() + "_%04d" + output.extension().string());
   for (const char* option : {"--frames", "--shard", "--resume"})
     arguments.refuse(option, "requires a number in " + job.output_option + ", such as f_%04d" +
-                                 fs::path(job.output).extension().string());
+                                 to_path(job.output).extension().string());
 }
 
 // The units of the command line. Throws Error (usage).
@@ -151,12 +152,12 @@ void declare_files(const UnitJob& job, const Inputs& inputs, FrameRange range, O
   if (!job.input.empty())
     for (std::uint32_t i = range.first; i <= range.last; ++i) outputs.reads(input_of(job, inputs, i));
   const std::string option = job.output_option == "OUTPUT" ? "" : job.output_option;
-  outputs.writes_frames(option, job.output, job.kind, range.first, range.last);
+  outputs.writes_frames(option, to_path(job.output), job.kind, range.first, range.last);
   for (std::uint32_t i = range.first; i <= range.last; ++i) {
-    const std::string output = sequence_name(job.output, i).string();
+    const std::string output = sequence_name(to_path(job.output), i).string();
     outputs.will_write("", key_path(output), FileKind::unit_key);
     for (const auto& [suffix, kind] : job.beside)
-      outputs.will_write("", fs::path(output).replace_extension(suffix), kind);
+      outputs.will_write("", to_path(output).replace_extension(to_path(suffix)), kind);
     stop_if_interrupted();
   }
   outputs.set_frames_depend(true);
@@ -226,9 +227,9 @@ void declare_units(const Arguments& arguments, UnitOptions& options, const std::
 
 void run_units(const Arguments& arguments, const UnitOptions& options, CommonOptions& common,
                const UnitJob& job, const RunUnit& run) {
-  if (!is_numbered(job.output_option, job.output)) {
+  if (!is_numbered(job.output_option, to_path(job.output))) {
     refuse_of_one(arguments, job);
-    return run({{}, job.input, plain_name(job.output).string()}, common.outputs);
+    return run({{}, job.input, plain_name(to_path(job.output)).string()}, common.outputs);
   }
   const Inputs inputs = inputs_of(job);
   const auto part = units_of(arguments, options, job, inputs);

@@ -9,6 +9,7 @@
 #include "apps/command_line/parse.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/utf8.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/files/load.hpp"
@@ -51,10 +52,11 @@ void warn_of_units(const std::string& file, const Box<float>& bounds) {
   if (bounds.empty()) return;
   const glm::vec3 extent = bounds.high - bounds.low;
   const float largest = std::max({extent.x, extent.y, extent.z});
-  if (scenario::fitting_scale(largest, file) == 1) return;
+  if (scenario::fitting_scale(largest, to_path(file)) == 1) return;
   char message[160];
   std::snprintf(message, sizeof message, ": %g m wide; if its unit is another, give --scale, such as %g",
-                static_cast<double>(largest), static_cast<double>(scenario::fitting_scale(largest, file)));
+                static_cast<double>(largest),
+                static_cast<double>(scenario::fitting_scale(largest, to_path(file))));
   log_warning(file + message);
 }
 
@@ -71,13 +73,14 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   const Stopwatch watch;
   // Declare all files before any work.
   expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
-  outputs.reads(std::filesystem::path(options.scene));
-  outputs.writes("-o", options.output, FileKind::vxl);
-  outputs.writes("--obj", options.obj, FileKind::obj);
-  outputs.writes("--json", options.json, FileKind::json);
+  outputs.reads(to_path(options.scene));
+  outputs.writes("-o", to_path(options.output), FileKind::vxl);
+  outputs.writes("--obj", to_path(options.obj), FileKind::obj);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
 
   // Load the scene, and voxelize it unless the file is up to date.
-  scene::Scene scene = scene::load_scene(options.scene, false, scene::ImageUse::roles).value_or_throw();
+  scene::Scene scene =
+      scene::load_scene(to_path(options.scene), false, scene::ImageUse::roles).value_or_throw();
   if (options.scale) {
     scenario::scale_scene(scene, static_cast<float>(*options.scale));
   } else {
@@ -86,10 +89,11 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   outputs.reads(scene.files);
   stop_if_interrupted();
   const voxel::GridLayout frame = choose_frame(options, scene);
-  const scenario::Voxels voxels = scenario::load_or_voxelize(scene, frame, options.output).value_or_throw();
-  if (voxels.cached) outputs.up_to_date(options.output);
+  const scenario::Voxels voxels =
+      scenario::load_or_voxelize(scene, frame, to_path(options.output)).value_or_throw();
+  if (voxels.cached) outputs.up_to_date(to_path(options.output));
   stop_if_interrupted();
-  if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
+  if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, to_path(options.obj)).value_or_throw();
 
   // Report.
   const std::uint64_t solid = voxels.grid.count_solid();

@@ -8,6 +8,7 @@
 #include "apps/command_line/number.hpp"
 #include "core/error.hpp"
 #include "core/similar.hpp"
+#include "core/utf8.hpp"
 #include "scene/files/load.hpp"
 
 namespace brume::cli {
@@ -149,7 +150,7 @@ class WordCheck {
 };
 
 [[noreturn]] void refuse_command(const std::string& word, const std::vector<std::string>& commands) {
-  const std::string extension = scene::lower_extension(word);
+  const std::string extension = scene::lower_extension(to_path(word));
   if (word.starts_with("-")) refuse("unknown option " + word, nullptr);
   if (extension == ".toml" || extension == ".glb" || extension == ".gltf" || extension == ".obj")
     refuse("expected a command before " + word + ", such as brume render " + word + " -o a.png", nullptr);

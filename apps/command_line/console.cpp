@@ -19,6 +19,7 @@
 #include "core/platform/console.hpp"
 #include "core/platform/files.hpp"
 #include "core/progress.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 
@@ -238,7 +239,7 @@ void write_json(const std::string& target, const Json& object) {
     g_console->json_written = true;
     print(text);
   } else {
-    write_file_atomic(target, text).value_or_throw();
+    write_file_atomic(to_path(target), text).value_or_throw();
     g_console->json_written = true;
   }
 }
@@ -251,7 +252,7 @@ void write_json_error(int code, const std::string& message, bool may_write_file)
     print(text);
     std::fflush(stdout);
   } else if (may_write_file) {
-    (void)write_file_atomic(g_console->json_target, text);
+    (void)write_file_atomic(to_path(g_console->json_target), text);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -56,14 +57,14 @@ bool is_numbered(const std::string& option, const std::filesystem::path& path) {
 }
 
 std::filesystem::path plain_name(const std::filesystem::path& path) {
-  return path.parent_path() / parse_name(path.filename().string()).value().before;
+  return path.parent_path() / to_path(parse_name(path.filename().string()).value().before);
 }
 
 std::filesystem::path sequence_name(const std::filesystem::path& path, std::uint32_t number) {
   const NamePattern pattern = parse_name(path.filename().string()).value();
   std::string digits = std::to_string(number);
   if (digits.size() < *pattern.digits) digits.insert(0, *pattern.digits - digits.size(), '0');
-  return path.parent_path() / (pattern.before + digits + pattern.after);
+  return path.parent_path() / to_path((pattern.before + digits + pattern.after));
 }
 
 }  // namespace brume::cli

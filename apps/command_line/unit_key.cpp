@@ -10,6 +10,7 @@
 #include "apps/command_line/console.hpp"
 #include "core/key.hpp"
 #include "core/platform/process.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::cli {
 namespace {
@@ -80,7 +81,8 @@ std::string exact_text(double number) {
 
 std::string program_hash() {
   std::error_code ignored;
-  const fs::path helper = platform::program_file().parent_path() / platform::program_name("brume-vdb");
+  const fs::path helper =
+      platform::program_file().parent_path() / to_path(platform::program_name("brume-vdb"));
   return hash_of_files({platform::program_image(), fs::exists(helper, ignored) ? helper : fs::path()});
 }
 

@@ -132,7 +132,7 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
     chosen = &*std::max_element(devices.begin(), devices.end(),
                                 [](const auto& a, const auto& b) { return speed_rank(a) < speed_rank(b); });
   } else if (std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
-    const unsigned long index = wanted.size() > 6 ? devices.size() : std::stoul(wanted);
+    const std::size_t index = wanted.size() > 6 ? devices.size() : std::stoul(wanted);
     if (index < devices.size()) chosen = &devices[index];
   } else {
     for (const DeviceInfo& device : devices) {

@@ -62,7 +62,8 @@ void on_progress(j_common_ptr common) {
   jpeg_create_decompress(jpeg);
   jpeg->client_data = &decoder;
   jpeg->progress = &decoder.progress;
-  jpeg_mem_src(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  jpeg_mem_src(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
+               static_cast<unsigned long>(bytes.size()));
   jpeg_read_header(jpeg, TRUE);
   decoder.size = check_size(jpeg->image_width, jpeg->image_height, name);
   if (!decoder.size) return;

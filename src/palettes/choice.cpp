@@ -60,7 +60,7 @@ Result<PaletteChoice> parse_palette_choice(std::string_view text) {
   }
   // Palette
   if (is_palette_file(name)) {
-    Result<Palette> file = load_palette(std::string(name));
+    Result<Palette> file = load_palette(to_path(name));
     if (!file) return file.failure();
     choice.palette = std::move(*file);
     return choice;
