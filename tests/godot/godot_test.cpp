@@ -92,6 +92,26 @@ TEST_F(GodotAddOn, DrawsTheSmokeThatLinesOfSightMeet) {
   EXPECT_EQ(drawn.output.find("SHADER ERROR"), drawn.output.npos) << drawn.output;
 }
 
+// The page's script, as the root of a scene with a light.
+TEST_F(GodotAddOn, TheExampleOfThePageRuns) {
+  if (!draws()) GTEST_SKIP() << "godot3 or xvfb is not installed; script/bootstrap test installs them";
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/docs/guides/godot.md");
+  const std::size_t begin = page.find("```gdscript\n"), end = page.find("\n```\n", begin);
+  ASSERT_NE(begin, page.npos);
+  folder_.write("project/example.gd", "extends Spatial\n" + page.substr(begin + 12, end - begin - 12) + "\n");
+  folder_.write("project/run_example.gd",
+                "extends SceneTree\nfunc _init():\n\tOS.window_size = Vector2(64, 36)\n"
+                "\tvar main = Spatial.new()\n\tvar light = OmniLight.new()\n\tlight.name = \"OmniLight\"\n"
+                "\tmain.add_child(light)\n\tmain.set_script(load(\"res://example.gd\"))\n"
+                "\troot.add_child(main)\n\twhile main.match_.tick() < 8:\n\t\tyield(self, \"idle_frame\")\n"
+                "\tprint(\"ticks \", main.match_.tick())\n\tquit()\n");
+  const api::ShellRun drawn = run_drawing("run_example.gd");
+  EXPECT_EQ(drawn.status, 0);
+  EXPECT_EQ(numbers_after(drawn.output, "ticks").size(), 1u) << drawn.output;
+  EXPECT_EQ(drawn.output.find("SCRIPT ERROR"), drawn.output.npos) << drawn.output;
+  EXPECT_EQ(drawn.output.find("BrumeMatch."), drawn.output.npos) << drawn.output;
+}
+
 TEST_F(GodotAddOn, TheDemoShowsSmokeHolesAndABlast) {
   if (!draws()) GTEST_SKIP() << "godot3 or xvfb is not installed; script/bootstrap test installs them";
   const char* kept = std::getenv("BRUME_PICTURES");

@@ -1,6 +1,6 @@
 extends SceneTree
-# godot3 --path PROJECT -s picture.gd: pictures of the demo in the folder PICTURES, smoke_0.png without smoke, then
-# smoke, with holes of shots, and after a blast. SIZE is their width and height. Prints for each "smoky F", the fraction
+# godot3 --path PROJECT -s picture.gd: pictures of the demo in the folder PICTURES, without smoke, with it, with
+# holes of shots, and after a blast. SIZE is their width and height. Prints for each "smoky F", the fraction
 # of pixels that differ from the first.
 
 var main
@@ -36,11 +36,12 @@ func draw(name, time):
 
 func draw_all():
 	yield(self, "idle_frame")
-	yield(draw("smoke_0.png", 0.0), "completed")
-	yield(draw("smoke_1.png", 6.0), "completed")
+	main.smoke.light_fraction = 0  # times lie apart: all light each time
+	yield(draw("godot_clear.png", 0.0), "completed")
+	yield(draw("godot_smoke.png", 6.0), "completed")
 	for i in range(3):
 		main.match_.shoot(main.camera.translation, Vector3(-1, 1.6 - 0.4 * i, 0.2 - 0.6 * i), 0.16)
-	yield(draw("smoke_2.png", 6.4), "completed")
+	yield(draw("godot_holes.png", 6.4), "completed")
 	main.match_.blast(Vector3(-2.0, 1.2, -1.4), 1.6)
-	yield(draw("smoke_3.png", 6.7), "completed")
+	yield(draw("godot_blast.png", 6.7), "completed")
 	quit()

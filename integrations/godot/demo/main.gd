@@ -59,7 +59,8 @@ func add_light(at, color):
 	var light = OmniLight.new()
 	light.translation = at
 	light.light_color = color
-	light.light_energy = 1.8
+	light.light_energy = 3.2
+	light.omni_attenuation = 2
 	light.omni_range = 12
 	light.shadow_enabled = true
 	light.omni_shadow_mode = OmniLight.SHADOW_CUBE
@@ -73,7 +74,7 @@ func add_environment():
 	environment.environment.background_mode = Environment.BG_COLOR
 	environment.environment.background_color = Color(0, 0, 0)
 	environment.environment.ambient_light_color = Color(0.85, 0.9, 1.0)
-	environment.environment.ambient_light_energy = 0.12
+	environment.environment.ambient_light_energy = 0.1
 	environment.environment.tonemap_mode = Environment.TONE_MAPPER_FILMIC
 	add_child(environment)
 
