@@ -152,5 +152,21 @@ TEST_F(Mono, CallsFailAndSucceedAsTheyShould) {
   EXPECT_EQ(run.status, 0) << run.output;
 }
 
+// What a shader graph of Unity would include, by the compiler of shaders here.
+TEST(UnityShader, Compiles) {
+  const cli::WorkFolder folder;
+  folder.write("graph.hlsl",
+               "#include \"BrumeSmoke.hlsl\"\nfloat4 main(float4 at : TEXCOORD0) : SV_Target {\n"
+               "  float3 color; float alpha;\n"
+               "  BrumeSmoke_float(at.xyz, normalize(at.yzx), at.w, 0.5, 0.001, color, alpha);\n"
+               "  return float4(color, alpha);\n}\n");
+  const std::string path = folder.path().string();
+  const api::ShellRun run = api::run_shell(
+      "glslc -x hlsl -fshader-stage=fragment -fauto-bind-uniforms -fauto-map-locations -I '" BRUME_SOURCE_DIR
+      "/integrations/unity/Shaders' -I '" BRUME_SOURCE_DIR "/shaders/export' '" +
+      path + "/graph.hlsl' -o '" + path + "/graph.spv' 2>&1 && spirv-val '" + path + "/graph.spv' 2>&1");
+  EXPECT_EQ(run.status, 0) << run.output;
+}
+
 }  // namespace
 }  // namespace brume
