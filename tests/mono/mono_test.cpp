@@ -127,7 +127,7 @@ public static class Example {
       points[i] = new Point { X = (i & 1) != 0 ? 10 : -6, Y = (i & 2) != 0 ? 4 : 0,
                               Z = (i & 4) != 0 ? 10 : -8 };
     uint[] indices = { 0, 1, 4, 1, 4, 5, 2, 3, 6, 3, 6, 7, 0, 1, 2, 1, 2, 3, 4, 5, 6, 5, 6, 7, 0, 2, 4, 2,
-                       4, 6,                       1, 3, 5, 3, 5, 7 };
+                       4, 6, 1, 3, 5, 3, 5, 7 };
     using (var match = new SmokeMatch(points, indices)) {
       Point eye = new Point { X = 2, Y = 1.6f, Z = -6 }, target = new Point { X = 2, Y = 1.6f, Z = 8 };
       match.Step();
