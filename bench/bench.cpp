@@ -130,7 +130,7 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
 }
 
 std::filesystem::path scene_file(const std::string& name) {
-  return find_data_file("scenes/" + name).value_or(name);
+  return find_data_file("scenes/" + name).value_or(to_path(name));
 }
 
 std::string commit() {

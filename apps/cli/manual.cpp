@@ -210,7 +210,7 @@ void write_manual(const CLI::App& program, const std::filesystem::path& folder) 
     throw Error(ErrorCode::bad_input, folder.string() + ": cannot create man1: " + failed.message());
   write(folder / "man1/brume.1", main_page(program));
   for (const CLI::App* command : commands_of(program))
-    write(folder / "man1" / to_path((page_name(*command) + ".1")), command_page(*command));
+    write(folder / "man1" / to_path(page_name(*command) + ".1"), command_page(*command));
   write(folder / "brume.bash", bash_completion(program));
   write(folder / "_brume", zsh_completion(program));
   write(folder / "brume.fish", fish_completion(program));

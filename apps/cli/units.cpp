@@ -28,7 +28,7 @@ constexpr const char* kKeyMagic = "BRUMEKEY 1";
 // Hidden: engines that import a folder skip it.
 fs::path key_path(const std::string& output) {
   const fs::path path = to_path(output);
-  return path.parent_path() / to_path(("." + path.filename().string() + ".key"));
+  return path.parent_path() / to_path("." + path.filename().string() + ".key");
 }
 
 // "input HEX PATH" or "output HEX NAME".

@@ -64,7 +64,7 @@ std::filesystem::path sequence_name(const std::filesystem::path& path, std::uint
   const NamePattern pattern = parse_name(path.filename().string()).value();
   std::string digits = std::to_string(number);
   if (digits.size() < *pattern.digits) digits.insert(0, *pattern.digits - digits.size(), '0');
-  return path.parent_path() / to_path((pattern.before + digits + pattern.after));
+  return path.parent_path() / to_path(pattern.before + digits + pattern.after);
 }
 
 }  // namespace brume::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/ranges.hpp"
+#include "core/utf8.hpp"
 #include "host/frame.hpp"
 #include "host/volumes.hpp"
 #include "scene/decal_options.hpp"
@@ -72,7 +73,7 @@ volumes::SampledGrids of_file(const brume_decal_params& params) {
   const std::string file = params.file;
   require(!file.empty(), "`file` is empty");
   require(!params.up && !params.down, "`up` and `down` must be null where `file` is given");
-  const grids::GridFile grids = loaded(grids::load_volume_file(file));
+  const grids::GridFile grids = loaded(grids::load_volume_file(to_path(file)));
   auto sampled = volumes::decal_volume(grids, params.grid ? params.grid : "");
   if (!sampled)
     fail(result_of(sampled.failure().code, BRUME_ERROR_DATA), file + ": " + sampled.failure().message);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/ranges.hpp"
+#include "core/utf8.hpp"
 #include "host/frame.hpp"
 #include "planning/volume_inputs.hpp"
 
@@ -21,7 +22,7 @@ std::string text_or_empty(const char* given) {
 
 scene::VolumeOptions to_options(const brume_volume_params& params) {
   scene::VolumeOptions options;
-  options.file = text_or_empty(&required(params.file, "file"));
+  options.file = to_path(text_or_empty(&required(params.file, "file")));
   require(!options.file.empty(), "`file` is empty");
   require(params.no_processes == 0 || options.file.extension() == ".brv",
           "`file` must be a .brv file where `no_processes` is 1; brume convert makes one");
