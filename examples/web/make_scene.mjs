@@ -19,12 +19,29 @@ const bytesOf = index => {
 const folder = mkdtempSync(join(tmpdir(), 'brume-scene-'));
 function webp(png, isNormal) {
   writeFileSync(join(folder, 'in.png'), png);
-  execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', 'in.png', '-c:v', 'libwebp', '-quality', isNormal ? '72' : '80',
-                          '-compression_level', '6', 'out.webp'], { cwd: folder });
+  execFileSync(
+    'ffmpeg',
+    [
+      '-v',
+      'error',
+      '-y',
+      '-i',
+      'in.png',
+      '-c:v',
+      'libwebp',
+      '-quality',
+      isNormal ? '72' : '80',
+      '-compression_level',
+      '6',
+      'out.webp'
+    ],
+    { cwd: folder }
+  );
   return readFileSync(join(folder, 'out.webp'));
 }
 
-const views = [], parts = [];
+const views = [],
+  parts = [];
 let size = 0;
 function add(bytes, view = {}) {
   const padded = (bytes.length + 3) & ~3;
@@ -38,10 +55,14 @@ for (const image of gltf.images) {
   image.bufferView = add(webp(bytesOf(image.bufferView), image.name.endsWith('_normal')));
   image.mimeType = 'image/webp';
 }
-gltf.textures = gltf.textures.map(({ source, ...rest }) => ({ ...rest, extensions: { EXT_texture_webp: { source } } }));
+gltf.textures = gltf.textures.map(({ source, ...rest }) => ({
+  ...rest,
+  extensions: { EXT_texture_webp: { source } }
+}));
 
 // The accessors that meshes use, with their values.
-const accessors = [], moved = new Map();
+const accessors = [],
+  moved = new Map();
 function move(index, convert = accessor => ({ bytes: bytesOf(accessor.bufferView), accessor, view: {} })) {
   if (moved.has(index)) return moved.get(index);
   const { bytes, accessor, view } = convert(gltf.accessors[index]);
@@ -50,10 +71,14 @@ function move(index, convert = accessor => ({ bytes: bytesOf(accessor.bufferView
   return accessors.length - 1;
 }
 function bytesOfNormals(accessor) {
-  const source = bytesOf(accessor.bufferView), bytes = Buffer.alloc(4 * accessor.count);
+  const source = bytesOf(accessor.bufferView),
+    bytes = Buffer.alloc(4 * accessor.count);
   for (let i = 0; i < accessor.count; ++i)
     for (let axis = 0; axis < 3; ++axis)
-      bytes.writeInt8(Math.round(127 * source.readFloatLE((accessor.byteOffset ?? 0) + 12 * i + 4 * axis)), 4 * i + axis);
+      bytes.writeInt8(
+        Math.round(127 * source.readFloatLE((accessor.byteOffset ?? 0) + 12 * i + 4 * axis)),
+        4 * i + axis
+      );
   const { min, max, ...rest } = accessor;
   return { bytes, accessor: { ...rest, componentType: 5120, normalized: true }, view: { byteStride: 4 } };
 }

@@ -10,13 +10,22 @@ export const BUILT = fileURLToPath(new URL('../../build/web/', import.meta.url))
 const puppeteer = createRequire(`${BUILT}npm/package.json`)('puppeteer-core');
 
 const TYPES = {
-  '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
-  '.wasm': 'application/wasm', '.svg': 'image/svg+xml'
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.mjs': 'text/javascript',
+  '.css': 'text/css',
+  '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml'
 };
 // Chromium's own renderer, whose pixels repeat; nothing is cached, and nothing is fetched in the background.
 const FLAGS = [
-  '--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-  '--disable-background-networking', '--hide-scrollbars', '--mute-audio'
+  '--no-sandbox',
+  '--disable-dev-shm-usage',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--disable-background-networking',
+  '--hide-scrollbars',
+  '--mute-audio'
 ];
 
 /** Serves `folder`, and in place of the paths in `pages` their text: {url, close}. */
@@ -24,7 +33,7 @@ export async function serve(folder, pages = {}) {
   const server = createServer(async (request, response) => {
     const path = normalize(new URL(request.url, 'http://localhost').pathname);
     try {
-      const body = pages[path] ?? await readFile(join(folder, path === '/' ? 'index.html' : path));
+      const body = pages[path] ?? (await readFile(join(folder, path === '/' ? 'index.html' : path)));
       response.writeHead(200, { 'content-type': TYPES[extname(path) || '.html'] ?? 'application/octet-stream' });
       response.end(body);
     } catch {
@@ -37,6 +46,10 @@ export async function serve(folder, pages = {}) {
 
 /** Starts Chromium with more `flags`. */
 export function launch(flags = []) {
-  return puppeteer.launch({ executablePath: '/usr/bin/chromium', headless: true, args: [...FLAGS, ...flags],
-                            protocolTimeout: 600000 });
+  return puppeteer.launch({
+    executablePath: '/usr/bin/chromium',
+    headless: true,
+    args: [...FLAGS, ...flags],
+    protocolTimeout: 600000
+  });
 }

@@ -1,5 +1,6 @@
-// What C++20 has and the C++ library of Emscripten 3.1.6 (libc++ 13, in Debian 12) lacks: each source of the simulation
-// is compiled with it (examples/web/CMakeLists.txt). A later library has all of it, and then this is empty.
+// What C++20 has and the C++ library of Emscripten 3.1.6 (libc++ 13, in Debian 12) lacks: each source of the
+// simulation is compiled with it (examples/web/CMakeLists.txt). A later library has all of it, and then this
+// is empty.
 #pragma once
 
 #include <version>

@@ -17,10 +17,18 @@ static float g_constants[BRUME_CONSTANTS];
 static brume_texture_light g_smoke_lights[BRUME_MAX_TEXTURE_LIGHTS];
 static uint32_t g_smoke_light_count;
 
-const uint32_t* web_texture_list(void) { return &g_list[0].format; }
-const uint32_t* web_regions(void) { return &g_regions->texture; }
-uint32_t web_region_count(void) { return (uint32_t)g_region_count; }
-const float* web_constants(void) { return g_constants; }
+const uint32_t* web_texture_list(void) {
+  return &g_list[0].format;
+}
+const uint32_t* web_regions(void) {
+  return &g_regions->texture;
+}
+uint32_t web_region_count(void) {
+  return (uint32_t)g_region_count;
+}
+const float* web_constants(void) {
+  return g_constants;
+}
 
 int web_add_texture_light(const float* at, uint32_t is_directional) {
   if (g_smoke_light_count == BRUME_MAX_TEXTURE_LIGHTS) return BRUME_ERROR_LIMIT;

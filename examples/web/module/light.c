@@ -1,5 +1,5 @@
-// What smoke leaves of the light that reaches cells of two voxels per axis: lines of sight to each light, some in each
-// frame. With it, surfaces behind smoke get darker.
+// What smoke leaves of the light that reaches cells of two voxels per axis: lines of sight to each light,
+// some in each frame. With it, surfaces behind smoke get darker.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,24 +17,29 @@ typedef struct Light {
 typedef struct Pair {
   uint32_t cell;
   uint16_t light;
-  uint8_t open;        // whether no wall is between them: 255 unknown
-  float weight;        // intensity there [W/m^2], without smoke
+  uint8_t open;  // whether no wall is between them: 255 unknown
+  float weight;  // intensity there [W/m^2], without smoke
 } Pair;
 
 static Light g_lights[kLights];
 static uint32_t g_light_count;
 static int32_t g_size[3];
 static uint32_t g_cell_count, g_pair_count;
-static Pair* g_pairs;               // by cell
-static uint32_t* g_pairs_of_cell;   // where each cell's begin, and one more
-static float* g_clear[kPlayers];    // of each pair, the optical depth between its ends
+static Pair* g_pairs;              // by cell
+static uint32_t* g_pairs_of_cell;  // where each cell's begin, and one more
+static float* g_clear[kPlayers];   // of each pair, the optical depth between its ends
 static uint8_t* g_texels[kPlayers];
-static uint32_t g_next[kPlayers];   // cell
+static uint32_t g_next[kPlayers];  // cell
 
-const int32_t* web_light_size(void) { return g_size; }
-const uint8_t* web_light_texels(uint32_t player) { return g_texels[player]; }
+const int32_t* web_light_size(void) {
+  return g_size;
+}
+const uint8_t* web_light_texels(uint32_t player) {
+  return g_texels[player];
+}
 
-int web_add_light(const float* position, const float* color, const float* direction, float inner, float outer) {
+int web_add_light(const float* position, const float* color, const float* direction, float inner,
+                  float outer) {
   if (g_light_count == kLights) return BRUME_ERROR_LIMIT;
   Light* light = &g_lights[g_light_count++];
   light->position = point_of(position);
@@ -49,7 +54,8 @@ static brume_point middle_of(uint32_t cell) {
   const uint32_t nx = (uint32_t)g_size[0], ny = (uint32_t)g_size[1];
   const float edge = 2 * g_match.layout.voxel_size;
   const brume_point low = g_match.layout.origin;
-  return (brume_point){low.x + edge * ((float)(cell % nx) + 0.5f), low.y + edge * ((float)(cell / nx % ny) + 0.5f),
+  return (brume_point){low.x + edge * ((float)(cell % nx) + 0.5f),
+                       low.y + edge * ((float)(cell / nx % ny) + 0.5f),
                        low.z + edge * ((float)(cell / nx / ny) + 0.5f)};
 }
 
@@ -59,14 +65,17 @@ static float weight_of(const Light* light, brume_point at) {
   const float square = fmaxf(x * x + y * y + z * z, 0.05f);
   float weight = 1 / square;
   if (light->outer > -1.5f) {
-    const float cosine = (x * light->direction.x + y * light->direction.y + z * light->direction.z) / sqrtf(square);
+    const float cosine =
+        (x * light->direction.x + y * light->direction.y + z * light->direction.z) / sqrtf(square);
     const float t = fminf(fmaxf((cosine - light->outer) / (light->inner - light->outer), 0), 1);
     weight *= t * t * (3 - 2 * t);
   }
   return weight;
 }
 
-static float brightest(const float* color) { return fmaxf(color[0], fmaxf(color[1], color[2])); }
+static float brightest(const float* color) {
+  return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
 
 // The pairs that matter: those whose light is not dim there.
 static int make_pairs(void) {
@@ -125,7 +134,8 @@ static int light_cells(uint32_t player, uint32_t first, uint32_t end) {
   for (uint32_t cell = first; cell < end; ++cell) {
     const uint32_t from = g_pairs_of_cell[cell], count = g_pairs_of_cell[cell + 1] - from;
     const brume_point at = middle_of(cell);
-    for (uint32_t i = 0; i < count; ++i) lines[i] = (brume_segment){g_lights[g_pairs[from + i].light].position, at};
+    for (uint32_t i = 0; i < count; ++i)
+      lines[i] = (brume_segment){g_lights[g_pairs[from + i].light].position, at};
     if (count == 0) continue;
     if (g_pairs[from].open == 255) {
       TRY(brume_field_visible(field, lines, count, INFINITY, open));
@@ -142,7 +152,8 @@ int32_t web_light(uint32_t player, uint32_t lines) {
   if (!g_pairs && make_pairs() != 0) return -1;
   const uint32_t first = g_next[player];
   uint32_t end = first, work = 0;
-  while (end < g_cell_count && work < lines) work += g_pairs_of_cell[end + 1] - g_pairs_of_cell[end] + 1, ++end;
+  while (end < g_cell_count && work < lines)
+    work += g_pairs_of_cell[end + 1] - g_pairs_of_cell[end] + 1, ++end;
   if (light_cells(player, first, end) != 0) return -1;
   g_next[player] = end == g_cell_count ? 0 : end;
   return (int32_t)(end - first);

@@ -23,9 +23,13 @@ static uint64_t g_hashes[kHashes];
 static uint32_t g_random = 1;
 static web_report g_report;
 
-const char* web_error(void) { return brume_last_error(); }
+const char* web_error(void) {
+  return brume_last_error();
+}
 
-const web_report* web_report_of(void) { return &g_report; }
+const web_report* web_report_of(void) {
+  return &g_report;
+}
 
 int web_add_mask(uint32_t width, uint32_t height, const uint8_t* texels) {
   if (g_mask_count == kMasks) return BRUME_ERROR_LIMIT;
@@ -122,6 +126,10 @@ int web_edit(const int32_t* low, const int32_t* high, uint32_t solid) {
   event.u.edit.high = (brume_voxel){high[0], high[1], high[2]};
   event.u.edit.solid = solid;
   return (int)brume_world_append(g_match.world, &event, 1);
+}
+
+int web_clear(void) {
+  return (int)brume_world_replace_from(g_match.world, 0, NULL, 0);
 }
 
 // ---- The line between the players ----

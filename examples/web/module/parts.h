@@ -23,12 +23,14 @@ extern web_match g_match;
 static const float kExtinction = 7.0f;
 
 // Leaves a function with another number than 0 where a call fails.
-#define TRY(call)                      \
-  do {                                 \
-    const brume_result result_ = call; \
+#define TRY(call)                                 \
+  do {                                            \
+    const brume_result result_ = call;            \
     if (result_ != BRUME_OK) return (int)result_; \
   } while (0)
 
-static inline brume_point point_of(const float* xyz) { return (brume_point){xyz[0], xyz[1], xyz[2]}; }
+static inline brume_point point_of(const float* xyz) {
+  return (brume_point){xyz[0], xyz[1], xyz[2]};
+}
 
 #endif

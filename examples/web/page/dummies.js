@@ -2,12 +2,27 @@
 import * as THREE from 'three';
 
 const EYES = 1.62;
-const SAYS = { sees: other => `sees ${other}`, smoke: other => `${other} is behind smoke`, wall: other => `${other} is behind a wall` };
+const SAYS = {
+  sees: other => `sees ${other}`,
+  smoke: other => `${other} is behind smoke`,
+  wall: other => `${other} is behind a wall`
+};
 const TINTS = { sees: 0x57e39a, smoke: 0xff9d5c, wall: 0xff5f5f };
 
 function figure(color) {
-  const outline = [[0, 0], [0.27, 0], [0.29, 0.05], [0.2, 0.16], [0.15, 0.5], [0.19, 1.05], [0.24, 1.22], [0.13, 1.36],
-                   [0.08, 1.42], [0.1, 1.46], [0, 1.46]].map(([x, y]) => new THREE.Vector2(x, y));
+  const outline = [
+    [0, 0],
+    [0.27, 0],
+    [0.29, 0.05],
+    [0.2, 0.16],
+    [0.15, 0.5],
+    [0.19, 1.05],
+    [0.24, 1.22],
+    [0.13, 1.36],
+    [0.08, 1.42],
+    [0.1, 1.46],
+    [0, 1.46]
+  ].map(([x, y]) => new THREE.Vector2(x, y));
   const material = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
   const group = new THREE.Group();
   const body = new THREE.Mesh(new THREE.LatheGeometry(outline, 40), material);
@@ -35,21 +50,27 @@ export class Dummies {
       labels.append(person.label);
     }
     const [a, b] = this.people.map(person => person.eyes);
-    this.line = new THREE.Mesh(new THREE.CylinderGeometry(0.009, 0.009, a.distanceTo(b) - 0.4, 8),
-                               new THREE.MeshBasicMaterial({ color: 0xffffff }));
+    this.line = new THREE.Mesh(
+      new THREE.CylinderGeometry(0.009, 0.009, a.distanceTo(b) - 0.4, 8),
+      new THREE.MeshBasicMaterial({ color: 0xffffff })
+    );
     this.line.position.copy(a).lerp(b, 0.5);
     this.line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), b.clone().sub(a).normalize());
     scene.add(this.line);
   }
 
-  get eyes() { return this.people.map(person => person.eyes.toArray()); }
+  get eyes() {
+    return this.people.map(person => person.eyes.toArray());
+  }
 
   /** Takes what is between them: 'sees', 'smoke' or 'wall'. True: it has changed. */
   hear(answer) {
     if (answer === this.answer) return false;
     this.answer = answer;
     this.line.material.color.set(TINTS[answer]).multiplyScalar(0.55);
-    this.people.forEach((person, i) => { person.says = `${person.name}: ${SAYS[answer](this.people[1 - i].name)}`; });
+    this.people.forEach((person, i) => {
+      person.says = `${person.name}: ${SAYS[answer](this.people[1 - i].name)}`;
+    });
     return true;
   }
 
@@ -57,11 +78,15 @@ export class Dummies {
   place(camera, area) {
     const point = new THREE.Vector3();
     for (const person of this.people) {
-      point.copy(person.eyes).setY(person.eyes.y + 0.32).project(camera);
+      point
+        .copy(person.eyes)
+        .setY(person.eyes.y + 0.32)
+        .project(camera);
       const isShown = point.z < 1 && Math.abs(point.x) < 1 && Math.abs(point.y) < 1;
       person.label.hidden = !isShown;
       person.label.textContent = person.says;
-      const x = area.x + area.width * (0.5 + 0.5 * point.x), y = area.y + area.height * (0.5 - 0.5 * point.y);
+      const x = area.x + area.width * (0.5 + 0.5 * point.x),
+        y = area.y + area.height * (0.5 - 0.5 * point.y);
       person.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
     }
   }

@@ -19,26 +19,34 @@ const SKY = `
   }`;
 
 function makeSky() {
-  return new THREE.Mesh(new THREE.SphereGeometry(300, 32, 16), new THREE.ShaderMaterial({
-    side: THREE.BackSide, depthWrite: false, fragmentShader: SKY,
-    vertexShader: `varying vec3 direction;
+  return new THREE.Mesh(
+    new THREE.SphereGeometry(300, 32, 16),
+    new THREE.ShaderMaterial({
+      side: THREE.BackSide,
+      depthWrite: false,
+      fragmentShader: SKY,
+      vertexShader: `varying vec3 direction;
       void main() {
         direction = position;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         gl_Position.z = gl_Position.w * 0.99999;
       }`
-  }));
+    })
+  );
 }
 
 /** Triangles of all meshes that stop smoke, in world space. */
 function trianglesOf(root) {
-  const points = [], indices = [], point = new THREE.Vector3();
+  const points = [],
+    indices = [],
+    point = new THREE.Vector3();
   root.updateMatrixWorld(true);
   root.traverse(mesh => {
     if (!mesh.isMesh) return;
     for (let node = mesh; node; node = node.parent)
       if (node.userData.brume_ignore || node.name === 'Grenade' || node.name === 'door_leaf') return;
-    const position = mesh.geometry.attributes.position, first = points.length / 3;
+    const position = mesh.geometry.attributes.position,
+      first = points.length / 3;
     for (let i = 0; i < position.count; ++i) {
       point.fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld);
       points.push(point.x, point.y, point.z);
@@ -52,7 +60,7 @@ function adjustLights(scene, lights) {
   for (const light of lights) {
     light.intensity *= WATTS;
     if (light.name === 'lamp_sign') {
-      light.distance = 7;  // without shadows, which would cost more than they show
+      light.distance = 7; // without shadows, which would cost more than they show
       continue;
     }
     light.castShadow = true;
@@ -80,8 +88,13 @@ export function lampsOf(lights) {
       return { position: position.toArray(), towards: position.clone().normalize().toArray(), color };
     if (!light.isSpotLight) return { position: position.toArray(), color };
     const direction = light.target.getWorldPosition(new THREE.Vector3()).sub(position).normalize();
-    return { position: position.toArray(), color, direction: direction.toArray(),
-             inner: Math.cos(light.angle * (1 - light.penumbra)), outer: Math.cos(light.angle) };
+    return {
+      position: position.toArray(),
+      color,
+      direction: direction.toArray(),
+      inner: Math.cos(light.angle * (1 - light.penumbra)),
+      outer: Math.cos(light.angle)
+    };
   });
 }
 
@@ -95,7 +108,11 @@ function panel(width, height, depth, material) {
 function makeLeaves(scene, root) {
   const leaf = root.getObjectByName('door_leaf');
   const wood = new THREE.MeshStandardMaterial({ color: new THREE.Color(0.16, 0.035, 0.03), roughness: 0.45 });
-  const steel = new THREE.MeshStandardMaterial({ color: new THREE.Color(0.16, 0.18, 0.2), roughness: 0.5, metalness: 0.4 });
+  const steel = new THREE.MeshStandardMaterial({
+    color: new THREE.Color(0.16, 0.18, 0.2),
+    roughness: 0.5,
+    metalness: 0.4
+  });
   const inner = panel(0.05, 2.34, 1.4, wood);
   const garage = new THREE.Group();
   for (let i = 0; i < 12; ++i) {
@@ -105,18 +122,25 @@ function makeLeaves(scene, root) {
   }
   scene.add(inner, garage);
   return [
-    t => leaf.quaternion.setFromAxisAngle(new THREE.Vector3(0, 1, 0), -THREE.MathUtils.lerp(0.4 * Math.PI, Math.PI, t)),
+    t =>
+      leaf.quaternion.setFromAxisAngle(
+        new THREE.Vector3(0, 1, 0),
+        -THREE.MathUtils.lerp(0.4 * Math.PI, Math.PI, t)
+      ),
     t => inner.position.set(0.05, 1.27, -2.5 - 1.39 * (1 - t)),
     t => {
       garage.position.set(2.9, 0.1 + 2.72 * (1 - t), 1.88);
-      garage.children.forEach((slat, i) => { slat.visible = slat.position.y + garage.position.y < 3.0; });
+      garage.children.forEach((slat, i) => {
+        slat.visible = slat.position.y + garage.position.y < 3.0;
+      });
     }
   ];
 }
 
 export async function loadHouse(url) {
   const { scene: root } = await new GLTFLoader().loadAsync(url);
-  const scene = new THREE.Scene(), lights = [];
+  const scene = new THREE.Scene(),
+    lights = [];
   scene.add(root, makeSky());
   root.traverse(node => {
     if (node.isLight) lights.push(node);
@@ -128,7 +152,9 @@ export async function loadHouse(url) {
   });
   const triangles = trianglesOf(root);
   adjustLights(scene, lights);
-  scene.add(new THREE.HemisphereLight(new THREE.Color(0.0095, 0.0135, 0.023), new THREE.Color(0.008, 0.007, 0.007), Math.PI));
+  scene.add(
+    new THREE.HemisphereLight(new THREE.Color(0.0095, 0.0135, 0.023), new THREE.Color(0.008, 0.007, 0.007), Math.PI)
+  );
   const grenade = root.getObjectByName('Grenade');
   grenade.visible = false;
   const setDoors = makeLeaves(scene, root);

@@ -5,17 +5,24 @@ const ICONS = {
   throw: '<path d="M7 18a4 4 0 0 1-.6-7.9A5.5 5.5 0 0 1 17 9.2 4.4 4.4 0 0 1 17 18z"/>',
   shoot: '<circle cx="12" cy="12" r="7"/><path d="M12 2v5M12 17v5M2 12h5M17 12h5"/>',
   word: '<path d="M5 19 11 5h2l6 14M7.5 14h9"/>',
-  blast: '<path d="m12 2 2.2 6 5.6-3-3 5.6 6 2.2-6 2.2 3 5.6-5.6-3L12 23l-2.2-5.4-5.6 3 3-5.6-6-2.2 6-2.2-3-5.6 5.6 3z"/>'
+  blast:
+    '<path d="m12 2 2.2 6 5.6-3-3 5.6 6 2.2-6 2.2 3 5.6-5.6-3L12 23l-2.2-5.4-5.6 3 3-5.6-6-2.2 6-2.2-3-5.6 5.6 3z"/>'
 };
-const TOOLS = [['throw', 'Throw'], ['shoot', 'Shoot'], ['word', 'Word'], ['blast', 'Blast']];
+const TOOLS = [
+  ['throw', 'Throw'],
+  ['shoot', 'Shoot'],
+  ['word', 'Word'],
+  ['blast', 'Blast']
+];
 const PLAY = '<svg viewBox="0 0 24 24"><path d="M8 5.5v13l10.5-6.5z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 24 24"><path d="M8.5 6v12M15.5 6v12" stroke-width="2.6"/></svg>';
 
 const element = id => document.getElementById(id);
-const thousands = n => n >= 1e6 ? `${(n / 1e6).toFixed(1)} M` : n >= 1e3 ? `${Math.round(n / 1e3)} k` : `${Math.round(n)}`;
+const thousands = n =>
+  n >= 1e6 ? `${(n / 1e6).toFixed(1)} M` : n >= 1e3 ? `${Math.round(n / 1e3)} k` : `${Math.round(n)}`;
 
 export class Interface {
-  /** `doors`: their names; `does`: what the page does, {seek, setPlaying, toggleDoor}. */
+  /** `doors`: their names; `does`: what the page does, {seek, restart, setPlaying, toggleDoor}. */
   constructor(doors, does) {
     this.tool = 'throw';
     this.tools = TOOLS.map(([tool, name]) => {
@@ -35,10 +42,16 @@ export class Interface {
       return { name, button };
     });
     element('open').addEventListener('click', () => this.#showPanel(!element('panel').classList.contains('shown')));
-    element('word-form').addEventListener('submit', event => { event.preventDefault(); element('word').blur(); });
+    element('word-form').addEventListener('submit', event => {
+      event.preventDefault();
+      element('word').blur();
+    });
     element('play').addEventListener('click', () => does.setPlaying(!this.isPlaying));
+    element('restart').addEventListener('click', does.restart);
     element('slider').addEventListener('input', () => does.seek(Number(element('slider').value)));
-    element('loss').addEventListener('input', () => { element('loss-shown').textContent = `${element('loss').value} %`; });
+    element('loss').addEventListener('input', () => {
+      element('loss-shown').textContent = `${element('loss').value} %`;
+    });
     if (matchMedia('(min-width: 1500px)').matches) this.#showPanel(true);
   }
 
@@ -53,10 +66,18 @@ export class Interface {
     element('word-form').hidden = tool !== 'word';
   }
 
-  get word() { return element('word').value; }
-  get loss() { return Number(element('loss').value) / 100; }
-  get isSplit() { return element('split').checked; }
-  get asksDrawn() { return element('drawn').checked; }
+  get word() {
+    return element('word').value;
+  }
+  get loss() {
+    return Number(element('loss').value) / 100;
+  }
+  get isSplit() {
+    return element('split').checked;
+  }
+  get asksDrawn() {
+    return element('drawn').checked;
+  }
 
   showTime(tick, latest, isPlaying) {
     const slider = element('slider');
@@ -81,13 +102,18 @@ export class Interface {
     const [first, second] = report.hashes;
     element('hash-here').textContent = first;
     element('hash-there').textContent = report.ticks[1] > 0 || second !== '0000000000000000' ? second : 'waiting';
-    const isEqual = second === report.serverThen, behind = report.ticks[0] - report.ticks[1];
+    const isEqual = second === report.serverThen,
+      behind = report.ticks[0] - report.ticks[1];
     element('equal').textContent = isEqual ? `yes, at the tick ${behind} before` : 'no';
     element('equal').className = isEqual ? 'good' : 'bad';
-    element('packets').textContent = `${thousands(report.packets)}, ${thousands(report.lost)} lost, ` +
+    element('packets').textContent =
+      `${thousands(report.packets)}, ${thousands(report.lost)} lost, ` +
       `${Math.round(report.bytes / Math.max(1, report.packets))} B each`;
-    element('sight').textContent = { sees: 'Ada and Ben see each other', smoke: 'Smoke is between them',
-                                     wall: 'A wall is between them' }[answer];
+    element('sight').textContent = {
+      sees: 'Ada and Ben see each other',
+      smoke: 'Smoke is between them',
+      wall: 'A wall is between them'
+    }[answer];
     element('sight').className = `big ${answer === 'sees' ? 'good' : 'bad'}`;
   }
 

@@ -10,7 +10,8 @@ export function makeLetters() {
   canvas.width = canvas.height = TEXELS;
   const context = canvas.getContext('2d', { willReadFrequently: true });
   Object.assign(context, { font: FONT, textAlign: 'center', textBaseline: 'alphabetic', fillStyle: '#fff' });
-  const masks = [], widths = new Map([[' ', 0.36]]);
+  const masks = [],
+    widths = new Map([[' ', 0.36]]);
   [...GLYPHS].forEach(glyph => {
     context.clearRect(0, 0, TEXELS, TEXELS);
     context.fillText(glyph, TEXELS / 2, 50);
@@ -23,13 +24,17 @@ export function makeLetters() {
   /** [{mask, right}]: each letter's image and its place, in edges of an image, from the middle of the word. */
   function layout(word) {
     const letters = [...word.toUpperCase()].filter(glyph => widths.has(glyph));
-    const gap = 0.05, whole = letters.reduce((sum, glyph) => sum + widths.get(glyph) + gap, -gap);
+    const gap = 0.05,
+      whole = letters.reduce((sum, glyph) => sum + widths.get(glyph) + gap, -gap);
     let right = -whole / 2;
-    return letters.map(glyph => {
-      const width = widths.get(glyph), at = right + width / 2;
-      right += width + gap;
-      return { mask: [...GLYPHS].indexOf(glyph), right: at };
-    }).filter(letter => letter.mask >= 0);
+    return letters
+      .map(glyph => {
+        const width = widths.get(glyph),
+          at = right + width / 2;
+        right += width + gap;
+        return { mask: [...GLYPHS].indexOf(glyph), right: at };
+      })
+      .filter(letter => letter.mask >= 0);
   }
   return { masks, texels: TEXELS, layout };
 }

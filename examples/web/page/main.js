@@ -13,8 +13,9 @@ import { Smoke } from './smoke.js';
 import { View } from './view.js';
 
 const TAP_PIXELS = 7;
-const EYE = [-6.0, 1.45, 11.4], TARGET = [-0.5, 2.7, -0.6];
-const FIRST_THROW = { from: [-3.4, 1.8, 10], at: [-2.6, 0.4, -3], amount: 375 };  // through the front door
+const EYE = [-6.0, 1.45, 11.4],
+  TARGET = [-0.5, 2.7, -0.6];
+const FIRST_THROW = { from: [-3.4, 1.8, 10], at: [-2.6, 0.4, -3], amount: 375 }; // through the front door
 const settings = new URLSearchParams(location.search);
 
 function makeRenderer() {
@@ -26,7 +27,7 @@ function makeRenderer() {
   const renderer = new THREE.WebGLRenderer({ canvas, context: gl });
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
-  renderer.shadowMap.autoUpdate = false;  // the house stands still, but for its doors
+  renderer.shadowMap.autoUpdate = false; // the house stands still, but for its doors
   renderer.shadowMap.needsUpdate = true;
   renderer.autoClear = false;
   return renderer;
@@ -34,13 +35,17 @@ function makeRenderer() {
 
 class Page {
   static async open() {
-    const renderer = makeRenderer(), here = new URL('.', location.href).href;
+    const renderer = makeRenderer(),
+      here = new URL('.', location.href).href;
     const house = await loadHouse(new URL('scene.glb', here).href);
-    const page = new Page(renderer, house), letters = makeLetters();
+    const page = new Page(renderer, house),
+      letters = makeLetters();
     page.letters = letters;
     page.match = await Match.begin(
       { url: here, masks: letters.masks, texels: letters.texels, triangles: house.triangles, lamps: page.lamps },
-      reply => page.#take(reply), message => showMessage(message, true));
+      reply => page.#take(reply),
+      message => showMessage(message, true)
+    );
     if (settings.get('empty') === null) page.match.act({ kind: 'throw', ...FIRST_THROW });
     page.match.isPlaying = settings.get('paused') === null;
     return page;
@@ -52,11 +57,17 @@ class Page {
     this.views = this.smokes.map(smoke => new View(renderer, smoke));
     this.dummies = new Dummies(house.scene, document.getElementById('labels'));
     this.quality = new Quality(settings.get('quality'));
-    this.face = new Interface(DOORS.map(door => door.name), {
-      seek: tick => this.match.seek(tick),
-      setPlaying: isPlaying => { this.match.isPlaying = isPlaying; },
-      toggleDoor: door => this.match.act({ kind: 'door', door })
-    });
+    this.face = new Interface(
+      DOORS.map(door => door.name),
+      {
+        seek: tick => this.match.seek(tick),
+        restart: () => this.match.restart(),
+        setPlaying: isPlaying => {
+          this.match.isPlaying = isPlaying;
+        },
+        toggleDoor: door => this.match.act({ kind: 'door', door })
+      }
+    );
     this.leaves = DOORS.map(() => 0);
     this.#listen();
     this.before = performance.now();
@@ -70,17 +81,35 @@ class Page {
     this.answers = (this.answers ?? 0) + 1;
   }
 
-  #listen() {
-    const canvas = this.renderer.domElement, camera = this.views[HERE].camera;
-    camera.position.set(...EYE);
-    this.controls = new OrbitControls(camera, canvas);
-    this.controls.target.set(...TARGET);
-    Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, minDistance: 2, maxDistance: 26,
-                                   maxPolarAngle: 0.53 * Math.PI, rotateSpeed: 0.55, zoomToCursor: true });
-    this.controls.addEventListener('change', () => { this.hasMoved = true; });
+  /** Puts the camera where it begins, or elsewhere. */
+  lookFrom(eye = EYE, target = TARGET) {
+    this.views[HERE].camera.position.set(...eye);
+    this.controls.target.set(...target);
     this.controls.update();
+    this.hasMoved = true;
+  }
+
+  #listen() {
+    const canvas = this.renderer.domElement,
+      camera = this.views[HERE].camera;
+    this.controls = new OrbitControls(camera, canvas);
+    Object.assign(this.controls, {
+      enableDamping: true,
+      dampingFactor: 0.12,
+      minDistance: 2,
+      maxDistance: 26,
+      maxPolarAngle: 0.53 * Math.PI,
+      rotateSpeed: 0.55,
+      zoomToCursor: true
+    });
+    this.controls.addEventListener('change', () => {
+      this.hasMoved = true;
+    });
+    this.lookFrom();
     let down = null;
-    canvas.addEventListener('pointerdown', event => { down = event.isPrimary ? [event.clientX, event.clientY] : null; });
+    canvas.addEventListener('pointerdown', event => {
+      down = event.isPrimary ? [event.clientX, event.clientY] : null;
+    });
     canvas.addEventListener('pointerup', event => {
       if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < TAP_PIXELS)
         this.act(event.clientX, event.clientY);
@@ -99,16 +128,22 @@ class Page {
   /** The ray through a point of the window, to the first surface: {eye, direction, distance, normal}. */
   aim(x, y) {
     const area = this.areas.find(area => x >= area.x && x < area.x + area.width) ?? this.areas[0];
-    const at = new THREE.Vector2(2 * (x - area.x) / area.width - 1, 1 - 2 * (y - area.y) / area.height);
+    const at = new THREE.Vector2((2 * (x - area.x)) / area.width - 1, 1 - (2 * (y - area.y)) / area.height);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, this.views[HERE].camera);
     const hit = ray.intersectObject(this.house.root, true).find(found => found.object.visible);
     const normal = hit ? hit.face.normal.clone().transformDirection(hit.object.matrixWorld) : new THREE.Vector3();
-    return { eye: ray.ray.origin, direction: ray.ray.direction, distance: Math.min(hit?.distance ?? 24, 24), normal };
+    return {
+      eye: ray.ray.origin,
+      direction: ray.ray.direction,
+      distance: Math.min(hit?.distance ?? 24, 24),
+      normal
+    };
   }
 
   act(x, y) {
-    const { eye, direction, distance, normal } = this.aim(x, y), { camera } = this.views[HERE];
+    const { eye, direction, distance, normal } = this.aim(x, y),
+      { camera } = this.views[HERE];
     const ray = { eye: eye.toArray(), direction: direction.toArray(), distance };
     const at = eye.clone().addScaledVector(direction, distance).addScaledVector(normal, 0.3);
     const from = eye.clone().add(new THREE.Vector3(0.2, -0.25, 0).applyQuaternion(camera.quaternion));
@@ -117,7 +152,12 @@ class Page {
     const actions = {
       throw: { from: from.toArray(), at: at.toArray() },
       shoot: { from: from.toArray(), at: through.toArray() },
-      word: { ray, right: right.toArray(), letters: this.letters.layout(this.face.word), share: 0.62 * Math.min(1, camera.aspect) },
+      word: {
+        ray,
+        right: right.toArray(),
+        letters: this.letters.layout(this.face.word),
+        share: 0.62 * Math.min(1, camera.aspect)
+      },
       blast: { ray }
     };
     this.match.act({ kind: this.face.tool, ...actions[this.face.tool] });
@@ -129,13 +169,15 @@ class Page {
   #moveThings(seconds) {
     let hasMoved = false;
     this.house.setDoors.forEach((set, i) => {
-      const goal = this.match.shut[i] ? 1 : 0, t = this.leaves[i];
+      const goal = this.match.shut[i] ? 1 : 0,
+        t = this.leaves[i];
       if (t === goal) return;
       this.leaves[i] = goal > t ? Math.min(goal, t + 3 * seconds) : Math.max(goal, t - 3 * seconds);
       set(this.leaves[i]);
       hasMoved = this.renderer.shadowMap.needsUpdate = true;
     });
-    const { grenade } = this.house, flying = this.match.report?.flying ?? [];
+    const { grenade } = this.house,
+      flying = this.match.report?.flying ?? [];
     if (flying.length > 0 || grenade.visible) {
       grenade.visible = flying.length > 0;
       if (flying.length > 0) grenade.position.set(...flying.at(-1));
@@ -145,14 +187,19 @@ class Page {
   }
 
   #areas() {
-    const width = innerWidth, height = innerHeight;
+    const width = innerWidth,
+      height = innerHeight;
     if (!this.face.isSplit) return [{ x: 0, y: 0, width, height }];
     const half = Math.floor(width / 2);
-    return [{ x: 0, y: 0, width: half - 1, height }, { x: half + 1, y: 0, width: width - half - 1, height }];
+    return [
+      { x: 0, y: 0, width: half - 1, height },
+      { x: half + 1, y: 0, width: width - half - 1, height }
+    ];
   }
 
   #resize() {
-    const { step } = this.quality, ratio = Math.min(step.pixels, devicePixelRatio);
+    const { step } = this.quality,
+      ratio = Math.min(step.pixels, devicePixelRatio);
     this.areas = this.#areas();
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== innerWidth || size.y !== innerHeight || this.renderer.getPixelRatio() !== ratio) {
@@ -161,9 +208,15 @@ class Page {
       this.hasMoved = true;
     }
     this.areas.forEach((area, i) => {
-      const { camera } = this.views[i], aspect = area.width / area.height;
-      camera.fov = Math.min(82, Math.max(50, 360 / Math.PI * Math.atan(0.5 / aspect)));
-      this.views[i].resize(Math.max(2, Math.round(area.width * ratio)), Math.max(2, Math.round(area.height * ratio)), step.scale, step.samples);
+      const { camera } = this.views[i],
+        aspect = area.width / area.height;
+      camera.fov = Math.min(82, Math.max(50, (360 / Math.PI) * Math.atan(0.5 / aspect)));
+      this.views[i].resize(
+        Math.max(2, Math.round(area.width * ratio)),
+        Math.max(2, Math.round(area.height * ratio)),
+        step.scale,
+        step.samples
+      );
     });
   }
 
@@ -171,9 +224,15 @@ class Page {
     const seconds = THREE.MathUtils.clamp((now - this.before) / 1000, 0, 0.5);
     this.quality.note(1000 * seconds);
     this.before = now;
-    const { step } = this.quality, { isSplit, loss, asksDrawn } = this.face;
-    this.match.pass(seconds, { loss, asksDrawn, players: isSplit ? [HERE, THERE] : [HERE], eyes: this.dummies.eyes,
-                               quality: { lightFraction: step.lightFraction, lines: step.lines } });
+    const { step } = this.quality,
+      { isSplit, loss, asksDrawn } = this.face;
+    this.match.pass(seconds, {
+      loss,
+      asksDrawn,
+      players: isSplit ? [HERE, THERE] : [HERE],
+      eyes: this.dummies.eyes,
+      quality: { lightFraction: step.lightFraction, lines: step.lines }
+    });
     this.#resize();
     this.controls.update();
     const hasMoved = this.#moveThings(seconds) || this.hasMoved;
@@ -190,14 +249,20 @@ class Page {
   }
 
   #show() {
-    const { match, quality } = this, views = this.areas.map((_, i) => this.views[i]);
+    const { match, quality } = this,
+      views = this.areas.map((_, i) => this.views[i]);
     if (!match.report) return;
     const sum = pick => views.reduce((total, view) => total + pick(view), 0);
     this.face.showTime(match.tick, match.latest, match.isPlaying);
     this.face.showDoors(match.shut);
     this.face.showMatch(match.report, match.sight);
-    this.face.showCost({ samples: sum(view => view.samples), uploaded: sum(view => view.smoke.uploaded), simulated: this.simulated,
-                         frame: quality.milliseconds, quality: quality.step.name });
+    this.face.showCost({
+      samples: sum(view => view.samples),
+      uploaded: sum(view => view.smoke.uploaded),
+      simulated: this.simulated,
+      frame: quality.milliseconds,
+      quality: quality.step.name
+    });
   }
 
   run() {

@@ -1,7 +1,7 @@
 // The match as the page has it: requests to the worker, one at a time, and what its last answer said.
 import { TICKS_PER_SECOND } from './simulation.js';
 
-const MOST_TICKS = 24;  // of one answer: where it takes longer, time passes slowly
+const MOST_TICKS = 24; // of one answer: where it takes longer, time passes slowly
 
 export class Match {
   /** `create`: what the worker begins with. `took(reply)` hears every answer, `failed(message)` an error. */
@@ -15,7 +15,17 @@ export class Match {
   }
 
   constructor(took, failed) {
-    Object.assign(this, { took, failed, actions: [], isBusy: false, isPlaying: true, exact: 0, tick: 0, latest: 0, shut: [] });
+    Object.assign(this, {
+      took,
+      failed,
+      actions: [],
+      isBusy: false,
+      isPlaying: true,
+      exact: 0,
+      tick: 0,
+      latest: 0,
+      shut: []
+    });
     this.worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
     this.worker.onmessage = ({ data }) => this.#hear(data);
     this.worker.onerror = event => failed(event.message ?? 'The simulation did not load.');
@@ -25,7 +35,13 @@ export class Match {
     if (data.error) return this.failed(data.error);
     if (data.isReady) return this.ready();
     this.isBusy = false;
-    Object.assign(this, { tick: data.tick, latest: data.latest, shut: data.shut, report: data.report, sight: data.sight });
+    Object.assign(this, {
+      tick: data.tick,
+      latest: data.latest,
+      shut: data.shut,
+      report: data.report,
+      sight: data.sight
+    });
     this.took(data);
   }
 
@@ -33,6 +49,12 @@ export class Match {
   act(action) {
     this.actions.push(action);
     this.isPlaying = true;
+  }
+
+  /** From the first tick, without any event. */
+  restart() {
+    this.act({ kind: 'clear' });
+    this.exact = 0;
   }
 
   seek(tick) {

@@ -6,7 +6,8 @@ const STEPS = [
   { name: 'high', pixels: 1.25, scale: 0.5, samples: 4, stepScale: 1.2, lightFraction: 1 / 12, lines: 3000 },
   { name: 'highest', pixels: 2, scale: 0.5, samples: 4, stepScale: 1, lightFraction: 1 / 8, lines: 3000 }
 ];
-const SLOW = 26, FAST = 18.5;  // milliseconds
+const SLOW = 26,
+  FAST = 18.5; // milliseconds
 
 export class Quality {
   /** `fixed`: the name of a step that stays, or null. */
@@ -18,7 +19,9 @@ export class Quality {
     this.patience = 120;
   }
 
-  get step() { return STEPS[this.at]; }
+  get step() {
+    return STEPS[this.at];
+  }
 
   /** Takes the time since the frame before. */
   note(milliseconds) {
@@ -28,7 +31,7 @@ export class Quality {
     if (this.milliseconds > SLOW && this.since > 12 && this.at > 0) {
       this.at -= 1;
       this.since = 0;
-      this.patience = Math.min(2 * this.patience, 4000);  // it was on trial: the next comes later
+      this.patience = Math.min(2 * this.patience, 4000); // it was on trial: the next comes later
     } else if (this.milliseconds < FAST && this.since > this.patience && this.at + 1 < STEPS.length) {
       this.at += 1;
       this.since = 0;

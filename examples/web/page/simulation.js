@@ -1,9 +1,10 @@
 // The module of the simulation: its functions with arrays of JavaScript. Every failure is an Error with its reason.
 import createModule from './brume_web.js';
 
-export const HERE = 0, THERE = 1;
+export const HERE = 0,
+  THERE = 1;
 export const TICKS_PER_SECOND = 64;
-const TEXTURES = 11;  // BRUME_TEXTURE_COUNT
+const TEXTURES = 11; // BRUME_TEXTURE_COUNT
 
 export class Simulation {
   static async load(url) {
@@ -39,7 +40,9 @@ export class Simulation {
   /** `level`: {points, indices} of its triangles, and {origin, voxel, size} of its voxels. */
   create({ points, indices, origin, voxel, size }) {
     const kept = [points, indices, new Float32Array(origin), new Int32Array(size)].map(array => this.#kept(array));
-    this.#checked(this.module._web_create(kept[0], points.length / 3, kept[1], indices.length, kept[2], voxel, kept[3]));
+    this.#checked(
+      this.module._web_create(kept[0], points.length / 3, kept[1], indices.length, kept[2], voxel, kept[3])
+    );
     kept.forEach(at => this.module._free(at));
   }
 
@@ -61,21 +64,36 @@ export class Simulation {
     this.#checked(this.module._web_edit(this.scratch, this.scratch + 16, solid ? 1 : 0));
   }
 
+  clear() {
+    this.#checked(this.module._web_clear());
+  }
+
   goTo(tick, loss) {
     this.#checked(this.module._web_go_to(tick, loss));
   }
 
   /** Ticks, hashes and counts: web_report of brume_web.h. */
   report() {
-    const at = this.module._web_report_of() >> 2, words = this.module.HEAPU32;
-    const wide = (low, high) => words[at + high].toString(16).padStart(8, '0') + words[at + low].toString(16).padStart(8, '0');
+    const at = this.module._web_report_of() >> 2,
+      words = this.module.HEAPU32;
+    const wide = (low, high) =>
+      words[at + high].toString(16).padStart(8, '0') + words[at + low].toString(16).padStart(8, '0');
     const [packets, lost, answers, bytes, clouds, holes, blasts, grenades] = words.subarray(at + 8, at + 16);
     const flying = [];
     for (let i = 0; i < grenades; ++i)
       flying.push([...this.module.HEAPF32.subarray(at + 16 + 3 * i, at + 19 + 3 * i)]);
     return {
-      ticks: [words[at], words[at + 1]], hashes: [wide(2, 4), wide(3, 5)], serverThen: wide(6, 7),
-      packets, lost, answers, bytes, clouds, holes, blasts, flying
+      ticks: [words[at], words[at + 1]],
+      hashes: [wide(2, 4), wide(3, 5)],
+      serverThen: wide(6, 7),
+      packets,
+      lost,
+      answers,
+      bytes,
+      clouds,
+      holes,
+      blasts,
+      flying
     };
   }
 
@@ -90,16 +108,22 @@ export class Simulation {
   update(player, seconds, lightFraction) {
     const { module } = this;
     this.#checked(module._web_update(player, seconds, lightFraction));
-    const words = module.HEAPU32, list = module._web_texture_list() >> 2, regions = module._web_regions() >> 2;
+    const words = module.HEAPU32,
+      list = module._web_texture_list() >> 2,
+      regions = module._web_regions() >> 2;
     const textures = Array.from({ length: TEXTURES }, (_, i) => {
       const [format, width, height, depth, generation] = words.subarray(list + 5 * i, list + 5 * i + 5);
       return { format, width, height, depth, generation };
     });
     const constants = module._web_constants() >> 2;
     return {
-      textures, constants: module.HEAPF32.subarray(constants, constants + 40),
+      textures,
+      constants: module.HEAPF32.subarray(constants, constants + 40),
       regions: Array.from({ length: module._web_region_count() }, (_, i) => {
-        const [texture, x, y, z, width, height, depth, , at, bytes] = words.subarray(regions + 10 * i, regions + 10 * i + 10);
+        const [texture, x, y, z, width, height, depth, , at, bytes] = words.subarray(
+          regions + 10 * i,
+          regions + 10 * i + 10
+        );
         return { texture, x, y, z, width, height, depth, at, bytes };
       })
     };
@@ -117,7 +141,8 @@ export class Simulation {
   }
 
   addLight({ position, towards, color: given, direction = [0, -1, 0], inner = -2, outer = -2 }) {
-    const square = position.reduce((sum, p) => sum + p * p, 0), color = given.map(c => towards ? c * square : c);
+    const square = position.reduce((sum, p) => sum + p * p, 0),
+      color = given.map(c => (towards ? c * square : c));
     this.#checked(this.module._web_add_light(...this.#points(position, color, direction), inner, outer));
   }
 
@@ -125,7 +150,8 @@ export class Simulation {
   light(player, lines) {
     const changed = this.module._web_light(player, lines);
     if (changed < 0) this.#checked(changed);
-    const size = this.lightSize(), at = this.module._web_light_texels(player);
+    const size = this.lightSize(),
+      at = this.module._web_light_texels(player);
     return this.module.HEAPU8.subarray(at, at + 4 * size[0] * size[1] * size[2]);
   }
 

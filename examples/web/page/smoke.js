@@ -5,24 +5,37 @@ import SMOKE from './smoke.glsl';
 import MARCH from './smoke_march.glsl';
 import { LEVEL } from './level.js';
 
-const ALBEDO = [0.90, 0.91, 0.93], ANISOTROPY = 0.3, AMBIENT = [0.0075, 0.0115, 0.0210];
+const ALBEDO = [0.9, 0.91, 0.93],
+  ANISOTROPY = 0.3,
+  AMBIENT = [0.0075, 0.0115, 0.021];
 const LAMPS = 15;
 
 // What WebGL calls brume_texture_format: internal format, format, type, and the array of its texels.
 const FORMATS = [
   null,
-  ['R8', 'RED', 'UNSIGNED_BYTE', Uint8Array], ['RG8', 'RG', 'UNSIGNED_BYTE', Uint8Array],
-  ['RGBA8', 'RGBA', 'UNSIGNED_BYTE', Uint8Array], ['RGBA16F', 'RGBA', 'HALF_FLOAT', Uint16Array],
-  ['RGBA32F', 'RGBA', 'FLOAT', Float32Array], ['R16UI', 'RED_INTEGER', 'UNSIGNED_SHORT', Uint16Array],
-  ['R32UI', 'RED_INTEGER', 'UNSIGNED_INT', Uint32Array], ['RG32UI', 'RG_INTEGER', 'UNSIGNED_INT', Uint32Array],
+  ['R8', 'RED', 'UNSIGNED_BYTE', Uint8Array],
+  ['RG8', 'RG', 'UNSIGNED_BYTE', Uint8Array],
+  ['RGBA8', 'RGBA', 'UNSIGNED_BYTE', Uint8Array],
+  ['RGBA16F', 'RGBA', 'HALF_FLOAT', Uint16Array],
+  ['RGBA32F', 'RGBA', 'FLOAT', Float32Array],
+  ['R16UI', 'RED_INTEGER', 'UNSIGNED_SHORT', Uint16Array],
+  ['R32UI', 'RED_INTEGER', 'UNSIGNED_INT', Uint32Array],
+  ['RG32UI', 'RG_INTEGER', 'UNSIGNED_INT', Uint32Array],
   ['RGBA32UI', 'RGBA_INTEGER', 'UNSIGNED_INT', Uint32Array]
 ];
 // brume_texture_kind: name in the shader, whether it is flat, filtered, repeats.
 const KINDS = [
-  ['brume_density', false, true], ['brume_displacement', false, true], ['brume_pages', false, false],
-  ['brume_cells', false, false], ['brume_boundary', true, false], ['brume_corners', true, false],
-  ['brume_holes', true, false], ['brume_masks', true, true], ['brume_noise', false, true, true],
-  ['brume_detail', false, true, true], ['brume_light_volume', false, true]
+  ['brume_density', false, true],
+  ['brume_displacement', false, true],
+  ['brume_pages', false, false],
+  ['brume_cells', false, false],
+  ['brume_boundary', true, false],
+  ['brume_corners', true, false],
+  ['brume_holes', true, false],
+  ['brume_masks', true, true],
+  ['brume_noise', false, true, true],
+  ['brume_detail', false, true, true],
+  ['brume_light_volume', false, true]
 ].map(([name, isFlat, isLinear, repeats = false]) => ({ name, isFlat, isLinear, repeats }));
 
 /** The textures of one player's smoke, on the device. */
@@ -36,12 +49,15 @@ class Textures {
   }
 
   #make(kind, { format, width, height, depth }) {
-    const { gl, renderer } = this, { isFlat, isLinear, repeats } = KINDS[kind];
+    const { gl, renderer } = this,
+      { isFlat, isLinear, repeats } = KINDS[kind];
     const properties = renderer.properties.get(this.handles[kind]);
     if (properties.__webglTexture) gl.deleteTexture(properties.__webglTexture);
-    const texture = gl.createTexture(), target = isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
+    const texture = gl.createTexture(),
+      target = isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
     renderer.state.bindTexture(target, texture);
-    const levels = repeats ? Math.floor(Math.log2(width)) + 1 : 1, internal = gl[FORMATS[format][0]];
+    const levels = repeats ? Math.floor(Math.log2(width)) + 1 : 1,
+      internal = gl[FORMATS[format][0]];
     if (isFlat) gl.texStorage2D(target, levels, internal, width, height);
     else gl.texStorage3D(target, levels, internal, width, height, depth);
     const filter = isLinear ? gl.LINEAR : gl.NEAREST;
@@ -66,7 +82,8 @@ class Textures {
     });
     let uploaded = 0;
     for (const { texture: kind, x, y, z, width, height, depth, at, bytes } of regions) {
-      const [, format, type, Texels] = FORMATS[textures[kind].format], target = KINDS[kind].isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
+      const [, format, type, Texels] = FORMATS[textures[kind].format],
+        target = KINDS[kind].isFlat ? gl.TEXTURE_2D : gl.TEXTURE_3D;
       const texels = new Texels(memory, at, bytes / Texels.BYTES_PER_ELEMENT);
       renderer.state.bindTexture(target, this.handles[kind].sourceTexture);
       if (KINDS[kind].isFlat) gl.texSubImage2D(target, 0, x, y, width, height, gl[format], gl[type], texels);
@@ -81,13 +98,19 @@ class Textures {
 
 /** Uniforms of the lamps, as lampsOf has them. */
 function lampUniforms(lamps) {
-  const rows = pick => Array.from({ length: LAMPS }, (_, i) => i < lamps.length ? pick(lamps[i]) : new THREE.Vector4());
+  const rows = pick =>
+    Array.from({ length: LAMPS }, (_, i) => (i < lamps.length ? pick(lamps[i]) : new THREE.Vector4()));
   return {
-    lamp_at: { value: rows(lamp => new THREE.Vector4(...(lamp.towards ?? lamp.position), lamp.towards ? 2 : lamp.direction ? 1 : 0)) },
+    lamp_at: {
+      value: rows(
+        lamp => new THREE.Vector4(...(lamp.towards ?? lamp.position), lamp.towards ? 2 : lamp.direction ? 1 : 0)
+      )
+    },
     lamp_intensity: { value: rows(lamp => new THREE.Vector4(...lamp.color, 0)) },
     lamp_cone: { value: rows(lamp => new THREE.Vector4(...(lamp.direction ?? [0, 0, 0]), lamp.outer ?? 0)) },
     lamp_inner: { value: Float32Array.from({ length: LAMPS }, (_, i) => lamps[i]?.inner ?? 0) },
-    lamp_list: { value: new Int32Array(LAMPS) }, lamp_count: { value: 0 }
+    lamp_list: { value: new Int32Array(LAMPS) },
+    lamp_count: { value: 0 }
   };
 }
 
@@ -101,10 +124,13 @@ export class Smoke {
     this.left.needsUpdate = true;
     this.uploaded = 0;
     this.uniforms = {
-      ...this.textures.uniforms, ...lampUniforms(lamps),
+      ...this.textures.uniforms,
+      ...lampUniforms(lamps),
       brume_constants: { value: new Float32Array(40) },
-      albedo: { value: new THREE.Vector4(...ALBEDO, ANISOTROPY) }, ambient: { value: new THREE.Vector4(...AMBIENT, 0.3) },
-      light_left: { value: this.left }, light_origin: { value: new THREE.Vector3(...LEVEL.origin) },
+      albedo: { value: new THREE.Vector4(...ALBEDO, ANISOTROPY) },
+      ambient: { value: new THREE.Vector4(...AMBIENT, 0.3) },
+      light_left: { value: this.left },
+      light_origin: { value: new THREE.Vector3(...LEVEL.origin) },
       light_extent: { value: new THREE.Vector3(...size).multiplyScalar(2 * LEVEL.voxel) }
     };
   }
@@ -140,7 +166,7 @@ export class Smoke {
       return peak / Math.max(square, 1);
     });
     const most = Math.max(...brightness);
-    const chosen = brightness.flatMap((value, i) => value > 0.02 * most ? [i] : []);
+    const chosen = brightness.flatMap((value, i) => (value > 0.02 * most ? [i] : []));
     this.uniforms.lamp_list.value.set(chosen);
     this.uniforms.lamp_count.value = chosen.length;
   }
@@ -148,7 +174,9 @@ export class Smoke {
   /** Samples of a ray at most. */
   get samplesOfRay() {
     const constants = this.uniforms.brume_constants.value;
-    return this.isThere ? Math.hypot(...[0, 1, 2].map(i => constants[20 + i] - constants[16 + i])) / constants[19] : 0;
+    return this.isThere
+      ? Math.hypot(...[0, 1, 2].map(i => constants[20 + i] - constants[16 + i])) / constants[19]
+      : 0;
   }
 }
 

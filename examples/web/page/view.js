@@ -1,9 +1,11 @@
-// A player's picture: the house in half floats with its depth, the smoke at a lower resolution, both joined, bloom, tone.
+// A player's picture: the house in half floats with its depth, the smoke at a lower resolution, both joined, bloom
+// and tone.
 import * as THREE from 'three';
 import { SMOKE_SHADER, SURFACE_SHADER } from './smoke.js';
 
-const VERTEX = 'out vec2 uv; void main() { uv = position.xy * 0.5 + 0.5; gl_Position = vec4(position.xy, 0.0, 1.0); }';
-const EXPOSURE = 3.7;  // 2^1.9, of scenes/demo.toml
+const VERTEX =
+  'out vec2 uv; void main() { uv = position.xy * 0.5 + 0.5; gl_Position = vec4(position.xy, 0.0, 1.0); }';
+const EXPOSURE = 3.7; // 2^1.9, of scenes/demo.toml
 
 const HEAD = `precision highp float;
 precision highp int;
@@ -24,7 +26,8 @@ uniform float pixel_width;
 void main() {
   vec3 surface = world_at(uv, textureLod(depth_map, uv, 0.0).r);
   float distance_to_surface = length(surface - eye);
-  color = brume_march(eye, (surface - eye) / distance_to_surface, distance_to_surface, jitter_of(gl_FragCoord.xy), pixel_width);
+  vec3 direction = (surface - eye) / distance_to_surface;
+  color = brume_march(eye, direction, distance_to_surface, jitter_of(gl_FragCoord.xy), pixel_width);
 }`;
 
 // Smoke between its own pixels: those whose surface is as far as this pixel's count most.
@@ -50,7 +53,9 @@ void main() {
   vec3 behind = textureLod(opaque, uv, 0.0).rgb;
   if (depth < 1.0) {
     vec3 surface = world_at(uv, depth);
-    behind *= mix(vec3(1.0), light_left_at(surface + 0.3 * normalize(eye - surface)), clamp(2.0 - 0.25 * max(behind.r, max(behind.g, behind.b)), 0.0, 1.0));
+    vec3 left = light_left_at(surface + 0.3 * normalize(eye - surface));
+    float glows = clamp(0.25 * max(behind.r, max(behind.g, behind.b)) - 1.0, 0.0, 1.0);
+    behind *= mix(left, vec3(1.0), glows);
   }
   color = vec4(smoke.rgb + smoke.a * behind, 1.0);
 }`;
@@ -80,7 +85,8 @@ const SHOW = `precision highp float; in vec2 uv; out vec4 color; uniform sampler
 vec3 tone(vec3 x) {  // Hill's fit of the ACES curves
   x = mat3(0.59719, 0.076, 0.0284, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777) * x;
   x = (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081);
-  return clamp(mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602) * x, 0.0, 1.0);
+  x = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602) * x;
+  return clamp(x, 0.0, 1.0);
 }
 void main() {
   vec3 x = textureLod(source, uv, 0.0).rgb;
@@ -95,12 +101,23 @@ void main() {
 const LEVELS = 5;
 
 function pass(fragmentShader, uniforms) {
-  return new THREE.RawShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader: `in vec3 position; ${VERTEX}`, fragmentShader,
-                                       uniforms, depthTest: false, depthWrite: false });
+  return new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3,
+    vertexShader: `in vec3 position; ${VERTEX}`,
+    fragmentShader,
+    uniforms,
+    depthTest: false,
+    depthWrite: false
+  });
 }
 
 function halfTarget(filter = THREE.LinearFilter) {
-  return new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, minFilter: filter, magFilter: filter, depthBuffer: false });
+  return new THREE.WebGLRenderTarget(1, 1, {
+    type: THREE.HalfFloatType,
+    minFilter: filter,
+    magFilter: filter,
+    depthBuffer: false
+  });
 }
 
 export class View {
@@ -113,15 +130,31 @@ export class View {
     this.joined = halfTarget();
     this.glows = Array.from({ length: LEVELS }, () => halfTarget());
     this.grown = Array.from({ length: LEVELS - 1 }, () => halfTarget());
-    this.frame = { depth_map: { value: this.opaque.depthTexture }, to_world: { value: new THREE.Matrix4() }, eye: { value: new THREE.Vector3() } };
+    this.frame = {
+      depth_map: { value: this.opaque.depthTexture },
+      to_world: { value: new THREE.Matrix4() },
+      eye: { value: new THREE.Vector3() }
+    };
     this.marching = pass(MARCH, { ...smoke.uniforms, ...this.frame, pixel_width: { value: 0.001 } });
-    this.joining = pass(JOIN, { ...smoke.uniforms, ...this.frame, opaque: { value: this.opaque.texture },
-                                smoke_map: { value: this.march.texture }, planes: { value: new THREE.Vector2(0.1, 400) } });
+    this.joining = pass(JOIN, {
+      ...smoke.uniforms,
+      ...this.frame,
+      opaque: { value: this.opaque.texture },
+      smoke_map: { value: this.march.texture },
+      planes: { value: new THREE.Vector2(0.1, 400) }
+    });
     this.shrinking = pass(SHRINK, { source: { value: null }, first: { value: 0 } });
     this.growing = pass(GROW, { source: { value: null }, smaller: { value: null }, share: { value: 0.62 } });
-    this.showing = pass(SHOW, { source: { value: this.joined.texture }, glow: { value: this.grown[0].texture }, exposure: { value: EXPOSURE } });
+    this.showing = pass(SHOW, {
+      source: { value: this.joined.texture },
+      glow: { value: this.grown[0].texture },
+      exposure: { value: EXPOSURE }
+    });
     this.triangle = new THREE.Mesh(new THREE.BufferGeometry(), this.marching);
-    this.triangle.geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
+    this.triangle.geometry.setAttribute(
+      'position',
+      new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3)
+    );
     this.triangle.frustumCulled = false;
     this.plain = new THREE.Scene().add(this.triangle);
     this.flat = new THREE.Camera();
@@ -140,7 +173,9 @@ export class View {
     this.opaque.setSize(width, height);
     this.joined.setSize(width, height);
     this.march.setSize(Math.ceil(width * scale), Math.ceil(height * scale));
-    this.glows.forEach((target, i) => target.setSize(Math.max(1, width >> i + 1), Math.max(1, height >> i + 1)));
+    this.glows.forEach((target, i) =>
+      target.setSize(Math.max(1, width >> (i + 1)), Math.max(1, height >> (i + 1)))
+    );
     this.grown.forEach((target, i) => target.setSize(this.glows[i].width, this.glows[i].height));
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -165,7 +200,7 @@ export class View {
     camera.updateMatrixWorld();
     this.frame.to_world.value.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
     this.frame.eye.value.setFromMatrixPosition(camera.matrixWorld);
-    this.marching.uniforms.pixel_width.value = 2 * Math.tan(camera.fov * Math.PI / 360) / this.march.height;
+    this.marching.uniforms.pixel_width.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.march.height;
     if (this.smoke.isThere) {
       this.#draw(this.marching, this.march);
     } else {

@@ -1,9 +1,13 @@
-// The match in a thread of its own, so that pictures need not wait for it. A message is {create} once, then a request of
+// The match in a thread of its own, so that pictures need not wait for it. A message is {create} once, then requests of
 // {tick, loss, actions, players, seconds, quality, eyes, asksDrawn}; each has one answer.
 import { DOORS, LEVEL } from './level.js';
 import { HERE, Simulation } from './simulation.js';
 
-let simulation, tick = 0, latest = 0, doorEvents = [], shut = DOORS.map(() => false);
+let simulation,
+  tick = 0,
+  latest = 0,
+  doorEvents = [],
+  shut = DOORS.map(() => false);
 
 const along = (from, direction, t) => from.map((p, i) => p + t * direction[i]);
 
@@ -25,19 +29,32 @@ const ACTIONS = {
   throw: ({ from, at, amount = 260 }) => simulation.throwSmoke(from, at, amount, 2.4),
   shoot: ({ from, at }) => simulation.shoot(from, at, 0.17, 1.6),
   blast: ({ ray }) => simulation.blast(along(ray.eye, ray.direction, intoSmoke(ray)), 3.2),
-  // Letters side by side, as large as fits into a width that grows with the distance.
+  // Letters side by side, as large as fits into a width that grows with the distance; all from the eye, for which they
+  // are open.
   word: ({ ray, right, letters, share }) => {
-    const widest = Math.max(3, 2 * Math.max(...letters.map(letter => Math.abs(letter.right))) + 1);
-    const edge = Math.min(1.5, share * intoSmoke(ray) / widest);
+    const depth = intoSmoke(ray),
+      widest = Math.max(3, 2 * Math.max(...letters.map(letter => Math.abs(letter.right))) + 1);
+    const edge = Math.min(1.6, (share * depth) / widest);
     for (const { mask, right: aside } of letters) {
-      const from = along(ray.eye, right, edge * aside);
-      simulation.shoot(from, along(from, ray.direction, 30), edge / 2, 6, mask);
+      const place = along(along(ray.eye, ray.direction, depth), right, edge * aside);
+      simulation.shoot(
+        ray.eye,
+        ray.eye.map((p, i) => p + 4 * (place[i] - p)),
+        edge / 2,
+        6,
+        mask
+      );
     }
   },
   door: ({ door }) => {
     const solid = !shutAt(tick + 1)[door];
     simulation.edit(DOORS[door].low, DOORS[door].high, solid);
     doorEvents = [...doorEvents, { tick: tick + 1, door, solid }].sort((a, b) => a.tick - b.tick);
+  },
+  clear: () => {
+    simulation.clear();
+    doorEvents = [];
+    latest = 0;
   }
 };
 
@@ -63,12 +80,12 @@ function goTo(wanted, loss) {
 /** What a player sees, copied out of the module's memory. */
 function seenBy(player, seconds, { lightFraction, lines }) {
   const { textures, regions, constants } = simulation.update(player, seconds, lightFraction);
-  const copy = new Uint8Array(regions.reduce((sum, region) => sum + (region.bytes + 15 & ~15), 0));
+  const copy = new Uint8Array(regions.reduce((sum, region) => sum + ((region.bytes + 15) & ~15), 0));
   let at = 0;
   for (const region of regions) {
     copy.set(simulation.module.HEAPU8.subarray(region.at, region.at + region.bytes), at);
     region.at = at;
-    at += region.bytes + 15 & ~15;
+    at += (region.bytes + 15) & ~15;
   }
   const left = simulation.light(player, lines).slice();
   return { player, textures, regions, texels: copy.buffer, constants: constants.slice(), left };
@@ -92,7 +109,10 @@ onmessage = async ({ data }) => {
       return;
     }
     const reply = answer(data);
-    postMessage(reply, reply.seen.flatMap(({ texels, left }) => [texels, left.buffer]));
+    postMessage(
+      reply,
+      reply.seen.flatMap(({ texels, left }) => [texels, left.buffer])
+    );
   } catch (error) {
     postMessage({ error: error.message });
   }
