@@ -68,37 +68,10 @@ std::string why_empty(const scene::Scene& scene) {
                    : "no voxel is solid: smoke passes all objects, which are grilles or ghosts";
 }
 
-void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
-  check_options(options);
-  const Stopwatch watch;
-  // Declare all files before any work.
-  expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
-  outputs.reads(to_path(options.scene));
-  outputs.writes("-o", to_path(options.output), FileKind::vxl);
-  outputs.writes("--obj", to_path(options.obj), FileKind::obj);
-  outputs.writes("--json", to_path(options.json), FileKind::json);
-
-  // Load the scene, and voxelize it unless the file is up to date.
-  scene::Scene scene =
-      scene::load_scene(to_path(options.scene), false, scene::ImageUse::roles).value_or_throw();
-  if (options.scale) {
-    scenario::scale_scene(scene, static_cast<float>(*options.scale));
-  } else {
-    warn_of_units(options.scene, scene::world_bounds(scene));
-  }
-  outputs.reads(scene.files);
-  stop_if_interrupted();
-  const voxel::GridLayout frame = choose_frame(options, scene);
-  const scenario::Voxels voxels =
-      scenario::load_or_voxelize(scene, frame, to_path(options.output)).value_or_throw();
-  if (voxels.cached) outputs.up_to_date(to_path(options.output));
-  stop_if_interrupted();
-  if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, to_path(options.obj)).value_or_throw();
-
-  // Report.
+/// What became of the scene, as JSON or in words.
+void report(const VoxelizeOptions& options, const scenario::Voxels& voxels, const voxel::GridLayout& frame,
+            double seconds) {
   const std::uint64_t solid = voxels.grid.count_solid();
-  if (solid == 0) log_warning(why_empty(scene));
-  const double seconds = watch.seconds();
   const voxel::Solids solids = voxels.solids();
   const std::uint64_t glass = solid - (voxels.roles.sight ? solids.sight.count_solid() : solid),
                       grilles = (voxels.roles.bodies ? solids.bodies.count_solid() : solid) - solid;
@@ -127,6 +100,37 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   std::snprintf(text, sizeof text, "%llu of them are glass; %llu other voxels are grilles\n",
                 static_cast<unsigned long long>(glass), static_cast<unsigned long long>(grilles));
   print(text);
+}
+
+void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
+  check_options(options);
+  const Stopwatch watch;
+  // Declare all files before any work.
+  expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
+  outputs.reads(to_path(options.scene));
+  outputs.writes("-o", to_path(options.output), FileKind::vxl);
+  outputs.writes("--obj", to_path(options.obj), FileKind::obj);
+  outputs.writes("--json", to_path(options.json), FileKind::json);
+
+  // Load the scene, and voxelize it unless the file is up to date.
+  scene::Scene scene =
+      scene::load_scene(to_path(options.scene), false, scene::ImageUse::roles).value_or_throw();
+  if (options.scale) {
+    scenario::scale_scene(scene, static_cast<float>(*options.scale));
+  } else {
+    warn_of_units(options.scene, scene::world_bounds(scene));
+  }
+  outputs.reads(scene.files);
+  stop_if_interrupted();
+  const voxel::GridLayout frame = choose_frame(options, scene);
+  const scenario::Voxels voxels =
+      scenario::load_or_voxelize(scene, frame, to_path(options.output)).value_or_throw();
+  if (voxels.cached) outputs.up_to_date(to_path(options.output));
+  stop_if_interrupted();
+  if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, to_path(options.obj)).value_or_throw();
+
+  if (voxels.grid.count_solid() == 0) log_warning(why_empty(scene));
+  report(options, voxels, frame, watch.seconds());
 }
 
 }  // namespace

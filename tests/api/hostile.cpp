@@ -47,6 +47,7 @@ Hostile::~Hostile() {
   destroy_all(levels_, brume_level_destroy);
   destroy_all(masks_, brume_masks_destroy);
   destroy_all(fields_, brume_field_destroy);
+  destroy_all(textures_, brume_textures_destroy);
   destroy_all(worlds_, brume_world_destroy);
   destroy_all(senders_, brume_sender_destroy);
   destroy_all(receivers_, brume_receiver_destroy);

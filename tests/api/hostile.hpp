@@ -2,7 +2,7 @@
 // handle, not a handle at all, structs of other sizes, NaN, numbers out of range, damaged bytes.
 #pragma once
 
-#include <brume/brume.h>
+#include <brume/brume_textures.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -137,6 +137,11 @@ class Hostile {
   void field_update();
   void field_query();
   void field_destroy();
+  void textures_create();
+  void textures_update();
+  void textures_read();
+  void textures_destroy();
+  void defaults();
 
   std::mt19937 random_;
   std::uint64_t calls_ = 0, logged_ = 0;
@@ -149,6 +154,7 @@ class Hostile {
   Pool<brume_sender> senders_;
   Pool<brume_receiver> receivers_;
   Pool<brume_field> fields_;
+  Pool<brume_textures> textures_;
   std::vector<std::vector<std::uint8_t>> packets_;
   alignas(64) std::array<unsigned char, 4096> garbage_;
   std::vector<std::uint8_t> bits_;

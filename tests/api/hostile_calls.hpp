@@ -21,7 +21,7 @@ T* Hostile::wrong_handle() {
   const auto other = [](const auto& list) {
     return list.empty() ? nullptr : reinterpret_cast<T*>(static_cast<void*>(list.front()));
   };
-  switch (below(12)) {
+  switch (below(13)) {
     case 0:
       return other(contexts_);
     case 1:
@@ -42,6 +42,8 @@ T* Hostile::wrong_handle() {
       return reinterpret_cast<T*>(garbage_.data() + 64 * below(32));
     case 9:
       return reinterpret_cast<T*>(garbage_.data() + below(2000));
+    case 10:
+      return other(textures_);
     default:
       return nullptr;
   }

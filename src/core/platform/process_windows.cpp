@@ -7,7 +7,7 @@
 namespace brume::platform {
 namespace {
 
-/// Of any path.
+/// The length of the longest path.
 constexpr DWORD kMostPath = 32768;
 
 }  // namespace

@@ -7,6 +7,7 @@
 namespace brume::platform {
 
 int to_errno(unsigned long error) {
+  // What Windows distinguishes and callers do not is one errno.
   switch (error) {
     case ERROR_FILE_NOT_FOUND:
     case ERROR_PATH_NOT_FOUND:
