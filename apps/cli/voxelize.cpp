@@ -71,6 +71,7 @@ std::string why_empty(const scene::Scene& scene) {
 /// What became of the scene, as JSON or in words.
 void report(const VoxelizeOptions& options, const scenario::Voxels& voxels, const voxel::GridLayout& frame,
             double seconds) {
+  // Glass and grilles are what grids of other roles have and lack.
   const std::uint64_t solid = voxels.grid.count_solid();
   const voxel::Solids solids = voxels.solids();
   const std::uint64_t glass = solid - (voxels.roles.sight ? solids.sight.count_solid() : solid),
@@ -90,6 +91,7 @@ void report(const VoxelizeOptions& options, const scenario::Voxels& voxels, cons
                 {"origin", Json::list({frame.origin_world.x, frame.origin_world.y, frame.origin_world.z})}});
   }
   if (options.json == "-") return;
+  // In words.
   char text[200];
   std::snprintf(text, sizeof text, "%llu triangles, %llu solid voxels of %dx%dx%d, %s in %.3g s\n",
                 static_cast<unsigned long long>(voxels.triangles), static_cast<unsigned long long>(solid),
