@@ -102,6 +102,9 @@ class Hostile {
   template <typename Call>
   void read_box(const char* function, Call call);
 
+  template <typename Params>
+  void write_defaults(const char* function, brume_result (*call)(Params*, std::uint32_t) BRUME_NOEXCEPT);
+
   // Calls.
   void general();
   void context_create();

@@ -162,4 +162,17 @@ void Hostile::read_box(const char* function, Call call) {
   checked(function, result, out.front() == Output<int>::kPattern);
 }
 
+/// Defaults for structs of any size: what is behind them stays.
+template <typename Params>
+void Hostile::write_defaults(const char* function,
+                             brume_result (*call)(Params*, std::uint32_t) BRUME_NOEXCEPT) {
+  alignas(Params) std::array<unsigned char, 2048> bytes;
+  bytes.fill(Output<int>::kPattern);
+  const std::uint32_t size = chance(0.8) ? sizeof(Params) : number(500);
+  auto* const params = chance(0.03) ? nullptr : reinterpret_cast<Params*>(bytes.data());
+  if (size >= bytes.size() && size <= 4096) return;  // it would be written
+  const bool written = checked(function, call(params, size), bytes[0] == Output<int>::kPattern);
+  EXPECT_EQ(bytes[written ? size : 0], Output<int>::kPattern);
+}
+
 }  // namespace brume::api

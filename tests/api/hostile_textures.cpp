@@ -60,28 +60,17 @@ void Hostile::textures_destroy() {
   end("brume_textures_destroy", textures_, brume_textures_destroy);
 }
 
-/// Defaults for structs of any size, with a word behind them that must stay.
 void Hostile::defaults() {
-  const auto write = [&]<typename Params>(const char* function,
-                                          brume_result (*call)(Params*, std::uint32_t) BRUME_NOEXCEPT) {
-    alignas(Params) std::array<unsigned char, 512> bytes;
-    bytes.fill(Output<int>::kPattern);
-    const std::uint32_t size = chance(0.8) ? sizeof(Params) : number(500);
-    auto* const params = chance(0.03) ? nullptr : reinterpret_cast<Params*>(bytes.data());
-    if (size > bytes.size() && size <= 4096) return;  // it would be written
-    const bool written = checked(function, call(params, size), bytes[0] == Output<int>::kPattern);
-    EXPECT_EQ(bytes[written ? size : 0], Output<int>::kPattern);
-  };
-  write("brume_context_params_init", brume_context_params_init);
-  write("brume_voxels_params_init", brume_voxels_params_init);
-  write("brume_triangles_params_init", brume_triangles_params_init);
-  write("brume_world_params_init", brume_world_params_init);
-  write("brume_sender_params_init", brume_sender_params_init);
-  write("brume_receiver_params_init", brume_receiver_params_init);
-  write("brume_field_params_init", brume_field_params_init);
-  write("brume_drawn_params_init", brume_drawn_params_init);
-  write("brume_textures_params_init", brume_textures_params_init);
-  write("brume_textures_frame_init", brume_textures_frame_init);
+  write_defaults("brume_context_params_init", brume_context_params_init);
+  write_defaults("brume_voxels_params_init", brume_voxels_params_init);
+  write_defaults("brume_triangles_params_init", brume_triangles_params_init);
+  write_defaults("brume_world_params_init", brume_world_params_init);
+  write_defaults("brume_sender_params_init", brume_sender_params_init);
+  write_defaults("brume_receiver_params_init", brume_receiver_params_init);
+  write_defaults("brume_field_params_init", brume_field_params_init);
+  write_defaults("brume_drawn_params_init", brume_drawn_params_init);
+  write_defaults("brume_textures_params_init", brume_textures_params_init);
+  write_defaults("brume_textures_frame_init", brume_textures_frame_init);
   auto event = output<brume_event>();
   checked("brume_event_init", brume_event_init(event.pointer(), number(6), number(400)), event.untouched());
 }

@@ -59,11 +59,12 @@ void HostileFrames::begin_frame(VkCommandBuffer commands, std::uint64_t frame, s
 }
 
 void HostileFrames::run_frames(int frames) {
-  static constexpr std::array<Step, 12> kSteps{
-      &HostileFrames::device,        &HostileFrames::renderer_create, &HostileFrames::renderer_change,
-      &HostileFrames::renderer_read, &HostileFrames::volume_create,   &HostileFrames::volume_read,
-      &HostileFrames::decal_create,  &HostileFrames::tank_create,     &HostileFrames::tank_change,
-      &HostileFrames::record,        &HostileFrames::record,          &HostileFrames::record};
+  static constexpr std::array<Step, 13> kSteps{
+      &HostileFrames::host_defaults,   &HostileFrames::device,        &HostileFrames::renderer_create,
+      &HostileFrames::renderer_change, &HostileFrames::renderer_read, &HostileFrames::volume_create,
+      &HostileFrames::volume_read,     &HostileFrames::decal_create,  &HostileFrames::tank_create,
+      &HostileFrames::tank_change,     &HostileFrames::record,        &HostileFrames::record,
+      &HostileFrames::record};
   constexpr int kStepsOfFrame = 33;
   run(2000);  // states and fields
   for (int i = 0; i < frames && !testing::Test::HasFailure(); ++i) {
@@ -204,6 +205,22 @@ void HostileFrames::renderer_read() {
       brume_renderer_coarseness(handle(renderers_), level.pointer(), is_smoke_missing.pointer());
   checked("brume_renderer_coarseness", result, level.untouched() && is_smoke_missing.untouched());
   read_list("brume_renderer_timings", renderers_, brume_renderer_timings);
+}
+
+void HostileFrames::host_defaults() {
+  write_defaults("brume_device_params_init", brume_device_params_init);
+  write_defaults("brume_renderer_params_init", brume_renderer_params_init);
+  write_defaults("brume_frame_params_init", brume_frame_params_init);
+  write_defaults("brume_volume_params_init", brume_volume_params_init);
+  write_defaults("brume_decal_params_init", brume_decal_params_init);
+  write_defaults("brume_tank_params_init", brume_tank_params_init);
+  write_defaults("brume_tank_lighting_init", brume_tank_lighting_init);
+  auto volume = output<brume_shown_volume>();
+  checked("brume_shown_volume_init", brume_shown_volume_init(volume.pointer(), nullptr), volume.untouched());
+  auto decal = output<brume_shown_decal>();
+  checked("brume_shown_decal_init", brume_shown_decal_init(decal.pointer(), nullptr), decal.untouched());
+  auto tank = output<brume_shown_tank>();
+  checked("brume_shown_tank_init", brume_shown_tank_init(tank.pointer(), nullptr), tank.untouched());
 }
 
 void HostileFrames::volume_create() {

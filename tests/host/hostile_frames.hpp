@@ -37,6 +37,7 @@ class HostileFrames : public api::Hostile {
   void tank_change();
   void record();
   void compile();
+  void host_defaults();
 
   /// Mostly in a range.
   float within(float low, float high);
