@@ -1,6 +1,6 @@
 // Smoke as data, for a renderer of your own: textures that follow a field, and the constants of a frame.
-// Library: libbrume-sim (and libbrume, which has it whole). The shader that draws them:
-// shaders/export/smoke.glsl and smoke.hlsl. Guide: docs/start/your-engine.md.
+// Library: libbrume-sim (and libbrume, which contains it). The shader that draws them:
+// shaders/export/smoke.glsl and smoke.hlsl, installed in share/brume/shaders. Guide: docs/start/your-engine.md.
 //
 //   field --> textures --> regions to upload, constants --> brume_march() in your shader
 //
@@ -172,7 +172,7 @@ BRUME_API brume_result brume_textures_destroy(brume_textures* textures) BRUME_NO
 BRUME_API brume_result brume_textures_update(brume_textures* textures, const brume_field* field,
                                              const brume_textures_frame* frame) BRUME_NOEXCEPT;
 
-/// Writes the BRUME_TEXTURE_COUNT textures, by their kind. `capacity` is at least that.
+/// Writes the BRUME_TEXTURE_COUNT textures, by their kind. `list` has room for them, `capacity` of them.
 BRUME_API brume_result brume_textures_list(const brume_textures* textures, brume_texture* list,
                                            size_t capacity) BRUME_NOEXCEPT;
 /// Writes where the regions that the last update changed begin, and how many they are. They and their texels

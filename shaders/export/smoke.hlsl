@@ -52,6 +52,7 @@ cbuffer brume_constants_buffer { float4 brume_constants[10]; };
 #define BRUME_POINTS_PER_VOXEL brume_constants[8].w
 #define BRUME_LIGHT_GROUPS brume_constants[9].x       // of two lights each, the sky being the last
 #define BRUME_LIGHT_COUNT int(brume_constants[9].y)   // without the sky
+#define BRUME_HAS_SKY (brume_constants[9].z > 0.5)
 
 // ---- Bricks of 8^3 voxels, and their places in the textures ----
 
@@ -254,8 +255,12 @@ float2 brume_light_at(float3 texel, int number) {
 }
 
 // The sky: what passes the smoke, the mean over all directions, and in y that times the radiance of a sky of 0.75 +
-// 0.375 y in the direction (x, y, z) where no wall hides it.
-float2 brume_sky_at(float3 texel) { return brume_light_pair(texel, BRUME_LIGHT_COUNT); }
+// 0.375 y in the direction (x, y, z) where no wall hides it. Where the texture of light has no sky, what is usual in
+// smoke under an open sky.
+float2 brume_sky_at(float3 texel) {
+  if (!BRUME_HAS_SKY) return float2(0.3, 0.225);
+  return brume_light_pair(texel, BRUME_LIGHT_COUNT);
+}
 
 // Henyey and Greenstein 1941 [1/sr].
 float brume_phase(float g, float cosine) {

@@ -150,8 +150,8 @@ Params params_or_defaults(const Params* given) {
 }
 /// The same where there must be one.
 template <typename Params>
-Params required_params(const Params* given) {
-  return params_or_defaults(&required(given, "params"));
+Params required_params(const Params* given, const char* name = "params") {
+  return params_or_defaults(&required(given, name));
 }
 
 /// Copies bytes to the caller, or only their number.

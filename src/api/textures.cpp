@@ -113,7 +113,7 @@ brume_result brume_textures_update(brume_textures* textures, const brume_field* 
   return Call(__func__).run([&](Call& call) {
     brume_textures& object = call.handle(textures);
     const brume_field& source = call.handle(field);
-    const brume_textures_frame params = required_params(frame);
+    const brume_textures_frame params = required_params(frame, "frame");
     require(params.seconds >= 0 && params.seconds <= 1e7, "`seconds` must be from 0 to 10^7");
     require(params.light_update_fraction == 0 ||
                 (params.light_update_fraction >= 1 / 16.0f && params.light_update_fraction <= 1),

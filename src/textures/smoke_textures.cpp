@@ -26,8 +26,13 @@ glm::ivec3 cube(int edge) {
 /// as it is for a while.
 constexpr int kWindowStep = 8;
 
-bool holds_smoke(std::span<const smoke::Texel> texels) {
-  return std::any_of(texels.begin(), texels.end(), [](smoke::Texel texel) { return texel.density > 0; });
+/// Whether shaders find smoke in a brick: in its texels, or in a cell at a wall, whose smoke may come from
+/// voxels of another brick.
+bool holds_smoke(const SmokeVolume& volume, std::uint32_t slot) {
+  const auto texels = volume.texels(slot);
+  const auto cells = volume.cells(slot);
+  return std::any_of(texels.begin(), texels.end(), [](smoke::Texel texel) { return texel.density > 0; }) ||
+         std::any_of(cells.begin(), cells.end(), [](std::uint32_t cell) { return cell != 0; });
 }
 
 /// Rows of a 2D texture of `across` items a row that hold `count` items, with room to grow.
@@ -121,7 +126,7 @@ void SmokeTextures::update_bricks(const SmokeVolume& volume) {
 
   smoky_slots_.clear();
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.in_use(slot) && holds_smoke(volume.texels(slot))) smoky_slots_.push_back(slot);
+    if (volume.in_use(slot) && holds_smoke(volume, slot)) smoky_slots_.push_back(slot);
 }
 
 /// Densities, and the numbers of cells at walls.
@@ -291,7 +296,7 @@ void SmokeTextures::write_constants(const SmokeVolume& volume, const Frame& fram
       glm::vec4(look_.detail, look_.hole_rim, static_cast<float>(points_.per_axis()),
                 1 / static_cast<float>(settings_.noise_spacing)),
       glm::vec4(static_cast<float>(std::max(light_.groups(), 1u)), static_cast<float>(settings_.light_count),
-                0, 0),
+                settings_.sky ? 1.0f : 0.0f, 0),
   };
 }
 

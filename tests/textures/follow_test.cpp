@@ -13,6 +13,7 @@
 namespace brume::textures {
 namespace {
 
+constexpr std::uint8_t kPoison = 0xee;
 constexpr std::array<std::size_t, 10> kTexelBytes{0, 1, 2, 4, 8, 16, 2, 4, 8, 16};
 
 /// Textures as a renderer holds them.
@@ -24,10 +25,46 @@ class Held {
       if (list[kind].generation != list_[kind].generation)
         texels_[kind].assign(std::size_t{list[kind].width} * list[kind].height * list[kind].depth *
                                  kTexelBytes[list[kind].format],
-                             0xee);
+                             kPoison);
     list_ = list;
     for (const brume_region& region : textures.regions()) apply(region);
     constants_ = textures.constants();
+  }
+  /// Bricks with density or cells at walls whose displacement or light was never written.
+  int unwritten() const {
+    const auto edge = [&](std::uint32_t kind) { return kind == BRUME_TEXTURE_CELLS ? 9u : 10u; };
+    const glm::uvec3 atlas(constants_[12], constants_[13], constants_[14]);
+    int count = 0;
+    const auto page_count = texels_[BRUME_TEXTURE_PAGES].size() / 2;
+    for (std::size_t i = 0; i < page_count; ++i) {
+      std::uint16_t page = 0;
+      std::memcpy(&page, texels_[BRUME_TEXTURE_PAGES].data() + 2 * i, 2);
+      if (page == 0) continue;
+      const std::uint32_t slot = page - 1u;
+      const glm::uvec3 place(slot % atlas.x, slot / atlas.x % atlas.y, slot / (atlas.x * atlas.y));
+      // The texel in the middle of the brick, and whether any byte of the brick is above 0.
+      const auto any = [&](std::uint32_t kind, std::uint32_t step, std::uint32_t first) {
+        const std::uint32_t n = edge(kind);
+        const std::size_t texel = kTexelBytes[list_[kind].format];
+        for (std::uint32_t t = 0; t < n * n * n; ++t) {
+          const glm::uvec3 at = n * place + glm::uvec3(t % n, t / n % n, t / (n * n));
+          const std::size_t from = texel * (at.x + std::size_t{list_[kind].width} *
+                                                       (at.y + std::size_t{list_[kind].height} * at.z));
+          for (std::size_t b = first; b < texel; b += step)
+            if (texels_[kind][from + b] != 0) return true;
+        }
+        return false;
+      };
+      if (!any(BRUME_TEXTURE_DENSITY, 2, 0) && !any(BRUME_TEXTURE_CELLS, 1, 0)) continue;
+      for (const std::uint32_t kind : {BRUME_TEXTURE_DISPLACEMENT, BRUME_TEXTURE_LIGHT}) {
+        const glm::uvec3 at = 10u * place + 5u;
+        const std::size_t from =
+            kTexelBytes[list_[kind].format] *
+            (at.x + std::size_t{list_[kind].width} * (at.y + std::size_t{list_[kind].height} * at.z));
+        if (texels_[kind][from] == kPoison && texels_[kind][from + 1] == kPoison) ++count;
+      }
+    }
+    return count;
   }
   /// Whether it holds all that regions of new textures write; prints the first texture that does not.
   bool has(const api::Textures& fresh) const {
@@ -152,6 +189,23 @@ TEST_F(FollowTest, RegionsAddUpToNewTextures) {
       const auto constants = textures.constants(), expected = fresh.constants();
       for (std::size_t i = 12; i < 15; ++i) EXPECT_EQ(constants[i], expected[i]) << "bricks of the textures";
     }
+  }
+}
+
+TEST_F(FollowTest, AllThatShadersReadIsWritten) {
+  brume_textures_params params = brume_textures_defaults();
+  params.light_count = 1;
+  const brume_texture_light light{0, {6, 3, 6}};
+  brume_textures_frame frame = brume_textures_frame_defaults();
+  frame.lights = &light;
+  for (const std::uint32_t tick : {20u, 90u, 130u, 250u, 400u}) {
+    frame.seconds = show(tick);
+    const api::Field& field = *field_;
+    api::Textures textures(field, params);
+    textures.update(field, frame);
+    Held held;
+    held.follow(textures);
+    EXPECT_EQ(held.unwritten(), 0) << tick;
   }
 }
 

@@ -1170,8 +1170,8 @@ namespace Brume
         public static extern Result brume_textures_update(Textures textures, Field field,
             ref TexturesFrame frame);
 
-        /// <summary>Writes the BRUME_TEXTURE_COUNT textures, by their kind. `capacity` is at least
-        /// that.</summary>
+        /// <summary>Writes the BRUME_TEXTURE_COUNT textures, by their kind. `list` has room for them, `capacity`
+        /// of them.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result brume_textures_list(Textures textures, [Out] SmokeTexture[] list,
             UIntPtr capacity);

@@ -230,8 +230,12 @@ vec2 brume_light_at(vec3 texel, int number) {
 }
 
 // The sky: what passes the smoke, the mean over all directions, and in y that times the radiance of a sky of 0.75 +
-// 0.375 y in the direction (x, y, z) where no wall hides it.
-vec2 brume_sky_at(vec3 texel) { return brume_light_pair(texel, int(brume_constants_9.y)); }
+// 0.375 y in the direction (x, y, z) where no wall hides it. Where the texture of light has no sky, what is usual in
+// smoke under an open sky.
+vec2 brume_sky_at(vec3 texel) {
+  if (!(brume_constants_9.z > 0.5)) return vec2(0.3, 0.225);
+  return brume_light_pair(texel, int(brume_constants_9.y));
+}
 
 // Henyey and Greenstein 1941 [1/sr].
 float brume_phase(float g, float cosine) {
