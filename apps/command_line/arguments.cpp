@@ -294,6 +294,7 @@ std::string Arguments::name() const {
 
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
+  app_->allow_windows_style_options(false);  // "/name" is a path everywhere; commands inherit it.
   app_->formatter(std::make_shared<HelpFormatter>());
   app_->require_subcommand(0, 1);  // In `brume bench sim`, sim is a value.
   app_->set_version_flag("-V,--version", version, "Print the version and how the program was built");

@@ -20,7 +20,7 @@ LINUX, WINDOWS, WORK = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 LETTERS = "R\u00e4ume \u03a9 \u7159"
 MODES = (("--threads", "1"), ("--threads", "2"), ("--threads", "8"), ("--calls", "20"), ("--calls", "240"),
          ("--mode", "rollback"), ("--mode", "late"), ("--mode", "snapshot"))
-SMALL = ("--size", "160x90", "--samples", "1")
+SMALL = ("--size", "160x90")
 
 
 def fresh(folder):
@@ -102,19 +102,27 @@ class WindowsTest(unittest.TestCase):
     # ---- The program ----
 
     def test_the_program_draws_the_demo_as_on_linux(self):
-        for scene, frame in (("demo", "240"), ("letters", "200")):
+        for scene in ("demo", "letters"):
             picture = scene + ".png"
-            _, folders = self.both("brume", "render", SOURCE / f"scenes/{scene}.toml", "--frame", frame, *SMALL,
+            _, folders = self.both("brume", "render", SOURCE / f"scenes/{scene}.toml", "--time", "3", *SMALL,
                                    "-o", picture, name="render_" + scene)
             self.same_file(folders, picture)
 
     def test_the_program_answers_as_on_linux(self):
         demo = SOURCE / "scenes/demo.toml"
-        for number, words in enumerate((("info", SOURCE / "scenes/demo.glb"), ("sim", demo, "--json", "out.json"),
-                                        ("palettes", "sea"), ("--version",))):
-            _, folders = self.both("brume", *words, name=f"answers_{number}")
-            if "out.json" in words:
-                self.same_file(folders, "out.json")
+        sight = ("query", demo, "--from", "-5.2,1.35,10.8", "--to", "-1.75,1.65,-3", "--time", "3")
+        for number, words in enumerate((("info", SOURCE / "scenes/demo.glb"), ("sim", demo, "--hash"), sight,
+                                        ("palettes", "sea", "--limit", "3"))):
+            self.both("brume", *words, name=f"answers_{number}")
+        folders = [fresh(WORK / "volumes" / system) for system in ("linux", "windows")]
+        for words in (("bake", "pyroclastic", "-o", "cloud.brv", "--voxel", "0.5"),
+                      ("convert", "cloud.brv", "cloud.json"),
+                      ("bake", "slices", "cloud.brv", "-o", "slices.png")):
+            for run in (self.linux([LINUX / "brume", *words], folders[0]),
+                        self.wine.run([WINDOWS / "brume.exe", *words], folders[1])):
+                self.assertEqual(run[0], 0, run)
+        for name in ("cloud.brv", "cloud.json", "slices.png"):
+            self.same_file(folders, name)
 
     def test_paths_and_messages_are_utf8(self):
         folder = fresh(WORK / self.id() / LETTERS)
@@ -153,10 +161,10 @@ class WindowsTest(unittest.TestCase):
                      "licences/libzstd.txt"):
             self.assertTrue((root / name).is_file(), name)
         code, _, errors = self.wine.run(
-            [root / "bin/brume.exe", "render", root / "share/brume/scenes/letters.toml", "--frame", "200", *SMALL,
+            [root / "bin/brume.exe", "render", root / "share/brume/scenes/letters.toml", "--time", "3", *SMALL,
              "-o", "letters.png"], folder)
         self.assertEqual(code, 0, errors)
-        code, _, errors = self.linux([LINUX / "brume", "render", SOURCE / "scenes/letters.toml", "--frame", "200",
+        code, _, errors = self.linux([LINUX / "brume", "render", SOURCE / "scenes/letters.toml", "--time", "3",
                                       *SMALL, "-o", "linux.png"], folder)
         self.assertEqual(code, 0, errors)
         self.assertTrue((folder / "letters.png").read_bytes() == (folder / "linux.png").read_bytes())
