@@ -35,13 +35,8 @@ export class Match {
     if (data.error) return this.failed(data.error);
     if (data.isReady) return this.ready();
     this.isBusy = false;
-    Object.assign(this, {
-      tick: data.tick,
-      latest: data.latest,
-      shut: data.shut,
-      report: data.report,
-      sight: data.sight
-    });
+    const { clears, tick, latest, shut, report, sight } = data;
+    Object.assign(this, { clears, tick, latest, shut, report, sight });
     this.took(data);
   }
 
@@ -51,10 +46,11 @@ export class Match {
     this.isPlaying = true;
   }
 
-  /** From the first tick, without any event. */
+  /** From the first tick, without any event. Returns what `clears` then is. */
   restart() {
     this.act({ kind: 'clear' });
     this.exact = 0;
+    return this.clears + 1;
   }
 
   seek(tick) {

@@ -4,6 +4,7 @@ import { DOORS, LEVEL } from './level.js';
 import { HERE, Simulation } from './simulation.js';
 
 let simulation,
+  clears = 0,
   tick = 0,
   latest = 0,
   doorEvents = [],
@@ -33,7 +34,7 @@ const ACTIONS = {
   // are open.
   word: ({ ray, right, letters, share }) => {
     const depth = intoSmoke(ray),
-      widest = Math.max(3, 2 * Math.max(...letters.map(letter => Math.abs(letter.right))) + 1);
+      widest = Math.max(2.4, 2 * Math.max(...letters.map(letter => Math.abs(letter.right))) + 1);
     const edge = Math.min(1.6, (share * depth) / widest);
     for (const { mask, right: aside } of letters) {
       const place = along(along(ray.eye, ray.direction, depth), right, edge * aside);
@@ -53,6 +54,7 @@ const ACTIONS = {
   },
   clear: () => {
     simulation.clear();
+    clears += 1;
     doorEvents = [];
     latest = 0;
   }
@@ -97,7 +99,7 @@ function answer({ tick: wanted, loss, actions, players, seconds, quality, eyes, 
   goTo(wanted, loss);
   const seen = players.map(player => seenBy(player, seconds, quality));
   const sight = simulation.sees(HERE, ...eyes, asksDrawn);
-  return { tick, latest, shut, seen, sight, report: simulation.report(), milliseconds: performance.now() - begun };
+  return { clears, tick, latest, shut, seen, sight, report: simulation.report(), milliseconds: performance.now() - begun };
 }
 
 onmessage = async ({ data }) => {
