@@ -48,23 +48,21 @@ const match = () =>
     return { tick, latest, shut, sight, report };
   });
 
-/**
- * The picture without what surrounds it, rows from the top: means of the channels, and all three. `isWhole`: as if the
- * smoke had no holes.
- */
-const picture = (isWhole = false) =>
-  page.evaluate(isWhole => {
+/** Luminance of the picture without what surrounds it, rows from the top. */
+const picture = () =>
+  page.evaluate(() => {
     const { renderer } = window.page,
       gl = renderer.getContext();
-    if (isWhole) window.page.smokes[0].constants[11] = 0; // BRUME_HOLE_COUNT
     window.page.frame(performance.now());
     const { drawingBufferWidth: width, drawingBufferHeight: height } = gl,
       bytes = new Uint8Array(4 * width * height);
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    const at = i => 4 * ((i % width) + width * (height - 1 - Math.floor(i / width)));
-    const colors = Array.from({ length: width * height }, (_, i) => [...bytes.subarray(at(i), at(i) + 3)].map(c => c / 255));
-    return { width, height, colors, light: colors.map(([r, g, b]) => (r + g + b) / 3) };
-  }, isWhole);
+    const light = Array.from({ length: width * height }, (_, i) => {
+      const at = 4 * ((i % width) + width * (height - 1 - Math.floor(i / width)));
+      return (bytes[at] + bytes[at + 1] + bytes[at + 2]) / 765;
+    });
+    return { width, height, light };
+  });
 
 /** The fraction of pixels in a box of the window, [left, top, right, bottom], that differ by more than 4 %. */
 function changed(a, b, box = [0, 0, WIDTH, HEIGHT]) {
@@ -218,49 +216,42 @@ test('a letter in smoke is read as itself among the alphabet', async () => {
   await page.mouse.click(...MIDDLE);
   await until(() => window.page.match.report.holes === 1);
   await untilTick((await match()).tick + 32);
-  await page.click('#play');
-  await until(() => window.page.match.tick === Math.floor(window.page.match.exact));
-  const cut = await picture(),
-    whole = await picture(true);
   const best = await page.evaluate(
-    ({ width, height, colors }, cut, at) => {
-      // How well the colours that the hole changes are correlated with each letter, at the best of sizes and places.
-      const change = colors.map((color, i) => {
-        const most = Math.max(...color.map((value, channel) => Math.abs(value - cut[i][channel])));
-        return Math.min(most, 0.06);
-      });
-      const { masks, texels } = window.page.letters;
-      const correlation = (mask, left, top, edge) => {
-        let n = 0,
-          a = 0,
-          b = 0,
-          aa = 0,
-          bb = 0,
-          ab = 0;
+    ([x, y]) => {
+      // What the smoke lets through, from the image of the march, rows from the bottom.
+      const { renderer, views } = window.page,
+        gl = renderer.getContext();
+      window.page.frame(performance.now());
+      renderer.setRenderTarget(views[0].march);
+      const { width, height } = views[0].march,
+        rgba = new Float32Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, rgba);
+      const { masks, texels } = window.page.letters,
+        middle = [Math.round(x * width), Math.round((1 - y) * height)];
+      const correlation = (mask, left, bottom, edge) => {
+        const sums = [0, 0, 0, 0, 0, 0];
         for (let y = 0; y < edge; ++y)
           for (let x = 0; x < edge; ++x) {
-            const px = left + x,
-              py = top + y;
-            if (px < 0 || py < 0 || px >= width || py >= height) continue;
-            const u = mask[Math.floor((x / edge) * texels) + texels * Math.floor((y / edge) * texels)],
-              v = change[px + width * py];
-            ((n += 1), (a += u), (b += v), (aa += u * u), (bb += v * v), (ab += u * v));
+            const row = Math.floor(((edge - 1 - y + 0.5) / edge) * texels),
+              u = mask[Math.floor(((x + 0.5) / edge) * texels) + texels * row] / 255,
+              v = rgba[4 * (left + x + width * (bottom + y)) + 3];
+            [1, u, v, u * u, v * v, u * v].forEach((term, i) => (sums[i] += term));
           }
+        const [n, a, b, aa, bb, ab] = sums;
         return (n * ab - a * b) / Math.sqrt((n * aa - a * a) * (n * bb - b * b) + 1e-9);
       };
+      // How well it is correlated with each letter, at the best of sizes and places.
       const scores = masks.slice(0, 26).map((mask, letter) => {
         let score = 0;
-        for (let edge = 24; edge <= 160; edge += 6)
-          for (let y = -16; y <= 16; y += 4)
-            for (let x = -16; x <= 16; x += 4)
-              score = Math.max(score, correlation(mask, at[0] + x - edge / 2, at[1] + y - edge / 2, edge));
+        for (let edge = 16; edge <= 60; edge += 2)
+          for (const dy of [-4, -2, 0, 2, 4])
+            for (const dx of [-4, -2, 0, 2, 4])
+              score = Math.max(score, correlation(mask, middle[0] + dx - edge / 2, middle[1] + dy - edge / 2, edge));
         return { letter: String.fromCharCode(65 + letter), score };
       });
       return scores.sort((a, b) => b.score - a.score).slice(0, 3);
     },
-    whole,
-    cut.colors,
-    MIDDLE.map(at => Math.round((at * whole.width) / WIDTH))
+    [MIDDLE[0] / WIDTH, MIDDLE[1] / HEIGHT]
   );
   assert.equal(best[0].letter, 'R', JSON.stringify(best));
   assert.ok(best[0].score > 0.4, JSON.stringify(best));
