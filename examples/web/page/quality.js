@@ -4,7 +4,7 @@ const STEPS = [
   { name: 'low', pixels: 0.65, scale: 0.4, samples: 0, stepScale: 1.7, lightFraction: 1 / 16, lines: 1200 },
   { name: 'medium', pixels: 1, scale: 0.5, samples: 4, stepScale: 1.4, lightFraction: 1 / 16, lines: 2000 },
   { name: 'high', pixels: 1.25, scale: 0.5, samples: 4, stepScale: 1.2, lightFraction: 1 / 12, lines: 3000 },
-  { name: 'highest', pixels: 2, scale: 0.5, samples: 4, stepScale: 1, lightFraction: 1 / 8, lines: 3000 }
+  { name: 'highest', pixels: 2, scale: 0.7, samples: 4, stepScale: 1, lightFraction: 1 / 8, lines: 3000 }
 ];
 const SLOW = 26,
   FAST = 18.5; // milliseconds
