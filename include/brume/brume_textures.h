@@ -1,6 +1,7 @@
 // Smoke as data, for a renderer of your own: textures that follow a field, and the constants of a frame.
 // Library: libbrume-sim (and libbrume, which contains it). The shader that draws them:
-// shaders/export/smoke.glsl and smoke.hlsl, installed in share/brume/shaders. Guide: docs/start/your-engine.md.
+// shaders/export/smoke.glsl and smoke.hlsl, installed in share/brume/shaders. Guide:
+// docs/start/your-engine.md.
 //
 //   field --> textures --> regions to upload, constants --> brume_march() in your shader
 //
