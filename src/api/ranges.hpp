@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 
