@@ -142,7 +142,7 @@ test('smoke, doors and the past decide who sees whom', async () => {
   await until(() => window.page.match.sight === 'sees');
   await page.mouse.click(...DOOR);
   await until(() => window.page.match.sight === 'smoke');
-  assert.match(await page.$eval('#sight', element => element.textContent), /Smoke/);
+  await until(() => document.getElementById('sight').textContent.startsWith('Smoke'));
   // Also through the smoke as it is drawn.
   await page.evaluate(() => document.getElementById('drawn').click());
   await untilTick((await match()).tick + TICKS);
