@@ -85,8 +85,10 @@ export class Dummies {
       const isShown = point.z < 1 && Math.abs(point.x) < 1 && Math.abs(point.y) < 1;
       person.label.hidden = !isShown;
       person.label.textContent = person.says;
-      const x = area.x + area.width * (0.5 + 0.5 * point.x),
-        y = area.y + area.height * (0.5 - 0.5 * point.y);
+      const half = 0.5 * person.label.offsetWidth + 6;
+      const across = area.x + area.width * (0.5 + 0.5 * point.x);
+      const x = Math.min(Math.max(across, area.x + half), area.x + area.width - half);
+      const y = area.y + area.height * (0.5 - 0.5 * point.y);
       person.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
     }
   }
