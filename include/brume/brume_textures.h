@@ -144,7 +144,7 @@ typedef struct brume_textures_frame {
   double seconds;
   const brume_texture_light* lights;  ///< brume_textures_params::light_count of them.
   /// Fraction of the texels of light that this update finds, in turn, [1/16, 1]; 0: all. At a fraction f,
-  /// light lags by up to 1/f updates, except in bricks that had no smoke before.
+  /// light lags by up to 1/f updates, except where there was no smoke before.
   float light_update_fraction;
 } brume_textures_frame;
 

@@ -281,10 +281,11 @@ float3 brume_scattered(float depth, float cosine, float3 albedo, float g, float 
   return albedo * (exp(-depth) * brume_phase(g, cosine) + often);
 }
 
-// What smoke scatters of a sky of `ambient`, of which walls around reflect `bounce`. `sky`: of brume_sky_at.
-float3 brume_scattered_sky(float2 sky, float3 ambient, float bounce, float3 albedo, float g) {
+// What smoke scatters of a sky of `ambient` and of the surfaces that hide it, which send `reflected`: a fifth, say, of
+// the sum of the ambient light and of the suns' irradiance on level ground, divided by pi. `sky`: of brume_sky_at.
+float3 brume_scattered_sky(float2 sky, float3 ambient, float3 reflected, float3 albedo, float g) {
   float escape = max(sky.x, 0.002);
-  float3 arriving = ambient * (sky.y + bounce * max(escape - sky.y / 0.75, 0.0));
+  float3 arriving = ambient * sky.y + reflected * max(escape - sky.y / 0.75, 0.0);
   float3 spread = pow(float3(escape, escape, escape), sqrt((1.0 - albedo) * (1.0 - g * albedo)));
   return albedo * spread * arriving / escape;
 }
@@ -296,6 +297,9 @@ float brume_sample(int3 place, float3 local, float3 position, float pixel, uint4
   float density = brume_local_density(place, local, off);
   bool cut = (holes.x | holes.y | holes.z | holes.w) != 0u;
   if (density <= 0.0 || (BRUME_EROSION <= 0.0 && !cut)) return density;
+  // Without any noise there is no displacement.
+  bool still = BRUME_EROSION <= 0.0 && BRUME_HOLE_RIM <= 0.0;
+  if (still) return density * brume_after_holes(holes, position, 0.0);
   float3 at = float3(place) * BRUME_NOISE_POINTS + (local + 0.5) * BRUME_POINTS_PER_VOXEL + 0.5;
   at /= BRUME_ATLAS_BRICKS * BRUME_NOISE_POINTS;
   float3 displacement = brume_displacement.SampleLevel(brume_displacement_sampler, at, 0.0).xyz;
@@ -318,10 +322,15 @@ float brume_density_at(float3 position, float pixel) {
   return brume_sample(place, voxel - float3(brick) * 8.0, position, pixel, holes, off);
 }
 
+// The direction without zeros, to be divided by.
+float3 brume_divisor(float3 direction) {
+  return float3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
+              abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+}
+
 // The part of a ray in which there may be smoke, from and to [m]; empty where to <= from.
 float2 brume_span(float3 origin, float3 direction, float t_end) {
-  float3 d = float3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
-                abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+  float3 d = brume_divisor(direction);
   float3 a = (BRUME_LOW - origin) / d;
   float3 b = (BRUME_HIGH - origin) / d;
   float3 near = min(a, b);
@@ -331,8 +340,7 @@ float2 brume_span(float3 origin, float3 direction, float t_end) {
 
 // How many steps lead out of the brick, at least one.
 float brume_steps_out(float3 voxel, int3 brick, float3 direction, float step_voxels) {
-  float3 d = float3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
-                abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+  float3 d = brume_divisor(direction);
   float3 low = float3(brick) * 8.0;
   float3 a = (low - voxel) / d;
   float3 b = (low + 8.0 - voxel) / d;

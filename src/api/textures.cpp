@@ -87,6 +87,7 @@ void update(brume_textures& textures, const brume_field& field, const brume_text
          "the field must have the level and the masks of the field that the textures are of");
   const std::vector<textures::Light> lights = lights_of(params, textures.light_count);
   const float fraction = params.light_update_fraction;
+  textures.regions.clear();  // their texels go, also where the update fails
   textures.textures.update(field.field->smoke(),
                            {params.seconds, field.extinction, lights, fraction > 0 ? fraction : 1});
   textures.regions = list_regions(textures.textures.set());

@@ -48,8 +48,7 @@ void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePl
     recorder.upload(displacements_, 0, std::as_bytes(growth_.displacements()));
   } else if (stale.parts) {
     for (const std::uint32_t part : growth_.new_parts()) {
-      const auto entries = growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick,
-                                                           shared::kDisplacementsPerBrick);
+      const auto entries = growth_.displacements(part);
       recorder.upload(displacements_, std::size_t{part} * entries.size_bytes(), std::as_bytes(entries));
     }
   }

@@ -14,6 +14,9 @@
 
 namespace brume::smoke {
 
+/// The points of one part.
+using PartDisplacements = std::span<const glm::uvec2, shared::kDisplacementsPerBrick>;
+
 /// Growth of each cloud, brick by brick, in the layout of shared/noise_advection.h. Computed when a cloud
 /// gets its first brick in the volume, dropped when it disappears. Coarse bricks have none.
 class CloudGrowth {
@@ -25,6 +28,11 @@ class CloudGrowth {
   std::span<const glm::uvec2> parts() const { return parts_; }
   /// kDisplacementsPerBrick entries per part.
   std::span<const glm::uvec2> displacements() const { return displacements_; }
+  PartDisplacements displacements(std::uint32_t part) const {
+    return displacements()
+        .subspan(std::size_t{part} * shared::kDisplacementsPerBrick)
+        .first<shared::kDisplacementsPerBrick>();
+  }
   /// Parts added since the last clear_new_parts.
   std::span<const std::uint32_t> new_parts() const { return new_parts_; }
   void clear_new_parts() { new_parts_.clear(); }

@@ -1,39 +1,11 @@
 #include "smoke/noise_displacement.hpp"
 
 #include <algorithm>
-#include <bitset>
 
 #include "shared/noise_advection.h"
+#include "smoke/texel_set.hpp"
 
 namespace brume::smoke {
-namespace {
-
-constexpr int kTexels = shared::kBrickTexels;
-using TexelSet = std::bitset<shared::kTexelsPerBrick>;
-
-glm::ivec3 local_texel(std::uint32_t local) {
-  return {local % kTexels, local / kTexels % kTexels, local / (kTexels * kTexels)};
-}
-
-/// The texels of a brick next to one of its texels with smoke.
-TexelSet around_smoke(std::span<const Texel> texels) {
-  TexelSet set;
-  for (std::uint32_t i = 0; i < texels.size(); ++i) set[i] = texels[i].density > 0;
-  // One step to both sides along each axis; the ends of a row have nothing beyond them.
-  for (int axis = 0, stride = 1; axis < 3; ++axis, stride *= kTexels) {
-    TexelSet first, last;
-    for (std::uint32_t i = 0; i < texels.size(); ++i) {
-      const int at = local_texel(i)[axis];
-      first[i] = at == 0;
-      last[i] = at == kTexels - 1;
-    }
-    const auto step = static_cast<std::size_t>(stride);
-    set |= (set & ~last) << step | (set & ~first) >> step;
-  }
-  return set;
-}
-
-}  // namespace
 
 NoiseDisplacement::NoiseDisplacement(const SmokeVolume& volume, const sim::State& state,
                                      const shared::SmokeLook& look, double seconds, double swirl_period)
@@ -46,24 +18,25 @@ NoiseDisplacement::NoiseDisplacement(const SmokeVolume& volume, const sim::State
 
 void NoiseDisplacement::write(std::uint32_t slot, std::span<glm::vec3, shared::kTexelsPerBrick> out) const {
   std::fill(out.begin(), out.end(), glm::vec3(0));
-  const TexelSet wanted = around_smoke(volume_.texels(slot));
+  const TexelSet wanted = dilated(smoky_texels(volume_.texels(slot)));
   if (wanted.none()) return;
   const shared::VolumeLayout& layout = volume_.layout();
   const glm::ivec3 first = shared::kBrickVoxels * volume_.brick_of(slot);
   for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
     if (!wanted[i]) continue;
-    const glm::ivec3 local = local_texel(i);
+    const glm::ivec3 local = texel_at(i);
     const glm::vec3 p_voxel = glm::vec3(first + local) - 0.5f;
     const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
     out[i] = by_clouds(slot, local, p_world) - by_impulses(p_world);
   }
 }
 
-glm::vec4 growth_at(std::span<const glm::uvec2> points, glm::ivec3 local) {
+glm::vec4 growth_at(PartDisplacements points, glm::ivec3 local) {
   glm::vec4 sum(0);
   float weight = 0;
   for (int i = 0; i < 8; ++i) {
     const float share = shared::growth_share(local, i);
+    if (share <= 0) continue;  // may be beyond the last point
     const glm::uvec2 words = points[shared::growth_point(local, i)];
     const glm::vec2 high = glm::unpackHalf2x16(words.y);
     // Outside of the cloud its growth is extrapolated from inside.
@@ -82,11 +55,8 @@ glm::vec3 NoiseDisplacement::by_clouds(std::uint32_t slot, glm::ivec3 local, glm
   for (const glm::uvec2 part : growth_.parts().subspan(volume_.slot_count() + range.x, range.y)) {
     const shared::CloudMotion& motion = motion_.clouds[part.y];
     const glm::vec3 swirl = swirl_ * (motion.swirl_cos * one + motion.swirl_sin * other);
-    sum += shared::cloud_displacement(
-        motion,
-        growth_at(growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick),
-                  local),
-        swirl, volume_.layout().voxel_size);
+    sum += shared::cloud_displacement(motion, growth_at(growth_.displacements(part.x), local), swirl,
+                                      volume_.layout().voxel_size);
   }
   return glm::vec3(sum) / std::max(sum.w, 1e-12f);
 }

@@ -12,8 +12,9 @@
 
 namespace brume::smoke {
 
-/// A part's growth at a texel of its brick, and its weight, from the points of shared/noise_advection.h.
-glm::vec4 growth_at(std::span<const glm::uvec2> points, glm::ivec3 local);
+/// A part's growth at a texel of its brick, [0, 10] along each axis, and its weight, from the points of
+/// shared/noise_advection.h.
+glm::vec4 growth_at(PartDisplacements points, glm::ivec3 local);
 
 class NoiseDisplacement {
  public:

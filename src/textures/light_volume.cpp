@@ -15,11 +15,8 @@ namespace brume::textures {
 namespace {
 
 constexpr int kTexels = shared::kBrickTexels;
+using smoke::texel_at;
 
-glm::ivec3 texel_at(std::uint32_t index) {
-  const int i = static_cast<int>(index);
-  return {i % kTexels, i / kTexels % kTexels, i / (kTexels * kTexels)};
-}
 std::size_t index_of(glm::ivec3 texel) {
   return static_cast<std::size_t>(texel.x + kTexels * (texel.y + kTexels * texel.z));
 }
@@ -29,7 +26,7 @@ std::uint8_t to_byte(float value) {
 }
 
 /// The displacement at a texel, or at the point before it where they are two voxels apart.
-glm::vec3 displacement_at(LightVolume::Displacements points, std::uint32_t index) {
+glm::vec3 displacement_at(std::span<const glm::u16vec4> points, std::uint32_t index) {
   if (points.empty()) return glm::vec3(0);
   if (points.size() == shared::kTexelsPerBrick) return glm::vec3(glm::unpackHalf(points[index]));
   const glm::ivec3 at = texel_at(index) / 2;
@@ -41,6 +38,12 @@ glm::vec3 displacement_at(LightVolume::Displacements points, std::uint32_t index
 /// Behind this optical depth light counts as gone.
 constexpr float kDeepest = 20;
 constexpr std::uint32_t kPhases = shared::kLightPhases;
+/// The bits of rays to the sky begin here.
+constexpr std::uint32_t kFirstSkyBit = 15;
+constexpr float kFar = 1000;  // [m]
+/// Shaders read light so many texels from where smoke is: an interpolation, and two of off walls or towards a
+/// light.
+constexpr int kReach = 3;
 
 }  // namespace
 
@@ -51,37 +54,68 @@ bool LightVolume::Phases::has(std::uint32_t phase) const {
   return (phase + kPhases - first) % kPhases < count;
 }
 
-void LightVolume::update(const LitSmoke& smoke, std::span<const std::uint32_t> slots,
-                         std::span<const Displacements> displacements, float fraction) {
+void LightVolume::update(const LitSmoke& smoke, std::span<const SmokyBrick> smoky, float fraction) {
   const auto count = static_cast<std::uint32_t>(std::ceil(fraction * static_cast<float>(kPhases)));
   const Phases phases{turn_, std::clamp(count, 1u, kPhases)};
   turn_ = (turn_ + phases.count) % kPhases;
-  // Bricks whose smoke is gone block no light.
+  follow_bricks(*smoke.volume, smoky);
+  forget_walls(smoke);
+  const auto for_each = [&](std::size_t grain, auto body) {
+    parallel_for(smoky.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(*bricks_[smoky[i].slot], smoky[i]);
+    });
+  };
+  for_each(4, [&](Brick& brick, const SmokyBrick& from) {
+    find_read(brick, from.smoke);
+    find_retained(smoke, brick, from, phases);
+    find_density(smoke, brick, from.slot);
+  });
+  for_each(1, [&](Brick& brick, const SmokyBrick&) { light(smoke, brick, phases); });
+  for (const SmokyBrick& from : smoky) bricks_[from.slot]->lit = bricks_[from.slot]->read;
+}
+
+/// Bricks whose smoke is gone block no light.
+void LightVolume::follow_bricks(const smoke::SmokeVolume& volume, std::span<const SmokyBrick> smoky) {
   std::vector<std::unique_ptr<Brick>> before = std::move(bricks_);
-  before.resize(smoke.volume->slot_count());
+  before.resize(volume.slot_count());
   bricks_.clear();
-  bricks_.resize(smoke.volume->slot_count());
-  for (const std::uint32_t slot : slots) {
-    bricks_[slot] = std::move(before[slot]);
-    std::unique_ptr<Brick>& brick = bricks_[slot];
-    const glm::ivec3 at = smoke.volume->brick_of(slot);
+  bricks_.resize(volume.slot_count());
+  for (const SmokyBrick& from : smoky) {
+    std::unique_ptr<Brick>& brick = bricks_[from.slot];
+    brick = std::move(before[from.slot]);
+    const glm::ivec3 at = volume.brick_of(from.slot);
     if (brick && brick->brick == at) continue;
     brick = std::make_unique<Brick>();
     brick->brick = at;
     brick->texels.resize(std::size_t{groups_} * shared::kTexelsPerBrick);
   }
-  const auto for_each = [&](std::size_t grain, auto body) {
-    parallel_for(slots.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) body(i, *bricks_[slots[i]], slots[i]);
-    });
-  };
-  const auto phases_of = [&](const Brick& brick) { return brick.fresh ? Phases{0, kPhases} : phases; };
-  for_each(4, [&](std::size_t i, Brick& brick, std::uint32_t slot) {
-    find_retained(smoke, brick, slot, displacements[i], phases_of(brick));
-    find_density(smoke, brick, slot);
-  });
-  for_each(1, [&](std::size_t, Brick& brick, std::uint32_t) { light(smoke, brick, phases_of(brick)); });
-  for (const std::uint32_t slot : slots) bricks_[slot]->fresh = false;
+}
+
+/// What walls hide from lights that moved; all where walls changed.
+void LightVolume::forget_walls(const LitSmoke& smoke) {
+  std::uint32_t stale = smoke.edits == edits_ ? 0 : ~std::uint32_t{0};
+  for (std::uint32_t n = 0; n < smoke.lights.size(); ++n)
+    if (n >= lights_.size() || smoke.lights[n] != lights_[n]) stale |= 1u << n;
+  edits_ = smoke.edits;
+  lights_.assign(smoke.lights.begin(), smoke.lights.end());
+  if (stale == 0) return;
+  for (const std::unique_ptr<Brick>& brick : bricks_)
+    if (brick)
+      for (std::uint32_t& known : brick->known) known &= ~stale;
+}
+
+void LightVolume::find_read(Brick& brick, smoke::TexelSet smoke) {
+  for (int i = 0; i < kReach; ++i) smoke = smoke::dilated(smoke);
+  brick.read = smoke;
+  const smoke::TexelSet gone = brick.lit & ~brick.read;
+  brick.lit &= brick.read;
+  for (std::size_t i = 0; i < brick.texels.size(); ++i)
+    if (gone[i % shared::kTexelsPerBrick]) brick.texels[i] = glm::u8vec4(0);
+}
+
+bool LightVolume::is_due(const Brick& brick, std::uint32_t texel, const Phases& phases) {
+  return brick.read[texel] &&
+         (!brick.lit[texel] || phases.has(shared::light_phase(glm::uvec3(texel_at(texel)))));
 }
 
 std::span<const glm::u8vec4> LightVolume::texels(std::uint32_t slot, std::uint32_t group) const {
@@ -104,19 +138,19 @@ float LightVolume::remaining(const LitSmoke& smoke, float density, glm::vec3 p_w
   return left;
 }
 
-void LightVolume::find_retained(const LitSmoke& smoke, Brick& brick, std::uint32_t slot,
-                                Displacements displacements, const Phases& phases) const {
+void LightVolume::find_retained(const LitSmoke& smoke, Brick& brick, const SmokyBrick& from,
+                                const Phases& phases) const {
   const shared::VolumeLayout& layout = smoke.volume->layout();
-  const std::span<const smoke::Texel> texels = smoke.volume->texels(slot);
+  const std::span<const smoke::Texel> texels = smoke.volume->texels(from.slot);
   for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
-    if (!phases.has(shared::light_phase(glm::uvec3(texel_at(i))))) continue;
+    if (!is_due(brick, i, phases)) continue;
     const float density = static_cast<float>(texels[i].density) / 255;
     brick.retained[i] = 1;
     if (density <= 0) continue;
     // The mean of four points, the corners of a tetrahedron, as in shaders/noise_advection.comp.
     const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
     const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
-    const glm::vec3 displacement = displacement_at(displacements, i);
+    const glm::vec3 displacement = displacement_at(from.displacements, i);
     glm::vec4 left;
     for (std::uint32_t k = 0; k < 4; ++k) {
       const glm::vec3 corner(k & 1u, k >> 1u, (k ^ k >> 1u) & 1u);
@@ -151,15 +185,17 @@ void LightVolume::find_density(const LitSmoke& smoke, Brick& brick, std::uint32_
 }
 
 void LightVolume::light(const LitSmoke& smoke, Brick& brick, const Phases& phases) const {
+  const shared::VolumeLayout& layout = smoke.volume->layout();
   for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
-    if (!phases.has(shared::light_phase(glm::uvec3(texel_at(i))))) continue;
+    if (!is_due(brick, i, phases)) continue;
     const glm::vec3 p_voxel = glm::vec3(shared::kBrickVoxels * brick.brick + texel_at(i)) - 0.5f;
+    const Place place{brick, i, p_voxel, layout.origin_world + p_voxel * layout.voxel_size};
     for (std::uint32_t n = 0; n < 2 * groups_; ++n) {
       glm::u8vec2 value(255, 0);
       if (n < smoke.lights.size()) {
-        value = light_texel(smoke, p_voxel, smoke.lights[n]);
+        value = light_texel(smoke, place, n);
       } else if (sky_ && n == light_count_) {
-        value = sky_texel(smoke, p_voxel);
+        value = sky_texel(smoke, place);
       }
       glm::u8vec4& texel = brick.texels[std::size_t{n / 2} * shared::kTexelsPerBrick + i];
       const int first = static_cast<int>(2 * (n % 2));
@@ -213,31 +249,37 @@ float LightVolume::depth(const LitSmoke& smoke, glm::vec3 p_voxel, glm::vec3 dir
   return depth * per_voxel;
 }
 
-glm::u8vec2 LightVolume::light_texel(const LitSmoke& smoke, glm::vec3 p_voxel, const Light& light) const {
-  constexpr float kFar = 1000;  // [m]
-  const shared::VolumeLayout& layout = smoke.volume->layout();
-  const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
-  const glm::vec3 to = light.directional ? light.at_world * kFar : light.at_world - p_world;
-  const float distance = glm::length(to);
-  if (!(distance > 0)) return {255, 255};
-  const auto visible = smoke.sight->visible(p_world, p_world + to, std::numeric_limits<float>::infinity());
-  // In shadow, too: between a texel in shadow and a lit one, shaders interpolate both numbers.
-  const float passed = std::exp(-0.25f * depth(smoke, p_voxel, to / distance, distance, 1));
-  return {to_byte(passed), to_byte(visible && *visible ? 1 : 0)};
+/// Whether walls let light through, remembered.
+bool LightVolume::is_seen(const LitSmoke& smoke, const Place& from, glm::vec3 to_world, std::uint32_t bit) {
+  std::uint32_t& known = from.brick.known[from.texel];
+  std::uint32_t& seen = from.brick.seen[from.texel];
+  if ((known >> bit & 1) == 0) {
+    const auto visible = smoke.sight->visible(from.p_world, to_world, std::numeric_limits<float>::infinity());
+    known |= 1u << bit;
+    seen = (seen & ~(1u << bit)) | (visible && *visible ? 1u << bit : 0u);
+  }
+  return (seen >> bit & 1) != 0;
 }
 
-glm::u8vec2 LightVolume::sky_texel(const LitSmoke& smoke, glm::vec3 p_voxel) const {
-  constexpr float kFar = 1000;  // [m]
-  const shared::VolumeLayout& layout = smoke.volume->layout();
-  const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
+glm::u8vec2 LightVolume::light_texel(const LitSmoke& smoke, const Place& place, std::uint32_t number) const {
+  const Light& light = smoke.lights[number];
+  const glm::vec3 to = light.directional ? light.at_world * kFar : light.at_world - place.p_world;
+  const float distance = glm::length(to);
+  if (!(distance > 0)) return {255, 255};
+  const bool seen = is_seen(smoke, place, place.p_world + to, number);
+  // In shadow, too: between a texel in shadow and a lit one, shaders interpolate both numbers.
+  const float passed = std::exp(-0.25f * depth(smoke, place.p_voxel, to / distance, distance, 1));
+  return {to_byte(passed), to_byte(seen ? 1 : 0)};
+}
+
+glm::u8vec2 LightVolume::sky_texel(const LitSmoke& smoke, const Place& place) const {
   float escape = 0, seen = 0;
   for (std::uint32_t i = 0; i < shared::kSkyRays; ++i) {
     const glm::vec3 direction = shared::sky_ray(i);
-    const float passed = std::exp(-depth(smoke, p_voxel, direction, kFar, 2)) / float{shared::kSkyRays};
+    const float passed = std::exp(-depth(smoke, place.p_voxel, direction, kFar, 2)) / float{shared::kSkyRays};
     escape += passed;
-    const auto visible =
-        smoke.sight->visible(p_world, p_world + kFar * direction, std::numeric_limits<float>::infinity());
-    if (visible && *visible) seen += passed * shared::sky_shape(direction.y);
+    if (is_seen(smoke, place, place.p_world + kFar * direction, kFirstSkyBit + i))
+      seen += passed * shared::sky_shape(direction.y);
   }
   return {to_byte(escape), to_byte(seen)};
 }

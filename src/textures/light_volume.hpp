@@ -19,6 +19,7 @@
 #include "smoke/noise_tile.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
+#include "textures/smoky_brick.hpp"
 
 namespace brume::textures {
 
@@ -26,13 +27,15 @@ namespace brume::textures {
 struct Light {
   bool directional = false;
   glm::vec3 at_world{0};  ///< Its position, or the unit vector towards it.
+  bool operator==(const Light&) const = default;
 };
 
 /// What light meets at a time.
 struct LitSmoke {
   const smoke::SmokeVolume* volume = nullptr;
-  const smoke::Sight* sight = nullptr;  ///< Sees the level's walls.
-  std::span<const shared::Hole> holes;  ///< Open ones.
+  const smoke::Sight* sight = nullptr;           ///< Sees the walls of a level
+  std::shared_ptr<const sim::EditBlocks> edits;  ///< with these edits.
+  std::span<const shared::Hole> holes;           ///< Open ones.
   const smoke::MaskAtlas* masks = nullptr;
   shared::SmokeLook look{};  ///< With its extinction.
   float seconds = 0;
@@ -47,24 +50,22 @@ class LightVolume {
   /// Groups of four bytes of a texel: two lights each, the sky counts as the last light.
   std::uint32_t groups() const { return groups_; }
 
-  /// The displacement of the noise in a slot at each texel, or at every other one along each axis [m].
-  using Displacements = std::span<const glm::u16vec4>;
-
-  /// Follows the smoke: brings `fraction` of the texels up to date, in turn, and all of the bricks that are
-  /// new. `slots` hold smoke; `displacements` are theirs, or empty where there are none.
-  void update(const LitSmoke& smoke, std::span<const std::uint32_t> slots,
-              std::span<const Displacements> displacements, float fraction);
-  /// The texels of a group of a slot after an update that brought any of them up to date.
+  /// Follows the smoke in all bricks that have any: brings `fraction` of the texels up to date, in turn, and
+  /// those that smoke has come near.
+  void update(const LitSmoke& smoke, std::span<const SmokyBrick> smoky, float fraction);
+  /// The texels of a group of a slot that held smoke in the last update; 0 where no shader reads them.
   std::span<const glm::u8vec4> texels(std::uint32_t slot, std::uint32_t group) const;
 
  private:
   struct Brick {
     glm::ivec3 brick{0};
-    bool fresh = true;  // no texel has been lit
+    smoke::TexelSet read, lit;  // that shaders may read; those of them that have been lit
     std::array<float, shared::kTexelsPerBrick>
         retained;                                        // fraction of the density that noise and holes leave
     std::array<float, shared::kTexelsPerBrick> density;  // for light: filtered, into the walls, too
     std::vector<glm::u8vec4> texels;                     // by group
+    // A bit for each light, then for each ray to the sky: whether walls let it through, where that is known.
+    std::array<std::uint32_t, shared::kTexelsPerBrick> known, seen;
   };
   /// The texels that an update is for: those of some phases (shared/smoke_light.h).
   struct Phases {
@@ -72,22 +73,36 @@ class LightVolume {
     bool has(std::uint32_t phase) const;
   };
 
+  /// Whether an update lights a texel.
+  static bool is_due(const Brick& brick, std::uint32_t texel, const Phases& phases);
+  void follow_bricks(const smoke::SmokeVolume& volume, std::span<const SmokyBrick> smoky);
+  void forget_walls(const LitSmoke& smoke);
+  static void find_read(Brick& brick, smoke::TexelSet smoke);
   float remaining(const LitSmoke& smoke, float density, glm::vec3 p_world, glm::vec3 displacement) const;
-  void find_retained(const LitSmoke& smoke, Brick& brick, std::uint32_t slot, Displacements displacements,
-                     const Phases& phases) const;
+  void find_retained(const LitSmoke& smoke, Brick& brick, const SmokyBrick& from, const Phases& phases) const;
   void find_density(const LitSmoke& smoke, Brick& brick, std::uint32_t slot) const;
   void light(const LitSmoke& smoke, Brick& brick, const Phases& phases) const;
   float density_at(const LitSmoke& smoke, glm::vec3 p_voxel, bool& empty) const;
   float depth(const LitSmoke& smoke, glm::vec3 p_voxel, glm::vec3 direction, float reach_m,
               float coarse) const;
-  glm::u8vec2 light_texel(const LitSmoke& smoke, glm::vec3 p_voxel, const Light& light) const;
-  glm::u8vec2 sky_texel(const LitSmoke& smoke, glm::vec3 p_voxel) const;
+  /// A texel of a brick that is lit.
+  struct Place {
+    Brick& brick;
+    std::uint32_t texel;
+    glm::vec3 p_voxel, p_world;
+  };
+  static bool is_seen(const LitSmoke& smoke, const Place& from, glm::vec3 to_world, std::uint32_t bit);
+  glm::u8vec2 light_texel(const LitSmoke& smoke, const Place& place, std::uint32_t light) const;
+  glm::u8vec2 sky_texel(const LitSmoke& smoke, const Place& place) const;
 
   std::uint32_t light_count_;
   bool sky_;
   std::uint32_t groups_;
   std::uint32_t turn_ = 0;                      // phase of the next update
   std::vector<std::unique_ptr<Brick>> bricks_;  // by slot
+  // Of the last update.
+  std::shared_ptr<const sim::EditBlocks> edits_;
+  std::vector<Light> lights_;
 };
 
 }  // namespace brume::textures

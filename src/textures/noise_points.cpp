@@ -13,6 +13,7 @@ void NoisePoints::update(const smoke::SmokeVolume& volume, const sim::State& sta
   swirl_width_ = look.swirl_width;
   motion_ = smoke::noise_motion(state, seconds, swirl_period);
   if (growth_.update(state, volume) || parts_ == 0) ++parts_;
+  growth_.clear_new_parts();
   points_.resize(volume.slot_count());
 }
 
@@ -43,7 +44,7 @@ const NoisePoints::Points& NoisePoints::points_of(std::uint32_t slot, std::span<
   points->parts = parts_;
   points->growth.clear();
   for (const glm::uvec2 part : parts) {
-    const auto growth = growth_.displacements().subspan(std::size_t{part.x} * shared::kDisplacementsPerBrick);
+    const auto growth = growth_.displacements(part.x);
     for (std::size_t i = 0; i < per_brick(); ++i)
       points->growth.push_back(smoke::growth_at(growth, spacing_ * place_of(i)));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/tasks.hpp"
 #include "shared/erosion.h"
@@ -25,15 +26,6 @@ glm::ivec3 cube(int edge) {
 /// Bricks per axis of the window around `low` and `high`, in multiples of this: a cloud that grows leaves it
 /// as it is for a while.
 constexpr int kWindowStep = 8;
-
-/// Whether shaders find smoke in a brick: in its texels, or in a cell at a wall, whose smoke may come from
-/// voxels of another brick.
-bool holds_smoke(const SmokeVolume& volume, std::uint32_t slot) {
-  const auto texels = volume.texels(slot);
-  const auto cells = volume.cells(slot);
-  return std::any_of(texels.begin(), texels.end(), [](smoke::Texel texel) { return texel.density > 0; }) ||
-         std::any_of(cells.begin(), cells.end(), [](std::uint32_t cell) { return cell != 0; });
-}
 
 /// Rows of a 2D texture of `across` items a row that hold `count` items, with room to grow.
 int rows_for(std::size_t count, int across, int now) {
@@ -73,23 +65,25 @@ SmokeTextures::SmokeTextures(const SmokeTexturesSettings& settings,
 }
 
 void SmokeTextures::update(const smoke::Field& field, const Frame& frame) {
-  set_.begin_update();
-  write_static();
   const SmokeVolume& volume = field.volume();
   if (volume.slot_count() > kMostBricks)
     throw Error(ErrorCode::resource_limit,
                 "the smoke fills " + std::to_string(volume.slot_count()) + " bricks, more than 65534");
-  update_bricks(volume);
+  // If this update fails, its regions are lost: the next one writes everything.
+  const bool all = std::exchange(incomplete_, true);
+  set_.begin_update();
+  if (all) write_static();
+  update_bricks(volume, all);
   points_.update(volume, field.state(), look_, settings_.swirl_period, frame.seconds);
   update_displacements();
   update_holes(field.holes(), frame.seconds);
   update_light(field, frame);
   write_constants(volume, frame);
+  incomplete_ = false;
 }
 
 /// What never changes.
 void SmokeTextures::write_static() {
-  if (wrote_static_) return;
   const smoke::SmokeNoise& noise = smoke::smoke_noise();
   const int tile = static_cast<int>(noise.tile.size), detail = static_cast<int>(noise.detail.size);
   set_.resize(kNoise, Format::rgba8, cube(tile));
@@ -105,15 +99,14 @@ void SmokeTextures::write_static() {
   const glm::ivec3 size(static_cast<int>(masks.width()), static_cast<int>(masks.height()), 1);
   set_.resize(kMasks, Format::r8, size);
   set_.write(kMasks, cube(0), size, std::as_bytes(masks.texels()));
-  wrote_static_ = true;
 }
 
-void SmokeTextures::update_bricks(const SmokeVolume& volume) {
+void SmokeTextures::update_bricks(const SmokeVolume& volume, bool all) {
   const std::uint64_t revision = volume.revision();
   const bool same_volume = volume_id_ == volume.id();
-  if (same_volume && revision_ == revision) return;
+  if (same_volume && revision_ == revision && !all) return;
   // All bricks where an update was missed or the textures are new, else those that changed.
-  bool all = !same_volume || revision != revision_ + 1;
+  all = all || !same_volume || revision != revision_ + 1;
   volume_id_ = volume.id();
   revision_ = revision;
   atlas_bricks_ = glm::max(volume.volume().layout().bricks.atlas_bricks, 1);
@@ -122,11 +115,13 @@ void SmokeTextures::update_bricks(const SmokeVolume& volume) {
   set_.resize(kDisplacement, Format::rgba16f, atlas_bricks_ * points_.per_axis());
   write_bricks(volume, all);
   update_walls(volume, all);
-  update_pages(volume);
-
-  smoky_slots_.clear();
-  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.in_use(slot) && holds_smoke(volume, slot)) smoky_slots_.push_back(slot);
+  smoky_.clear();
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    if (!volume.in_use(slot)) continue;
+    const smoke::TexelSet texels = find_smoke(volume, slot);
+    if (texels.any()) smoky_.push_back({slot, texels, {}});
+  }
+  update_pages(volume, all);
 }
 
 /// Densities, and the numbers of cells at walls.
@@ -185,7 +180,7 @@ void SmokeTextures::update_walls(const SmokeVolume& volume, bool all) {
          volume.dirty_corner_sets());
 }
 
-void SmokeTextures::update_pages(const SmokeVolume& volume) {
+void SmokeTextures::update_pages(const SmokeVolume& volume, bool all) {
   glm::ivec3 low(0), high(0);
   bool any = false;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
@@ -205,13 +200,12 @@ void SmokeTextures::update_pages(const SmokeVolume& volume) {
   const auto across = static_cast<std::size_t>(window_size_.x),
              layer = across * static_cast<std::size_t>(window_size_.y);
   std::vector<std::uint16_t> pages(layer * static_cast<std::size_t>(window_size_.z));
-  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-    if (!volume.in_use(slot)) continue;
-    const glm::u64vec3 at(volume.brick_of(slot) - window_low_);
-    pages[at.x + across * at.y + layer * at.z] = static_cast<std::uint16_t>(slot + 1);
+  for (const SmokyBrick& brick : smoky_) {
+    const glm::u64vec3 at(volume.brick_of(brick.slot) - window_low_);
+    pages[at.x + across * at.y + layer * at.z] = static_cast<std::uint16_t>(brick.slot + 1);
   }
   // The slices that changed.
-  const bool whole = set_.resize(kPages, Format::r16ui, window_size_);
+  const bool whole = set_.resize(kPages, Format::r16ui, window_size_) || all;
   for (int z = 0; z < window_size_.z; ++z) {
     const std::span<const std::uint16_t> now =
         std::span(pages).subspan(layer * static_cast<std::size_t>(z), layer);
@@ -226,16 +220,18 @@ void SmokeTextures::update_displacements() {
   displaced_.clear();
   if (look_.erosion <= 0 && look_.hole_rim <= 0) return;
   const int edge = points_.per_axis();
-  std::vector<std::size_t>& regions = displaced_;
-  for (const std::uint32_t slot : smoky_slots_)
-    regions.push_back(set_.add(kDisplacement, edge * place_in_atlas(atlas_bricks_, slot), cube(edge)));
+  for (const SmokyBrick& brick : smoky_)
+    displaced_.push_back(
+        set_.add(kDisplacement, edge * place_in_atlas(atlas_bricks_, brick.slot), cube(edge)));
   constexpr std::size_t kGrain = 4;
-  parallel_for(regions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      auto* const texels = reinterpret_cast<glm::u16vec4*>(set_.texels(regions[i]).data());
-      points_.write(smoky_slots_[i], {texels, points_.per_brick()});
-    }
+  parallel_for(smoky_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points_.write(smoky_[i].slot, displacements(i));
   });
+}
+
+/// The points of a smoky brick; valid until more regions are written.
+std::span<glm::u16vec4> SmokeTextures::displacements(std::size_t brick) {
+  return {reinterpret_cast<glm::u16vec4*>(set_.texels(displaced_[brick]).data()), points_.per_brick()};
 }
 
 /// The open holes, as the renderer selects them.
@@ -256,23 +252,29 @@ void SmokeTextures::update_holes(std::span<const shared::Hole> holes, double sec
 void SmokeTextures::update_light(const smoke::Field& field, const Frame& frame) {
   if (light_.groups() == 0) return;
   const auto sight = field.sight({frame.extinction});
-  LitSmoke smoke{&field.volume(), sight.get(), holes_, masks_.get(), look_, static_cast<float>(frame.seconds),
+  LitSmoke smoke{&field.volume(),
+                 sight.get(),
+                 field.state().edits,
+                 holes_,
+                 masks_.get(),
+                 look_,
+                 static_cast<float>(frame.seconds),
                  frame.lights};
   smoke.look.extinction = frame.extinction;
-  std::vector<LightVolume::Displacements> displacements(smoky_slots_.size());
-  for (std::size_t i = 0; i < displaced_.size(); ++i)
-    displacements[i] = {reinterpret_cast<const glm::u16vec4*>(set_.texels(displaced_[i]).data()),
-                        points_.per_brick()};
-  light_.update(smoke, smoky_slots_, displacements, frame.light_update_fraction);
+  // With displacements, which are valid for now.
+  std::vector<SmokyBrick> bricks = smoky_;
+  for (std::size_t i = 0; i < displaced_.size(); ++i) bricks[i].displacements = displacements(i);
+  light_.update(smoke, bricks, frame.light_update_fraction);
 
+  // Each group is a copy of the atlas, one behind the other.
   const int groups = static_cast<int>(light_.groups()), edge = shared::kBrickTexels;
   set_.resize(kLight, Format::rgba8, atlas_bricks_ * edge * glm::ivec3(1, 1, groups));
-  for (const std::uint32_t slot : smoky_slots_)
+  for (const SmokyBrick& brick : smoky_)
     for (int group = 0; group < groups; ++group) {
       const glm::ivec3 place =
-          place_in_atlas(atlas_bricks_, slot) + glm::ivec3(0, 0, group * atlas_bricks_.z);
+          place_in_atlas(atlas_bricks_, brick.slot) + glm::ivec3(0, 0, group * atlas_bricks_.z);
       set_.write(kLight, edge * place, cube(edge),
-                 std::as_bytes(light_.texels(slot, static_cast<std::uint32_t>(group))));
+                 std::as_bytes(light_.texels(brick.slot, static_cast<std::uint32_t>(group))));
     }
 }
 

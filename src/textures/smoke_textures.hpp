@@ -70,8 +70,8 @@ class SmokeTextures {
   };
 
   /// Follows a field, which must stay as it is meanwhile. Afterwards `set` has all that changed since the
-  /// last update. Throws Error(resource_limit) when the smoke has more than kMostBricks; the textures are
-  /// then as they were, but for regions that were lost.
+  /// last update. Throws Error(resource_limit), with nothing changed, when the smoke has more than
+  /// kMostBricks.
   void update(const smoke::Field& field, const Frame& frame);
 
   const TextureSet& set() const { return set_; }
@@ -80,11 +80,12 @@ class SmokeTextures {
   static constexpr std::uint32_t kMostBricks = 65534;
 
  private:
-  void update_bricks(const smoke::SmokeVolume& volume);
+  void update_bricks(const smoke::SmokeVolume& volume, bool all);
   void write_bricks(const smoke::SmokeVolume& volume, bool all);
-  void update_pages(const smoke::SmokeVolume& volume);
+  void update_pages(const smoke::SmokeVolume& volume, bool all);
   void update_walls(const smoke::SmokeVolume& volume, bool all);
   void update_displacements();
+  std::span<glm::u16vec4> displacements(std::size_t brick);
   void update_holes(std::span<const shared::Hole> holes, double seconds);
   void update_light(const smoke::Field& field, const Frame& frame);
   void write_static();
@@ -101,10 +102,10 @@ class SmokeTextures {
   glm::ivec3 atlas_bricks_{0};
   glm::ivec3 window_low_{0}, window_size_{0};  // window of the pages [bricks]
   std::vector<std::uint16_t> pages_;
-  std::vector<std::uint32_t> smoky_slots_;
-  std::vector<std::size_t> displaced_;  // regions of displacement, by smoky slot
+  std::vector<SmokyBrick> smoky_;       // in the order of slots
+  std::vector<std::size_t> displaced_;  // their regions of displacement; empty without noise
   std::vector<shared::Hole> holes_;
-  bool wrote_static_ = false;
+  bool incomplete_ = true;  // nothing was written, or the last update failed
 };
 
 }  // namespace brume::textures

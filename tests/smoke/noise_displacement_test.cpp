@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/packing.hpp>
+
 #include "sim/world.hpp"
 #include "tests/smoke/displacements.hpp"
 #include "voxel/surface_planes.hpp"
@@ -32,6 +34,18 @@ class NoiseDisplacementTest : public ::testing::Test {
   SmokeVolume volume_{grid_, planes_};
   shared::SmokeLook look_{};
 };
+
+// Also of the last point along each axis, which has none behind it.
+TEST(GrowthAtTest, OfAPointIsThePointsAlone) {
+  constexpr std::uint32_t kPoints = shared::kDisplacementsPerBrick, kNotANumber = 0x7e007e00;
+  std::vector<glm::uvec2> points(2 * kPoints, glm::uvec2(kNotANumber));
+  for (std::uint32_t i = 0; i < kPoints; ++i)
+    points[i] = {glm::packHalf2x16({i, 1}), glm::packHalf2x16({2, 0.5f})};
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const glm::ivec3 texel = 2 * glm::ivec3(i % 6, i / 6 % 6, i / 36);
+    EXPECT_EQ(growth_at(std::span(points).first<kPoints>(), texel), glm::vec4(i, 1, 2, 0.5f)) << i;
+  }
+}
 
 TEST_F(NoiseDisplacementTest, OfGrowthPointsAlongIt) {
   look_.swirl = 0;

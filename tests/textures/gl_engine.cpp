@@ -65,6 +65,18 @@ constexpr std::array kNames{"brume_density",  "brume_displacement", "brume_pages
                             "brume_noise",    "brume_detail",       "brume_light_volume"};
 static_assert(kNames.size() == BRUME_TEXTURE_COUNT);
 
+void upload(const brume_region& region, std::uint32_t texture_format) {
+  const GlFormat format = gl_format(texture_format);
+  const auto i = [](std::uint32_t n) { return static_cast<GLint>(n); };
+  if (is_flat(region.texture)) {
+    glTexSubImage2D(GL_TEXTURE_2D, 0, i(region.x), i(region.y), i(region.width), i(region.height),
+                    format.format, format.type, region.texels);
+  } else {
+    glTexSubImage3D(GL_TEXTURE_3D, 0, i(region.x), i(region.y), i(region.z), i(region.width),
+                    i(region.height), i(region.depth), format.format, format.type, region.texels);
+  }
+}
+
 void make(std::uint32_t kind, const brume_texture& texture) {
   const GlFormat format = gl_format(texture.format);
   const auto width = static_cast<GLsizei>(texture.width), height = static_cast<GLsizei>(texture.height);
@@ -78,23 +90,16 @@ void make(std::uint32_t kind, const brume_texture& texture) {
   } else {
     glTexStorage3D(target, levels, format.internal, width, height, depth);
   }
+  // Texels that no region writes are not numbers, or as large as can be: a shader that reads them shows it.
+  const std::vector<std::uint8_t> poison(std::size_t{texture.width} * texture.height * texture.depth * 16,
+                                         0xff);
+  upload({kind, 0, 0, 0, texture.width, texture.height, texture.depth, 0, poison.data(), poison.size()},
+         texture.format);
   const GLint filter = is_linear(kind) ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, repeats(kind) ? GL_LINEAR_MIPMAP_LINEAR : filter);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTexParameteri(target, axis, repeats(kind) ? GL_REPEAT : GL_CLAMP_TO_EDGE);
-}
-
-void upload(const brume_region& region, std::uint32_t texture_format) {
-  const GlFormat format = gl_format(texture_format);
-  const auto i = [](std::uint32_t n) { return static_cast<GLint>(n); };
-  if (is_flat(region.texture)) {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, i(region.x), i(region.y), i(region.width), i(region.height),
-                    format.format, format.type, region.texels);
-  } else {
-    glTexSubImage3D(GL_TEXTURE_3D, 0, i(region.x), i(region.y), i(region.z), i(region.width),
-                    i(region.height), i(region.depth), format.format, format.type, region.texels);
-  }
 }
 
 const std::string kVersion = "#version 300 es\n";

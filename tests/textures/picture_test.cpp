@@ -21,12 +21,13 @@ namespace {
 constexpr int kWidth = 320, kHeight = 180;
 constexpr std::size_t kPixels = kWidth * kHeight;
 
-/// A scene at a time, drawn by both, and how far apart they may be on average [1/255].
+/// Where colours are within 2/255 on average.
+enum class Near { where_smoke_is, picture };
+/// A scene at a time, drawn by both.
 struct Scene {
   const char* timeline;
   double seconds;
-  double most;        // of all pixels' colours
-  double most_smoky;  // of those with smoke
+  Near near;
 };
 void PrintTo(const Scene& scene, std::ostream* out) {
   *out << scene.timeline << " at " << scene.seconds << " s";
@@ -124,7 +125,7 @@ class Comparison {
 };
 
 TEST_P(PictureTest, IsThatOfBrumeRender) {
-  const auto& [name, seconds, most, most_smoky] = GetParam();
+  const auto& [name, seconds, near] = GetParam();
   const Layers layers = rendered();
   auto loaded = scenario::load_scenario(timeline(), {});
   ASSERT_TRUE(loaded) << loaded.failure().message;
@@ -147,8 +148,10 @@ TEST_P(PictureTest, IsThatOfBrumeRender) {
   std::printf("%s: %.2f of 255, pixels with smoke (%.0f %%) %.2f, transmittance %.4f\n", name,
               comparison.mean(), 100 * comparison.smoky_part(), comparison.smoky_mean(), passed_apart);
   EXPECT_GT(comparison.smoky_part(), 0.1);
-  EXPECT_LT(comparison.mean(), most);
-  EXPECT_LT(comparison.smoky_mean(), most_smoky);
+  EXPECT_LT(comparison.mean(), 2);
+  if (near == Near::where_smoke_is) {
+    EXPECT_LT(comparison.smoky_mean(), 2);
+  }
   EXPECT_LT(passed_apart, 2.0 / 255);
   if (const char* const folder = std::getenv("BRUME_PICTURES")) {
     std::string file = name;
@@ -157,18 +160,18 @@ TEST_P(PictureTest, IsThatOfBrumeRender) {
   }
 }
 
-// Rooms: within 2/255 where the smoke is. Outdoors, light that the ground reflects and the finest shadows are
-// missing; then the picture as a whole is.
+// The finest shadows of noise are missing, which show outdoors (docs/start/your-engine.md has figures).
+constexpr auto kWhereSmokeIs = Near::where_smoke_is, kPicture = Near::picture;
 INSTANTIATE_TEST_SUITE_P(Rooms, PictureTest,
-                         testing::Values(Scene{"fidelity/one_light.toml", 2, 2, 2},
-                                         Scene{"fidelity/wall_edge.toml", 2, 2, 2},
-                                         Scene{"fidelity/five_lights.toml", 2, 2, 2},
-                                         Scene{"walls/flat.toml", 2, 2, 2},
-                                         Scene{"fidelity/shot.toml", 2, 2, 5}));
+                         testing::Values(Scene{"fidelity/one_light.toml", 2, kWhereSmokeIs},
+                                         Scene{"fidelity/wall_edge.toml", 2, kWhereSmokeIs},
+                                         Scene{"fidelity/five_lights.toml", 2, kWhereSmokeIs},
+                                         Scene{"walls/flat.toml", 2, kWhereSmokeIs},
+                                         Scene{"fidelity/shot.toml", 2, kPicture}));
 INSTANTIATE_TEST_SUITE_P(Yards, PictureTest,
-                         testing::Values(Scene{"fidelity/word.toml", 3.7, 3, 12},
-                                         Scene{"fidelity/blast.toml", 2.5, 2, 10},
-                                         Scene{"demo.toml", 3.7, 2, 13}));
+                         testing::Values(Scene{"fidelity/word.toml", 3.7, kPicture},
+                                         Scene{"fidelity/blast.toml", 2.5, kPicture},
+                                         Scene{"demo.toml", 3.7, kPicture}));
 
 }  // namespace
 }  // namespace brume::textures

@@ -32,7 +32,8 @@ uniform vec4 light_cone[15];
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
-  vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a, look.rgb, look.a);
+  vec3 sum = vec3(0.0);
+  vec3 on_ground = vec3(0.0);
   for (int i = 0; i < int(light_count.x); ++i) {
     vec3 to = light_at[i].w > 1.5 ? light_at[i].xyz : light_at[i].xyz - position;
     float d2 = dot(to, to);
@@ -51,10 +52,13 @@ vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
     float lit = light_at[i].w > 1.5 ? sun_shadow(i, position, -towards, light_forward[i].xyz)
                                    : light_shadow(i, position - light_at[i].xyz);
     if (lit <= 0.0) continue;
-    sum += light_intensity[i].rgb * falloff * lit *
-           brume_scattered(brume_light_at(texel, i).x, dot(towards, direction), look.rgb, look.a, sky.x);
+    vec3 arriving = light_intensity[i].rgb * falloff * lit;
+    float depth = brume_light_at(texel, i).x;
+    sum += arriving * brume_scattered(depth, dot(towards, direction), look.rgb, look.a, sky.x);
+    if (light_at[i].w > 1.5) on_ground += arriving * max(towards.y, 0.0);
   }
-  return sum;
+  vec3 reflected = ambient.a * (ambient.rgb + on_ground / 3.14159265);
+  return sum + brume_scattered_sky(sky, ambient.rgb, reflected, look.rgb, look.a);
 }
 )";
 

@@ -188,7 +188,7 @@ uniform int lamp_list[${LAMPS}], lamp_count;
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
-  vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a, albedo.rgb, albedo.a);
+  vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a * ambient.rgb, albedo.rgb, albedo.a);
   for (int k = 0; k < lamp_count; ++k) {
     int i = lamp_list[k];
     vec4 at = lamp_at[i], cone = lamp_cone[i];

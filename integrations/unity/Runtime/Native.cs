@@ -702,7 +702,7 @@ namespace Brume
         /// <summary>brume_textures_params::light_count of them.</summary>
         public IntPtr Lights;
         /// <summary>Fraction of the texels of light that this update finds, in turn, [1/16, 1]; 0: all. At a
-        /// fraction f, light lags by up to 1/f updates, except in bricks that had no smoke before.</summary>
+        /// fraction f, light lags by up to 1/f updates, except where there was no smoke before.</summary>
         public float LightUpdateFraction;
     }
 

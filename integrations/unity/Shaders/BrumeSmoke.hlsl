@@ -38,7 +38,7 @@ float3 brume_light(float3 position, float3 texel, float3 direction) {
   const float3 albedo = float3(0.92, 0.92, 0.92);
   const float g = 0.2;
   float2 sky = brume_sky_at(texel);
-  float3 sum = brume_scattered_sky(sky, brume_ambient.rgb, brume_ambient.w, albedo, g);
+  float3 sum = brume_scattered_sky(sky, brume_ambient.rgb, brume_ambient.w * brume_ambient.rgb, albedo, g);
   for (int i = 0; i < BRUME_LIGHT_COUNT; ++i) {
     float3 to = brume_light_positions[i].xyz - position;
     float square = max(dot(to, to), 0.01);

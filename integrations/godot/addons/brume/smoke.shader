@@ -256,10 +256,11 @@ vec3 brume_scattered(float depth, float cosine, vec3 albedo, float g, float esca
   return albedo * (exp(-depth) * brume_phase(g, cosine) + often);
 }
 
-// What smoke scatters of a sky of `ambient`, of which walls around reflect `bounce`. `sky`: of brume_sky_at.
-vec3 brume_scattered_sky(vec2 sky, vec3 ambient, float bounce, vec3 albedo, float g) {
+// What smoke scatters of a sky of `ambient` and of the surfaces that hide it, which send `reflected`: a fifth, say, of
+// the sum of the ambient light and of the suns' irradiance on level ground, divided by pi. `sky`: of brume_sky_at.
+vec3 brume_scattered_sky(vec2 sky, vec3 ambient, vec3 reflected, vec3 albedo, float g) {
   float escape = max(sky.x, 0.002);
-  vec3 arriving = ambient * (sky.y + bounce * max(escape - sky.y / 0.75, 0.0));
+  vec3 arriving = ambient * sky.y + reflected * max(escape - sky.y / 0.75, 0.0);
   vec3 spread = pow(vec3(escape, escape, escape), sqrt((1.0 - albedo) * (1.0 - g * albedo)));
   return albedo * spread * arriving / escape;
 }
@@ -271,6 +272,9 @@ float brume_sample(ivec3 place, vec3 local, vec3 position, float pixel, uvec4 ho
   float density = brume_local_density(place, local, off);
   bool cut = (holes.x | holes.y | holes.z | holes.w) != uint(0);
   if (density <= 0.0 || (brume_constants_5.w <= 0.0 && !cut)) return density;
+  // Without any noise there is no displacement.
+  bool still = brume_constants_5.w <= 0.0 && brume_constants_8.y <= 0.0;
+  if (still) return density * brume_after_holes(holes, position, 0.0);
   vec3 at = vec3(place) * brume_constants_8.z + (local + 0.5) * brume_constants_8.w + 0.5;
   at /= brume_constants_3.xyz * brume_constants_8.z;
   vec3 displacement = textureLod(brume_displacement, at, 0.0).xyz;
@@ -293,10 +297,15 @@ float brume_density_at(vec3 position, float pixel) {
   return brume_sample(place, voxel - vec3(brick) * 8.0, position, pixel, holes, off);
 }
 
+// The direction without zeros, to be divided by.
+vec3 brume_divisor(vec3 direction) {
+  return vec3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
+              abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+}
+
 // The part of a ray in which there may be smoke, from and to [m]; empty where to <= from.
 vec2 brume_span(vec3 origin, vec3 direction, float t_end) {
-  vec3 d = vec3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
-                abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+  vec3 d = brume_divisor(direction);
   vec3 a = (brume_constants_4.xyz - origin) / d;
   vec3 b = (brume_constants_5.xyz - origin) / d;
   vec3 near = min(a, b);
@@ -306,8 +315,7 @@ vec2 brume_span(vec3 origin, vec3 direction, float t_end) {
 
 // How many steps lead out of the brick, at least one.
 float brume_steps_out(vec3 voxel, ivec3 brick, vec3 direction, float step_voxels) {
-  vec3 d = vec3(abs(direction.x) < 1e-6 ? 1e-6 : direction.x, abs(direction.y) < 1e-6 ? 1e-6 : direction.y,
-                abs(direction.z) < 1e-6 ? 1e-6 : direction.z);
+  vec3 d = brume_divisor(direction);
   vec3 low = vec3(brick) * 8.0;
   vec3 a = (low - voxel) / d;
   vec3 b = (low + 8.0 - voxel) / d;
@@ -347,7 +355,7 @@ uniform float anisotropy = 0.2;
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
-  vec3 sum = brume_scattered_sky(sky, ambient.rgb, bounce, albedo.rgb, anisotropy);
+  vec3 sum = brume_scattered_sky(sky, ambient.rgb, bounce * ambient.rgb, albedo.rgb, anisotropy);
   for (int i = 0; i < int(brume_constants_9.y); ++i) {
     vec4 place = texelFetch(lights, ivec2(0, i), 0);
     vec4 colour = texelFetch(lights, ivec2(1, i), 0);
