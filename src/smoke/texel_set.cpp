@@ -6,7 +6,7 @@ namespace brume::smoke {
 namespace {
 
 constexpr std::size_t kEdge = shared::kBrickTexels;
-constexpr std::array<std::size_t, 3> kStrides{1, kEdge, kEdge * kEdge};
+constexpr std::array<std::size_t, 3> kStrides{1, kEdge, kEdge* kEdge};
 
 /// Per axis the texels that have one before them, and those that have one behind them.
 struct Inner {

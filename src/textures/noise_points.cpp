@@ -28,39 +28,54 @@ glm::vec3 NoisePoints::position(std::uint32_t slot, std::size_t index) const {
   return layout.origin_world + (glm::vec3(texel) - 0.5f) * layout.voxel_size;
 }
 
-const NoisePoints::Points& NoisePoints::points_of(std::uint32_t slot, std::span<const glm::uvec2> parts) {
+/// Points that are two voxels apart are few, and each takes from those around it.
+smoke::TexelSet NoisePoints::points_read(const SmokyBrick& smoky) const {
+  return spacing_ == 1 ? smoke::dilated(smoky.smoke)
+                       : ~smoke::TexelSet() >> (shared::kTexelsPerBrick - per_brick());
+}
+
+const NoisePoints::Points& NoisePoints::points_of(std::uint32_t slot, const smoke::TexelSet& read,
+                                                  std::span<const glm::uvec2> parts) {
   std::unique_ptr<Points>& points = points_[slot];
   const glm::ivec3 brick = volume_->brick_of(slot);
   if (!points || points->brick != brick) {
     points = std::make_unique<Points>();
     points->brick = brick;
-    for (std::size_t i = 0; i < per_brick(); ++i) {
-      const glm::vec3 p_world = position(slot, i);
-      points->first.push_back(shared::first_swirl(p_world, swirl_width_));
-      points->second.push_back(shared::second_swirl(p_world, swirl_width_));
-    }
+    points->first.resize(per_brick());
+    points->second.resize(per_brick());
   }
-  if (points->parts == parts_) return *points;
-  points->parts = parts_;
-  points->growth.clear();
-  for (const glm::uvec2 part : parts) {
-    const auto growth = growth_.displacements(part.x);
-    for (std::size_t i = 0; i < per_brick(); ++i)
-      points->growth.push_back(smoke::growth_at(growth, spacing_ * place_of(i)));
+  if (points->parts != parts_) {
+    points->parts = parts_;
+    points->has_growth.reset();
+    points->growth.resize(parts.size() * per_brick());
+  }
+  const smoke::TexelSet rolls = read & ~points->has_rolls, growing = read & ~points->has_growth;
+  points->has_rolls |= rolls;
+  points->has_growth |= growing;
+  for (std::size_t i = 0; i < per_brick(); ++i) {
+    if (rolls[i]) {
+      const glm::vec3 p_world = position(slot, i);
+      points->first[i] = shared::first_swirl(p_world, swirl_width_);
+      points->second[i] = shared::second_swirl(p_world, swirl_width_);
+    }
+    if (!growing[i]) continue;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      points->growth[k * per_brick() + i] =
+          smoke::growth_at(growth_.displacements(parts[k].x), spacing_ * place_of(i));
   }
   return *points;
 }
 
 /// Adds displacement times weight, and in w the weight.
-void NoisePoints::add_clouds(std::uint32_t slot, std::span<glm::vec4> sums) {
+void NoisePoints::add_clouds(std::uint32_t slot, const smoke::TexelSet& read, std::span<glm::vec4> sums) {
   const glm::uvec2 range = growth_.parts()[slot];
   const auto parts = growth_.parts().subspan(volume_->slot_count() + range.x, range.y);
-  const Points& points = points_of(slot, parts);
+  const Points& points = points_of(slot, read, parts);
   const glm::vec4* growth = points.growth.data();
   for (const glm::uvec2 part : parts) {
     const shared::CloudMotion& motion = motion_.clouds[part.y];
     for (std::size_t i = 0; i < sums.size(); ++i, ++growth) {
-      if (!(growth->w > 0)) continue;
+      if (!read[i] || !(growth->w > 0)) continue;
       const glm::vec3 swirl =
           swirl_ * (motion.swirl_cos * points.first[i] + motion.swirl_sin * points.second[i]);
       sums[i] += shared::cloud_displacement(motion, *growth, swirl, volume_->layout().voxel_size);
@@ -86,15 +101,17 @@ void NoisePoints::extend(std::span<glm::vec4> points) const {
   }
 }
 
-void NoisePoints::write(std::uint32_t slot, std::span<glm::u16vec4> out) {
+void NoisePoints::write(const SmokyBrick& smoky, std::span<glm::u16vec4> out) {
+  const smoke::TexelSet read = points_read(smoky);
   std::vector<glm::vec4> points(per_brick());
-  add_clouds(slot, points);
+  add_clouds(smoky.slot, read, points);
   for (glm::vec4& p : points) p = glm::vec4(glm::vec3(p) / std::max(p.w, 1e-12f), p.w);
   if (spacing_ > 1) extend(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     glm::vec3 displacement(points[i]);
-    for (const shared::Impulse& impulse : motion_.impulses)
-      displacement -= shared::impulse_displacement(impulse, position(slot, i));
+    if (read[i])
+      for (const shared::Impulse& impulse : motion_.impulses)
+        displacement -= shared::impulse_displacement(impulse, position(smoky.slot, i));
     out[i] = glm::packHalf(glm::vec4(displacement, 0));
   }
 }

@@ -16,6 +16,7 @@
 #include "smoke/cloud_growth.hpp"
 #include "smoke/noise_motion.hpp"
 #include "smoke/smoke_volume.hpp"
+#include "textures/smoky_brick.hpp"
 
 namespace brume::textures {
 
@@ -33,24 +34,27 @@ class NoisePoints {
   /// Follows a state and the smoke of it at `seconds` after tick 0.
   void update(const smoke::SmokeVolume& volume, const sim::State& state, const shared::SmokeLook& look,
               double swirl_period, double seconds);
-  /// Writes the displacement of a brick's points [m] as half floats, per_brick() of them; w is 0. After
-  /// `update`, for different slots from any number of threads.
-  void write(std::uint32_t slot, std::span<glm::u16vec4> out);
+  /// Writes the displacement of a brick's points [m] as half floats, per_brick() of them; w is 0. With a
+  /// spacing of 1 that of points farther than a texel from smoke is 0. After `update`, for different bricks
+  /// from any number of threads.
+  void write(const SmokyBrick& smoky, std::span<glm::u16vec4> out);
 
  private:
   /// What does not change at the points of a brick: the two fields of rolls, and the growth of each cloud, in
-  /// w its weight.
+  /// w its weight. Found where it is first read.
   struct Points {
     glm::ivec3 brick{0};
-    std::uint64_t parts = 0;  // value of parts_ that `growth` is from
+    std::uint64_t parts = 0;                // value of parts_ that `growth` is from
+    smoke::TexelSet has_rolls, has_growth;  // by point
     std::vector<glm::vec3> first, second;
     std::vector<glm::vec4> growth;
   };
 
-  const Points& points_of(std::uint32_t slot, std::span<const glm::uvec2> parts);
+  smoke::TexelSet points_read(const SmokyBrick& smoky) const;
+  const Points& points_of(std::uint32_t slot, const smoke::TexelSet& read, std::span<const glm::uvec2> parts);
   glm::ivec3 place_of(std::size_t index) const;
   glm::vec3 position(std::uint32_t slot, std::size_t index) const;
-  void add_clouds(std::uint32_t slot, std::span<glm::vec4> sums);
+  void add_clouds(std::uint32_t slot, const smoke::TexelSet& read, std::span<glm::vec4> sums);
   void extend(std::span<glm::vec4> points) const;
 
   int spacing_, per_axis_;

@@ -62,6 +62,7 @@ SmokeTextures::SmokeTextures(const SmokeTexturesSettings& settings,
       points_(settings.noise_spacing),
       light_(settings.light_count, settings.sky) {
   smoke::set_noise(look_, settings.noise);
+  smoke::smoke_noise();  // the first time is long: here rather than in a frame
 }
 
 void SmokeTextures::update(const smoke::Field& field, const Frame& frame) {
@@ -225,7 +226,7 @@ void SmokeTextures::update_displacements() {
         set_.add(kDisplacement, edge * place_in_atlas(atlas_bricks_, brick.slot), cube(edge)));
   constexpr std::size_t kGrain = 4;
   parallel_for(smoky_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) points_.write(smoky_[i].slot, displacements(i));
+    for (std::size_t i = begin; i < end; ++i) points_.write(smoky_[i], displacements(i));
   });
 }
 

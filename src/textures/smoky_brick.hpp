@@ -16,8 +16,8 @@ struct SmokyBrick {
   /// Texels with smoke, and the corners of cells at walls with smoke, which may come from voxels of another
   /// brick.
   smoke::TexelSet smoke;
-  /// The displacement of the noise at each texel, or at every other one along each axis [m]; empty where there
-  /// is none.
+  /// The displacement of the noise at each texel, or at every other one along each axis [m]; empty where
+  /// there is none.
   std::span<const glm::u16vec4> displacements;
 };
 
