@@ -49,7 +49,7 @@ const NoisePoints::Points& NoisePoints::points_of(std::uint32_t slot, const smok
     points->has_growth.reset();
     points->growth.resize(parts.size() * per_brick());
   }
-  // Those of the points read that are missing.
+  // Points whose rolls or growth is missing.
   const smoke::TexelSet rolls = read & ~points->has_rolls, growing = read & ~points->has_growth;
   points->has_rolls |= rolls;
   points->has_growth |= growing;
