@@ -242,6 +242,30 @@ TEST_F(FollowTest, LightFoundInTurnsIsThatFoundAtOnce) {
   }
 }
 
+// What walls hide is remembered, until a light moves or a door does.
+TEST_F(FollowTest, LightFollowsLightsAndDoorsThatMove) {
+  brume_textures_params params = brume_textures_defaults();
+  params.light_count = 2;
+  params.sky = 1;
+  std::array lights{brume_texture_light{0, {6, 3, 6}}, brume_texture_light{1, {0.6f, 0.8f, 0}}};
+  brume_textures_frame frame = brume_textures_frame_defaults();
+  frame.lights = lights.data();
+  api::Textures textures(*field_, params);
+  Held held;
+  for (const std::uint32_t tick : {89u, 91u, 91u, 91u}) {
+    frame.seconds = show(tick);
+    textures.update(*field_, frame);
+    held.follow(textures);
+    api::Textures fresh(*field_, params);
+    fresh.update(*field_, frame);
+    EXPECT_TRUE(held.has(fresh)) << tick;
+    // Into the next room, and the numbers exchanged.
+    for (brume_texture_light& light : lights)
+      if (light.directional == 0) light.at.x += 9;
+    std::swap(lights[0], lights[1]);
+  }
+}
+
 TEST_F(FollowTest, WrongCallsAreRefused) {
   api::Textures textures(*field_);
   brume_textures* none = nullptr;
