@@ -27,7 +27,7 @@ void NoiseDisplacement::write(std::uint32_t slot, std::span<glm::vec3, shared::k
     const glm::ivec3 local = texel_at(i);
     const glm::vec3 p_voxel = glm::vec3(first + local) - 0.5f;
     const glm::vec3 p_world = layout.origin_world + p_voxel * layout.voxel_size;
-    out[i] = by_clouds(slot, local, p_world) - by_impulses(p_world);
+    out[i] = by_clouds(slot, local, p_world) + motion_.by_impulses(p_world);
   }
 }
 
@@ -59,13 +59,6 @@ glm::vec3 NoiseDisplacement::by_clouds(std::uint32_t slot, glm::ivec3 local, glm
                                       volume_.layout().voxel_size);
   }
   return glm::vec3(sum) / std::max(sum.w, 1e-12f);
-}
-
-glm::vec3 NoiseDisplacement::by_impulses(glm::vec3 p_world) const {
-  glm::vec3 sum(0);
-  for (const shared::Impulse& impulse : motion_.impulses)
-    sum += shared::impulse_displacement(impulse, p_world);
-  return sum;
 }
 
 }  // namespace brume::smoke

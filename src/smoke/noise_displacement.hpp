@@ -28,7 +28,6 @@ class NoiseDisplacement {
 
  private:
   glm::vec3 by_clouds(std::uint32_t slot, glm::ivec3 local, glm::vec3 p_world) const;
-  glm::vec3 by_impulses(glm::vec3 p_world) const;
 
   const SmokeVolume& volume_;
   float swirl_, swirl_width_;

@@ -139,6 +139,13 @@ FrameVector<shared::Impulse> make_impulses(const sim::State& state, double secon
   return impulses;
 }
 
+glm::vec3 NoiseMotion::by_impulses(glm::vec3 p_world) const {
+  // Noise that moved along is read where it was.
+  glm::vec3 sum(0);
+  for (const shared::Impulse& impulse : impulses) sum -= shared::impulse_displacement(impulse, p_world);
+  return sum;
+}
+
 NoiseMotion noise_motion(const sim::State& state, double seconds, double swirl_period, Allocator memory) {
   NoiseMotion motion{FrameVector<shared::CloudMotion>(memory), make_impulses(state, seconds, memory)};
   motion.clouds.reserve(state.clouds.size());

@@ -28,6 +28,8 @@ FrameVector<shared::Impulse> make_impulses(const sim::State& state, double secon
 struct NoiseMotion {
   FrameVector<shared::CloudMotion> clouds;  ///< One for each cloud of the state, in their order.
   FrameVector<shared::Impulse> impulses;
+  /// What the impulses add to the displacement of a point [m].
+  glm::vec3 by_impulses(glm::vec3 p_world) const;
 };
 
 /// What advects the noise of a state `seconds` after tick 0.

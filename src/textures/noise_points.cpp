@@ -110,9 +110,7 @@ void NoisePoints::write(const SmokyBrick& smoky, std::span<glm::u16vec4> out) {
   if (spacing_ > 1) extend(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     glm::vec3 displacement(points[i]);
-    if (read[i])
-      for (const shared::Impulse& impulse : motion_.impulses)
-        displacement -= shared::impulse_displacement(impulse, position(smoky.slot, i));
+    if (read[i]) displacement += motion_.by_impulses(position(smoky.slot, i));
     out[i] = glm::packHalf(glm::vec4(displacement, 0));
   }
 }
