@@ -125,6 +125,22 @@ GLuint compile(GLenum stage, const std::string& source) {
   return shader;
 }
 
+/// A display without a window, initialized: of Mesa, or of the first device, which other drivers have.
+EGLDisplay windowless_display() {
+  const auto get_display =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  const auto get_devices =
+      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+  if (!get_display) return EGL_NO_DISPLAY;
+  EGLDisplay display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+  EGLDeviceEXT device = nullptr;
+  EGLint count = 0;
+  if (!get_devices || !get_devices(1, &device, &count) || count == 0) return EGL_NO_DISPLAY;
+  display = get_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+  return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) ? display : EGL_NO_DISPLAY;
+}
+
 }  // namespace
 
 Eye Eye::looking(glm::vec3 from, glm::vec3 to, float vertical_degrees) {
@@ -144,12 +160,8 @@ glm::vec3 Eye::direction(const Picture& picture, int x, int y) const {
   return glm::normalize(forward + tan_half_height * (across * right + upward * up));
 }
 
-GlEngine::GlEngine() {
-  const auto get_display =
-      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  if (get_display) display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
-    throw std::runtime_error("no EGL without a window");
+GlEngine::GlEngine() : display_(windowless_display()) {
+  if (display_ == EGL_NO_DISPLAY) throw std::runtime_error("no EGL without a window");
   eglBindAPI(EGL_OPENGL_ES_API);
   const std::array<EGLint, 5> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
                                          EGL_NONE};
