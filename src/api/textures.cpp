@@ -33,6 +33,7 @@ static_assert(+kSmokeTextures == +BRUME_TEXTURE_COUNT && +textures::kLight == +B
 static_assert(static_cast<int>(textures::Format::rgba32ui) == BRUME_FORMAT_RGBA32UI);
 static_assert(4 * textures::kConstantRows == BRUME_CONSTANTS);
 static_assert(textures::kMostHoles == BRUME_MAX_TEXTURE_HOLES);
+static_assert(textures::LightVolume::kMostLights == BRUME_MAX_TEXTURE_LIGHTS);
 
 void create_textures(Call& call, const brume_field* field, const brume_textures_params* given,
                      brume_textures** textures) {

@@ -17,6 +17,11 @@ inline glm::ivec3 texel_at(std::size_t index) {
   return {i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)};
 }
 
+inline std::size_t texel_index(glm::ivec3 texel) {
+  constexpr int kEdge = shared::kBrickTexels;
+  return static_cast<std::size_t>(texel.x + kEdge * (texel.y + kEdge * texel.z));
+}
+
 /// The texels with smoke.
 TexelSet smoky_texels(std::span<const Texel> texels);
 /// The texels of a set and those next to them, corners included.

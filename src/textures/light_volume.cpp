@@ -16,10 +16,7 @@ namespace {
 
 constexpr int kTexels = shared::kBrickTexels;
 using smoke::texel_at;
-
-std::size_t index_of(glm::ivec3 texel) {
-  return static_cast<std::size_t>(texel.x + kTexels * (texel.y + kTexels * texel.z));
-}
+using smoke::texel_index;
 
 std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -39,7 +36,8 @@ glm::vec3 displacement_at(std::span<const glm::u16vec4> points, std::uint32_t in
 constexpr float kDeepest = 20;
 constexpr std::uint32_t kPhases = shared::kLightPhases;
 /// The bits of rays to the sky begin here.
-constexpr std::uint32_t kFirstSkyBit = 15;
+constexpr std::uint32_t kFirstSkyBit = LightVolume::kMostLights;
+static_assert(kFirstSkyBit + shared::kSkyRays <= 32);
 constexpr float kFar = 1000;  // [m]
 /// Shaders read light so many texels from where smoke is: an interpolation, and two of off walls or towards a
 /// light.
@@ -175,7 +173,7 @@ void LightVolume::find_density(const LitSmoke& smoke, Brick& brick, std::uint32_
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
-          const std::size_t near = index_of({x, y, z});
+          const std::size_t near = texel_index({x, y, z});
           if (texels[near].free == 0) continue;
           sum += brick.density[near];
           ++free;
@@ -212,7 +210,7 @@ float LightVolume::density_at(const LitSmoke& smoke, glm::vec3 p_voxel, bool& em
   if (empty) return 0;
   const glm::vec3 at = p_voxel - glm::vec3(shared::kBrickVoxels * brick) + 0.5f;
   const glm::vec3 low = glm::floor(at), f = at - low;
-  const float* const d = bricks_[slot]->density.data() + index_of(glm::ivec3(low));
+  const float* const d = bricks_[slot]->density.data() + texel_index(glm::ivec3(low));
   const auto row = [&](int offset) { return glm::mix(d[offset], d[offset + 1], f.x); };
   constexpr int kLayer = kTexels * kTexels;
   return glm::mix(glm::mix(row(0), row(kTexels), f.y), glm::mix(row(kLayer), row(kLayer + kTexels), f.y),

@@ -44,7 +44,8 @@ struct LitSmoke {
 
 class LightVolume {
  public:
-  /// For at most `light_count` lights, and the sky or not.
+  static constexpr std::uint32_t kMostLights = 15;
+  /// For at most `light_count` lights, up to kMostLights, and the sky or not.
   LightVolume(std::uint32_t light_count, bool sky);
 
   /// Groups of four bytes of a texel: two lights each, the sky counts as the last light.

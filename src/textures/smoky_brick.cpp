@@ -15,16 +15,13 @@ bool holds_smoke(const smoke::SmokeVolume& volume, const shared::BoundaryCell& c
 
 smoke::TexelSet find_smoke(const smoke::SmokeVolume& volume, std::uint32_t slot) {
   constexpr std::size_t kAcross = shared::kBrickCells;
-  constexpr int kEdge = shared::kBrickTexels;
   smoke::TexelSet texels = smoke::smoky_texels(volume.texels(slot));
   const std::span<const std::uint32_t> cells = volume.cells(slot);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i] == 0 || !holds_smoke(volume, volume.boundary_cells()[cells[i] - 1])) continue;
     const glm::ivec3 low(i % kAcross, i / kAcross % kAcross, i / (kAcross * kAcross));
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 at = low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-      texels.set(static_cast<std::size_t>(at.x + kEdge * (at.y + kEdge * at.z)));
-    }
+    for (int corner = 0; corner < 8; ++corner)
+      texels.set(smoke::texel_index(low + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2)));
   }
   return texels;
 }
