@@ -39,8 +39,7 @@ constexpr std::uint32_t kPhases = shared::kLightPhases;
 constexpr std::uint32_t kFirstSkyBit = LightVolume::kMostLights;
 static_assert(kFirstSkyBit + shared::kSkyRays <= 32);
 constexpr float kFar = 1000;  // [m]
-/// Shaders read light so many texels from where smoke is: an interpolation, and two of off walls or towards a
-/// light.
+/// Shaders read light up to so many texels from where smoke is: between texels, and up to two off a wall.
 constexpr int kReach = 3;
 
 }  // namespace
