@@ -13,7 +13,7 @@ namespace brume::api {
 template <typename Params>
 brume_result write_defaults(const char* function, Params* out, std::uint32_t struct_size) noexcept {
   return Call(function).run([&](Call&) {
-    required(out, "the struct");
+    require(out != nullptr, "the struct to write is null");
     require(struct_size >= offsetof(Params, next) + sizeof(out->next) && struct_size <= kMostStructBytes,
             "`struct_size` must be the size of the struct");
     Params params = defaults<Params>();

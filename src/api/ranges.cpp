@@ -49,7 +49,8 @@ bool RangeCheck::is_in_range(const scene::OptionInfo& info, std::uint32_t value)
 }
 
 std::string RangeCheck::name_of(const scene::OptionInfo& info) const {
-  const std::string start = number_ ? start_ + (" " + std::to_string(*number_)) + ": `" : start_;
+  const std::string start =
+      number_ ? std::string(start_) + " " + std::to_string(*number_) + ": `" : std::string(start_);
   return start + info.key + "`";
 }
 

@@ -62,9 +62,9 @@ std::vector<textures::Light> lights_of(const brume_textures_frame& frame, std::u
     const glm::vec3 at(light.at.x, light.at.y, light.at.z);
     const std::string name = "light " + std::to_string(i);
     if (light.directional > 1) refuse(name + ": `directional` must be 0 or 1");
-    if (!is_in_world(light.at)) refuse(name + " must be within 16384 m of the world's origin");
     if (light.directional == 1 && !(std::abs(glm::length(at) - 1) < 1e-3f))
       refuse(name + ": `at` must be a unit vector towards the sun");
+    if (!is_in_world(light.at)) refuse(name + ": `at` must be finite, within 16384 m of the world's origin");
     lights.push_back({light.directional == 1, at});
   }
   return lights;
