@@ -48,7 +48,8 @@ void check_writable(const fs::path& file) {
   if (opened) return;
   std::error_code ignored;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const bool bad_name = !fs::is_directory(folder, ignored) || fs::is_directory(file, ignored) ||
+  const bool bad_name = !platform::why_not_a_name(file).empty() || !fs::is_directory(folder, ignored) ||
+                        fs::is_directory(file, ignored) ||
                         (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored));
   throw Error(bad_name ? ErrorCode::usage : opened.failure().code, opened.failure().message);
 }

@@ -110,6 +110,8 @@ int open_part(const fs::path& target, fs::path& part) {
 
 // Why a file that exists cannot be replaced.
 std::optional<Failure> obstacle(const fs::path& path, const fs::path& target) {
+  if (const std::string why = platform::why_not_a_name(target); !why.empty())
+    return Failure{ErrorCode::bad_input, path.string() + ": " + why + "; choose another name"};
   const auto info = platform::info_of(target);
   if (!info) return std::nullopt;
   if (info->is_folder)

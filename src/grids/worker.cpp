@@ -11,6 +11,7 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/platform/child_process.hpp"
+#include "core/platform/library.hpp"
 #include "core/platform/process.hpp"
 #include "core/progress.hpp"
 #include "core/utf8.hpp"
@@ -43,9 +44,8 @@ std::string program() {
 
 Failure cannot_start(const fs::path& path, int error) {
   if (error == ENOENT)
-    return {ErrorCode::no_device, path.string() +
-                                      ": requires the program brume-vdb, which is neither beside "
-                                      "brume nor on the PATH; install it with cmake --install"};
+    return {ErrorCode::no_device,
+            path.string() + ": requires the program brume-vdb, which " + platform::kVdbIsMissing};
   return {ErrorCode::internal, path.string() + ": cannot start brume-vdb: " + std::strerror(error)};
 }
 

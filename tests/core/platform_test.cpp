@@ -102,6 +102,29 @@ TEST_F(Platform, RefusesFoldersAndWhatIsReadOnly) {
   EXPECT_NE(nowhere.failure().message.find("does not exist; create it first"), std::string::npos);
 }
 
+// Linux has no such names.
+#if defined(_WIN32)
+TEST_F(Platform, RefusesNamesThatNoFileCanHave) {
+  for (const auto& [name, why] : {std::pair{"CON.png", "the name of a device"},
+                                  {"nul", "the name of a device"},
+                                  {"Aux .tar.gz", "the name of a device"},
+                                  {"com1.png", "the name of a device"},
+                                  {"LPT9", "the name of a device"},
+                                  {"ab:c.png", "a ':' in its name"},
+                                  {"a?.png", "a '?' in its name"},
+                                  {"a\x01.png", "a control character in its name"}}) {
+    const auto file = AtomicFile::open(folder_ / to_path(name));
+    ASSERT_FALSE(file) << name;
+    EXPECT_EQ(file.failure().code, ErrorCode::bad_input);
+    EXPECT_NE(file.failure().message.find(name + (": has " + std::string(why))), std::string::npos)
+        << file.failure().message;
+  }
+  EXPECT_EQ(file_count(), 0u);
+  for (const char* name : {"console.png", "com.png", "com0", "lpt10.png", "nul_1", "a b.png"})
+    EXPECT_TRUE(AtomicFile::open(folder_ / to_path(name))) << name;
+}
+#endif
+
 TEST_F(Platform, FilesAreIdentified) {
   ASSERT_TRUE(write_file_atomic(folder_ / "a", std::string("abc")));
   ASSERT_TRUE(write_file_atomic(folder_ / "b", std::string("abc")));

@@ -43,6 +43,9 @@ struct FileInfo {
 std::optional<FileInfo> info_of(const std::filesystem::path& path);
 std::optional<FileInfo> info_of(int descriptor);
 
+/// Why no file can have this name on this system: "has a '?' in its name"; empty if it can.
+std::string why_not_a_name(const std::filesystem::path& path);
+
 /// Whether the process may write to what exists.
 bool may_write(const std::filesystem::path& path);
 

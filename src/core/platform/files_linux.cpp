@@ -49,6 +49,10 @@ std::optional<FileInfo> info_of(int descriptor) {
   return to_info(info);
 }
 
+std::string why_not_a_name(const fs::path&) {
+  return "";  // The kernel says what its file systems do not accept.
+}
+
 bool may_write(const fs::path& path) {
   return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
 }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cwchar>
+#include <string_view>
 #include <thread>
 
 #include "core/platform/files.hpp"
@@ -56,6 +57,25 @@ std::optional<FileInfo> info_of(const fs::path& path) {
 
 std::optional<FileInfo> info_of(int descriptor) {
   return info_of_handle(reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor)));
+}
+
+// Such names reach devices, streams of other files, or nothing, and calls say so late or never.
+std::string why_not_a_name(const fs::path& path) {
+  const std::wstring name = path.filename().native();
+  for (const wchar_t c : name)
+    if (c < L' ' || std::wcschr(L"<>:\"|?*", c))
+      return c < L' ' ? "has a control character in its name"
+                      : std::string("has a '") + static_cast<char>(c) + "' in its name";
+  std::wstring stem = name.substr(0, name.find(L'.'));
+  stem.resize(stem.find_last_not_of(L' ') + 1);
+  for (wchar_t& c : stem)
+    if (c >= L'a' && c <= L'z') c = static_cast<wchar_t>(c - L'a' + L'A');
+  static constexpr std::array<std::wstring_view, 6> kDevices{L"CON", L"PRN",    L"AUX",
+                                                             L"NUL", L"CONIN$", L"CONOUT$"};
+  const bool numbered = stem.size() == 4 && (stem.starts_with(L"COM") || stem.starts_with(L"LPT")) &&
+                        stem[3] >= L'1' && stem[3] <= L'9';
+  if (numbered || std::ranges::find(kDevices, stem) != kDevices.end()) return "has the name of a device";
+  return "";
 }
 
 bool may_write(const fs::path& path) {

@@ -9,6 +9,8 @@ struct Library {
 };
 
 extern const Library kVulkanLoader, kEmbree;
+/// After "requires the program brume-vdb, which ": where it could be, and what else helps.
+extern const char* const kVdbIsMissing;
 
 /// Loads the library with this file name, which stays loaded; null: it is missing.
 void* load_library(const char* file);

@@ -6,6 +6,8 @@ namespace brume::platform {
 
 const Library kVulkanLoader{"vulkan-1.dll", "the Vulkan runtime"};
 const Library kEmbree{"embree3.dll", "embree3.dll"};
+const char* const kVdbIsMissing =
+    "is not made for Windows; on Linux, 'brume convert' makes a .brv of such a file, and back";
 
 void* load_library(const char* file) {
   return reinterpret_cast<void*>(::LoadLibraryA(file));
