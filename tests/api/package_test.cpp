@@ -102,6 +102,22 @@ TEST(Library, ExportsTheFunctionsOfTheHeaderAndNothingElse) {
   EXPECT_EQ(exported, declared());
 }
 
+// docs/reference/c-api.md has the command.
+TEST(StaticLibrary, IsAllOfBrumeThatAProgramOfCLinks) {
+  const cli::WorkFolder folder;
+  const std::string program = (folder.path() / "server").string();
+  const ShellRun shared = run_shell("'" BRUME_SERVER_PROGRAM "' --seconds 10");
+  ASSERT_EQ(shared.status, 0);
+  for (const std::string all : {"", " -static"}) {
+    expect_runs("cc -std=c11 '" BRUME_SOURCE_DIR "/examples/server/server.c' -I'" + kInclude + "' -o '" +
+                program + "' '" BRUME_STATIC_LIBRARY "' -lstdc++ -lm" + all);
+    EXPECT_NE(run_shell("readelf --dynamic '" + program + "' | grep libbrume").status, 0);
+    const ShellRun run = run_shell("'" + program + "' --seconds 10");
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.output, shared.output) << "hashes, sights and packets";
+  }
+}
+
 TEST(Abi, IsTheOneThatIsKept) {
   for (const std::string header : {"brume", "brume_textures"}) {
     const ShellRun run = abi_difference(header + ".h", "api/" + header + ".abi");

@@ -66,6 +66,22 @@ class WindowsTest(unittest.TestCase):
         lines, _ = self.both("brume_server", "--seconds", "94", there="examples/server")
         self.assertIn(b"\n5952 ", lines)
 
+    def test_a_program_in_c_has_the_static_library_in_it(self):
+        folder = fresh(WORK / self.id())
+        compiled = subprocess.run(
+            ["x86_64-w64-mingw32-gcc-posix", "-DBRUME_STATIC", SOURCE / "examples/server/server.c", "-I",
+             SOURCE / "include", WINDOWS / "libbrume-sim-static.a", "-lstdc++", "-static", "-o", folder / "server.exe"],
+            capture_output=True, text=True, check=False)
+        self.assertEqual(compiled.returncode, 0, compiled.stderr)
+        needed = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", folder / "server.exe"], capture_output=True,
+                                text=True, check=True).stdout
+        self.assertNotIn("DLL Name: brume", needed)
+        code, output, errors = self.wine.run([folder / "server.exe", "--seconds", "10"], folder)
+        self.assertEqual(code, 0, errors)
+        here = self.linux([LINUX / "examples/server/brume_server", "--seconds", "10"], folder)
+        self.assertIn(b"\n 640 ", here[1])
+        self.assertEqual(output.replace(b"\r\n", b"\n"), here[1])
+
     def test_the_tests_of_the_c_interface_pass(self):
         code, output, _ = self.wine.run([WINDOWS / "windows_api_tests.exe"], fresh(WORK / self.id()))
         self.assertEqual(code, 0, output.decode(errors="replace"))
