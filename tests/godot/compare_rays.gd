@@ -34,13 +34,13 @@ func compare():
 	smoke.follow(match_, [], Color(0, 0, 0))
 	var shader = Shader.new()
 	# All detail of the noise, in steps of 2 cm.
-	shader.code = smoke.material_override.shader.code.replace("* brume_light(position, texel, direction)", "* vec3(1.0)") \
+	shader.code = smoke.material.shader.code.replace("* brume_light(position, texel, direction)", "* vec3(1.0)") \
 			.replace("jitter, pixel_width);", "jitter, 0.0);")
-	smoke.material_override.shader = shader
+	smoke.material.shader = shader
 	smoke.update(380 / 64.0)
-	var constants = smoke.material_override.get_shader_param("brume_constants_4")
+	var constants = smoke.material.get_shader_param("brume_constants_4")
 	constants.d = 0.02
-	smoke.material_override.set_shader_param("brume_constants_4", constants)
+	smoke.material.set_shader_param("brume_constants_4", constants)
 	for i in range(2):
 		yield(self, "idle_frame")
 	yield(VisualServer, "frame_post_draw")

@@ -208,7 +208,7 @@ namespace Brume.Tests
                     uint size = regions[i].Width * regions[i].Height * regions[i].Depth;
                     Expect((uint)regions[i].ByteCount == size * Textures.BytesOf((SmokeTextureFormat)texture.Format),
                            "the bytes of a region");
-                    Textures.Copy(regions[i], texture, texels[regions[i].Texture]);
+                    textures.Copy(regions[i], texture, texels[regions[i].Texture]);
                 }
                 foreach (TextureKind kind in new[] { TextureKind.Density, TextureKind.Noise, TextureKind.Light })
                     Expect(Array.Exists(texels[(int)kind], value => value > 0), "texels of " + kind);
@@ -216,8 +216,15 @@ namespace Brume.Tests
                 textures.Constants(constants);
                 Expect(!Array.Exists(constants, value => float.IsNaN(value) || float.IsInfinity(value)), "numbers");
                 Throws<ArgumentException>(() => textures.Constants(new float[3]), "few constants");
+                Region old = regions[0];
                 textures.Update(field, 300.0 / 64, lights);
+                Throws<InvalidOperationException>(() => textures.Copy(old, list[old.Texture], texels[old.Texture]),
+                                                  "a region of an earlier update");
                 Expect(textures.Regions(ref regions) < count, "fewer regions where nothing changed");
+                Region last = regions[0];
+                textures.Dispose();
+                Throws<ObjectDisposedException>(() => textures.Copy(last, list[last.Texture], texels[last.Texture]),
+                                                "a region of disposed textures");
             }
         }
 

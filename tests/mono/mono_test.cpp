@@ -147,6 +147,49 @@ public static class Example {
   EXPECT_EQ(run.output, "TrueFalse");
 }
 
+// The component of Samples~ against declarations of what it calls of Unity: a throw, with a lamp and a sun.
+TEST_F(Mono, TheComponentGivesShadersTheSmoke) {
+  folder_->write("View.cs", R"(using System;
+using Brume;
+using UnityEngine;
+public static class View {
+  public static void Main() {
+    VoxelsParams settings = Defaults.Voxels();
+    settings.Layout.Size = new Voxel { X = 16, Y = 8, Z = 16 };
+    using (var context = new Context())
+    using (Level level = Level.FromVoxels(context, settings, new byte[16 * 8 * 16 / 8], null))
+    using (var world = new World(level))
+    using (var field = new Field(level)) {
+      WorldEvent grenade = Defaults.Event(EventKind.Smoke, 1);
+      grenade.U.Smoke.From = grenade.U.Smoke.At = Units.Position(4, 2, 4);
+      grenade.U.Smoke.Voxels = 200;
+      world.Append(grenade);
+      var view = new SmokeView();
+      view.Lights = new[] { new Light { type = LightType.Point }, new Light { type = LightType.Directional } };
+      view.Lights[1].transform.forward = new Vector3 { y = -1 };
+      view.Follow(field);
+      for (uint tick = 30; tick < 34; ++tick) {
+        world.AdvanceTo(tick);
+        using (State state = world.Snapshot()) field.Update(state);
+        view.Show(field, tick / 64.0);
+      }
+      var sun = ((Vector4[])Shader.Globals["brume_light_positions"])[1];
+      Console.Write(Shader.Globals.Count + " " + sun.y + " " + sun.w + " " + Shader.Globals["brume_light_volume"]);
+    }
+  }
+})");
+  const std::string view = (folder_->path() / "view.exe").string();
+  const api::ShellRun run = api::run_shell(
+      "mcs -langversion:7.2 -warn:4 -warnaserror -noconfig -out:'" + view +
+      "' '" BRUME_SOURCE_DIR "'/integrations/unity/Runtime/*.cs '" BRUME_SOURCE_DIR
+      "/integrations/unity/Samples~/SmokeView.cs' '" BRUME_SOURCE_DIR "/tests/mono/unity/Stubs.cs' '" +
+      (folder_->path() / "View.cs").string() +
+      "' 2>&1 && LD_LIBRARY_PATH=\"$(dirname '" BRUME_LIBRARY "')\" mono '" + view + "' 2>&1");
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_EQ(run.output.substr(0, 7), "15 1 0 ") << run.output;
+  EXPECT_TRUE(run.output.ends_with("UnityEngine.Texture3D")) << run.output;
+}
+
 TEST_F(Mono, CallsFailAndSucceedAsTheyShould) {
   match_in_c();
   const api::ShellRun run = checks("calls " + match_file());

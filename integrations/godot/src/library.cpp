@@ -32,12 +32,16 @@ std::string hex(std::uint64_t number) {
 using A = const Arguments&;
 
 constexpr Method kMethods[] = {
+    {"add_mask", 3, [](Match& m, A a) { return value(m.add_mask(a.index(0), a.index(1), a.bytes(2))); }},
     {"level_from_boxes", 2, done([](Match& m, A a) { m.level_from_boxes(a.boxes(0), a.number(1)); })},
     {"level_from_triangles", 4, done([](Match& m, A a) {
        m.level_from_triangles(a.points(0), a.integers(1), a.bytes(2), a.number(3));
      })},
+    {"layout", 0, [](Match& m, A) { return value(m.layout()); }},
     {"throw_smoke", 3, done([](Match& m, A a) { m.throw_smoke(a.point(0), a.point(1), a.number(2)); })},
     {"shoot", 3, done([](Match& m, A a) { m.shoot(a.point(0), a.point(1), a.number(2)); })},
+    {"shoot_mask", 5,
+     done([](Match& m, A a) { m.shoot_mask(a.point(0), a.point(1), a.number(2), a.index(3), a.number(4)); })},
     {"blast", 2, done([](Match& m, A a) { m.blast(a.point(0), a.number(1)); })},
     {"move", 2, done([](Match& m, A a) { m.move(a.index(0), a.point(1)); })},
     {"edit", 2, done([](Match& m, A a) { m.edit(a.box(0), a.boolean(1)); })},
@@ -51,8 +55,8 @@ constexpr Method kMethods[] = {
     {"drawn_depths", 1, [](Match& m, A a) { return value(m.drawn_depths(a.points(0))); }},
     {"sees", 3, [](Match& m, A a) { return value(m.sees(a.point(0), a.point(1), a.number(2))); }},
     {"make_textures", 2, done([](Match& m, A a) { m.make_textures(a.index(0), a.boolean(1)); })},
-    {"update_textures", 3,
-     done([](Match& m, A a) { m.update_textures(a.number(0), a.points(1), a.number(2)); })},
+    {"update_textures", 4,
+     done([](Match& m, A a) { m.update_textures(a.number(0), a.points(1), a.bytes(2), a.number(3)); })},
     {"texture_layout", 1, [](Match& m, A a) { return value(m.textures().layout(a.index(0))); }},
     {"changed_layers", 1, [](Match& m, A a) { return value(m.textures().changed_layers(a.index(0))); }},
     {"layer", 2, [](Match& m, A a) { return value(m.textures().layer(a.index(0), a.index(1))); }},

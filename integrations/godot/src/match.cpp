@@ -1,5 +1,6 @@
 #include "match.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -12,6 +13,40 @@ brume_position position(const brume_point& point) {
 }
 
 }  // namespace
+
+Match::Running::Running(api::Level made, const api::Masks& masks)
+    : level(std::move(made)),
+      world(level,
+            [&] {
+              brume_world_params params = brume_world_defaults();
+              params.masks = masks.get();
+              return params;
+            }()),
+      field(level, [&] {
+        brume_field_params params = brume_field_defaults();
+        params.masks = masks.get();
+        return params;
+      }()) {}
+
+std::int64_t Match::add_mask(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> texels) {
+  if (std::uint64_t{width} * height != texels.size())
+    throw std::invalid_argument("a mask of " + std::to_string(width) + " x " + std::to_string(height) +
+                                " texels has a byte for each, not " + std::to_string(texels.size()));
+  masks_.push_back({width, height, std::move(texels)});
+  try {
+    masks();
+  } catch (...) {
+    masks_.pop_back();
+    throw;
+  }
+  return static_cast<std::int64_t>(masks_.size()) - 1;
+}
+
+api::Masks Match::masks() const {
+  std::vector<brume_mask_image> images;
+  for (const Mask& mask : masks_) images.push_back({mask.width, mask.height, mask.texels.data()});
+  return api::Masks(context_, images);
+}
 
 void Match::level_from_boxes(const std::vector<Box>& boxes, double voxel_size) {
   constexpr std::array<std::int32_t, 36> kFaces{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
@@ -43,7 +78,18 @@ void Match::level_from_triangles(const std::vector<brume_point>& points,
   params.indices = corners.data();
   params.index_count = corners.size();
   params.roles = roles.empty() ? nullptr : roles.data();
-  running_ = std::make_unique<Running>(api::Level(context_, params));
+  running_ = std::make_unique<Running>(api::Level(context_, params), masks());
+}
+
+std::vector<float> Match::layout() {
+  const brume_layout layout = running().level.layout();
+  return {layout.origin.x,
+          layout.origin.y,
+          layout.origin.z,
+          static_cast<float>(layout.size.x),
+          static_cast<float>(layout.size.y),
+          static_cast<float>(layout.size.z),
+          layout.voxel_size};
 }
 
 void Match::throw_smoke(brume_point from, brume_point at, double cubic_metres) {
@@ -60,6 +106,18 @@ void Match::shoot(brume_point origin, brume_point toward, double radius) {
   event.u.shot.origin = position(origin);
   event.u.shot.toward = position(toward);
   event.u.shot.radius_1024 = brume_length(radius);
+  world().append(event);
+}
+
+void Match::shoot_mask(brume_point origin, brume_point toward, double half_size, std::uint32_t mask,
+                       double stay_open_seconds) {
+  brume_event event = next_event(BRUME_EVENT_SHOT);
+  event.u.shot.origin = position(origin);
+  event.u.shot.toward = position(toward);
+  event.u.shot.radius_1024 = brume_length(half_size);
+  event.u.shot.shape = BRUME_HOLE_MASK;
+  event.u.shot.mask_index = mask;
+  event.u.shot.stay_open_ms = static_cast<std::uint32_t>(std::clamp(stay_open_seconds, 0.0, 1e6) * 1000);
   world().append(event);
 }
 
@@ -127,8 +185,9 @@ void Match::make_textures(std::uint32_t light_count, bool sky) {
   running().textures.emplace(field(), light_count, sky);
 }
 
-void Match::update_textures(double seconds, const std::vector<brume_point>& lights, double light_fraction) {
-  textures().update(field(), seconds, lights, light_fraction);
+void Match::update_textures(double seconds, const std::vector<brume_point>& lights,
+                            const std::vector<std::uint8_t>& suns, double light_fraction) {
+  textures().update(field(), seconds, lights, suns, light_fraction);
 }
 
 SmokeTextures& Match::textures() {

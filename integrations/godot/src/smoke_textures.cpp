@@ -42,12 +42,13 @@ SmokeTextures::SmokeTextures(const api::Field& field, std::uint32_t light_count,
     : textures_(field, params_of(light_count, sky)), light_count_(light_count) {}
 
 void SmokeTextures::update(const api::Field& field, double seconds, const std::vector<brume_point>& lights,
-                           double light_fraction) {
-  if (lights.size() != light_count_)
+                           const std::vector<std::uint8_t>& suns, double light_fraction) {
+  if (lights.size() != light_count_ || suns.size() != light_count_)
     throw std::invalid_argument(std::to_string(light_count_) + " lights are expected, not " +
-                                std::to_string(lights.size()));
+                                std::to_string(lights.size()) + " with " + std::to_string(suns.size()) +
+                                " kinds");
   std::vector<brume_texture_light> positions;
-  for (const brume_point& at : lights) positions.push_back({0, at});
+  for (std::size_t i = 0; i < lights.size(); ++i) positions.push_back({suns[i], lights[i]});
   brume_textures_frame frame = brume_textures_frame_defaults();
   frame.seconds = seconds;
   frame.lights = positions.data();

@@ -12,10 +12,10 @@ class SmokeTextures {
  public:
   SmokeTextures(const api::Field& field, std::uint32_t light_count, bool sky);
 
-  /// Takes over the field at a time. `lights`: as many positions as there are lights. `light_fraction`: of
-  /// the light, how much this update finds; 0: all.
+  /// Takes over the field at a time. `lights`: as many positions as there are lights; `suns`: 1 where it is
+  /// the direction towards a sun. `light_fraction`: of the light, how much this update finds; 0: all.
   void update(const api::Field& field, double seconds, const std::vector<brume_point>& lights,
-              double light_fraction);
+              const std::vector<std::uint8_t>& suns, double light_fraction);
 
   /// Format, width, height, depth, generation.
   std::vector<std::int32_t> layout(std::uint32_t kind) const;

@@ -7,6 +7,7 @@ namespace Brume
     public sealed class Textures : Handle
     {
         private readonly int lightCount;
+        private uint updates;
 
         public Textures(Field field) : this(field, Defaults.Textures(), Defaults.Drawn())
         {
@@ -31,6 +32,7 @@ namespace Brume
         public void Update(Field field, double seconds, TextureLight[] lights = null, float lightUpdateFraction = 0)
         {
             Calls.Count(lights, lightCount, "lights");
+            ++updates;
             using (Pins pins = new Pins())
             {
                 TexturesFrame frame = Defaults.Frame();
@@ -50,7 +52,7 @@ namespace Brume
         }
 
         /// <summary>What the last update changed, as lists of a State are written. Texels are valid until the next
-        /// update.</summary>
+        /// update: Copy refuses older ones, by the number of their update in Reserved.</summary>
         public int Regions(ref Region[] regions)
         {
             IntPtr first;
@@ -62,6 +64,7 @@ namespace Brume
             {
                 IntPtr region = new IntPtr(first.ToInt64() + (long)i * size);
                 regions[i] = (Region)Marshal.PtrToStructure(region, typeof(Region));
+                regions[i].Reserved = updates;
             }
             return (int)(uint)count;
         }
@@ -73,10 +76,17 @@ namespace Brume
             Calls.Check(Native.brume_textures_constants(this, constants, count));
         }
 
-        /// <summary>Copies a region into the bytes of its whole texture, x fastest, then y, then z: for engines that
-        /// upload whole textures.</summary>
-        public static void Copy(Region region, SmokeTexture texture, byte[] texels)
+        /// <summary>Copies a region of the last update into the bytes of its whole texture, x fastest, then y, then z:
+        /// for engines that upload whole textures.</summary>
+        public void Copy(Region region, SmokeTexture texture, byte[] texels)
         {
+            using (new Borrowed(this)) CopyRows(region, texture, texels);
+        }
+
+        private void CopyRows(Region region, SmokeTexture texture, byte[] texels)
+        {
+            if (region.Reserved != updates || region.Texels == IntPtr.Zero)
+                throw new InvalidOperationException("the region is of an earlier update, its texels are gone");
             int texel = BytesOf((SmokeTextureFormat)texture.Format);
             long bytes = (long)texel * texture.Width * texture.Height * texture.Depth;
             if (texels == null || texels.Length < bytes)

@@ -29,33 +29,38 @@ SamplerState brume_linear_repeat;
 
 #include "smoke.hlsl"
 
-// Of the lights that TextureLight lists: position in the level [m] and irradiance at one metre.
+// Of the lights that TextureLight lists, in the level: position [m] and 1, and irradiance at one metre; or the direction
+// towards a sun and 0, and its irradiance.
 float4 brume_light_positions[15];
 float4 brume_light_colors[15];
-float4 brume_ambient;  // radiance of the sky; w: fraction of it that walls reflect
+float4 brume_ambient;  // radiance of the sky; w: fraction of it, and of the suns' light, that walls and ground reflect
 
 float3 brume_light(float3 position, float3 texel, float3 direction) {
   const float3 albedo = float3(0.92, 0.92, 0.92);
   const float g = 0.2;
   float2 sky = brume_sky_at(texel);
-  float3 sum = brume_scattered_sky(sky, brume_ambient.rgb, brume_ambient.w * brume_ambient.rgb, albedo, g);
+  float3 sum = float3(0.0, 0.0, 0.0);
+  float3 on_ground = float3(0.0, 0.0, 0.0);
   for (int i = 0; i < BRUME_LIGHT_COUNT; ++i) {
-    float3 to = brume_light_positions[i].xyz - position;
+    float3 to = brume_light_positions[i].xyz - brume_light_positions[i].w * position;
     float square = max(dot(to, to), 0.01);
+    float3 towards = to * rsqrt(square);
     float2 reach = brume_light_at(texel, i);
-    sum += brume_light_colors[i].rgb / square * reach.y *
-           brume_scattered(reach.x, dot(to, direction) * rsqrt(square), albedo, g, sky.x);
+    float3 arriving = brume_light_colors[i].rgb / square * reach.y;
+    sum += arriving * brume_scattered(reach.x, dot(towards, direction), albedo, g, sky.x);
+    on_ground += (1.0 - brume_light_positions[i].w) * arriving * max(towards.y, 0.0);
   }
-  return sum;
+  float3 reflected = brume_ambient.w * (brume_ambient.rgb + on_ground / 3.14159265);
+  return sum + brume_scattered_sky(sky, brume_ambient.rgb, reflected, albedo, g);
 }
 
 #include "smoke_march.hlsl"
 
-// Eye and direction are Unity's; the level's x points the other way. The level needs a sky (TexturesParams.Sky).
+// Eye and direction are Unity's; the level's z points the other way. The level needs a sky (TexturesParams.Sky).
 // Blend: color + (1 - alpha) * what is behind.
 void BrumeSmoke_float(float3 Eye, float3 Direction, float Distance, float Jitter, float PixelWidth, out float3 Color,
                       out float Alpha) {
-  const float3 mirrored = float3(-1.0, 1.0, 1.0);
+  const float3 mirrored = float3(1.0, 1.0, -1.0);
   float4 smoke = brume_march(Eye * mirrored, Direction * mirrored, Distance, Jitter, PixelWidth);
   Color = smoke.rgb;
   Alpha = 1.0 - smoke.a;

@@ -345,30 +345,42 @@ float brume_transmittance(vec3 from, vec3 to, int steps, float pixel) {
   return exp(-brume_constants_3.w * ds * depth);
 }
 
-// ---- Light: that of the scene's OmniLights, and of the sky ----
+// ---- Light: that of the scene's lights, and of the sky ----
 
-uniform sampler2D lights;            // a row for each: position and range, then colour times energy and attenuation
+// A row for each: its position and range (0: a sun, and the direction towards it); colour times energy, and attenuation;
+// a spot's direction and the cosine of its angle (-2: no spot); a spot's attenuation.
+uniform sampler2D lights;
 uniform vec4 ambient;                // radiance of the sky
-uniform float bounce = 0.35;         // what walls reflect of it
+uniform float bounce = 0.35;         // what walls and ground reflect of sky and suns
 uniform vec4 albedo = vec4(0.86, 0.86, 0.86, 0.0);
 uniform float anisotropy = 0.2;
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
-  vec3 sum = brume_scattered_sky(sky, ambient.rgb, bounce * ambient.rgb, albedo.rgb, anisotropy);
+  vec3 sum = vec3(0.0, 0.0, 0.0);
+  vec3 on_ground = vec3(0.0, 0.0, 0.0);
   for (int i = 0; i < int(brume_constants_9.y); ++i) {
     vec4 place = texelFetch(lights, ivec2(0, i), 0);
     vec4 colour = texelFetch(lights, ivec2(1, i), 0);
-    vec3 towards = place.xyz - position;
-    float away = length(towards);
-    // As Godot dims its lights.
-    float arriving = pow(max(1.0 - away / place.w, 0.0), colour.w);
     vec2 reach = brume_light_at(texel, i);
-    float cosine = dot(towards, direction) / max(away, 0.001);
-    sum += 3.14159265 * arriving * reach.y * colour.rgb *
-           brume_scattered(reach.x, cosine, albedo.rgb, anisotropy, sky.x);
+    vec3 towards = place.xyz;
+    vec3 arriving = 3.14159265 * reach.y * colour.rgb;
+    if (place.w > 0.0) {
+      float away = max(length(place.xyz - position), 0.001);
+      towards = (place.xyz - position) / away;
+      // As Godot dims its lights.
+      arriving *= pow(max(1.0 - away / place.w, 0.0), colour.w);
+      vec4 cone = texelFetch(lights, ivec2(2, i), 0);
+      float rim = (1.0 - dot(-towards, cone.xyz)) / max(1.0 - cone.w, 0.0001);
+      float within = max(1.0 - pow(clamp(rim, 0.0001, 1.0), texelFetch(lights, ivec2(3, i), 0).x), 0.0);
+      arriving *= cone.w > -1.5 ? within : 1.0;
+    } else {
+      on_ground += arriving * max(towards.y, 0.0);
+    }
+    sum += arriving * brume_scattered(reach.x, dot(towards, direction), albedo.rgb, anisotropy, sky.x);
   }
-  return sum;
+  vec3 reflected = bounce * (ambient.rgb + on_ground / 3.14159265);
+  return sum + brume_scattered_sky(sky, ambient.rgb, reflected, albedo.rgb, anisotropy);
 }
 
 vec4 brume_march(vec3 origin, vec3 direction, float t_end, float jitter, float pixel_width) {
