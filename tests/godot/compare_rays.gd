@@ -13,7 +13,7 @@ var camera = Camera.new()
 func _init():
 	OS.window_size = Vector2(WIDTH, HEIGHT)
 	var boxes = []
-	for box in load("res://main.gd").BOXES:
+	for box in load("res://stage.gd").BOXES:
 		boxes.append(AABB(box[0], box[1]))
 	match_.level_from_boxes(boxes, 0.25)
 	match_.throw_smoke(Vector3(-3.0, 1.5, -0.6), Vector3(-1.4, 0.3, -1.4), 45)

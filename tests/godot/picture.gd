@@ -38,10 +38,11 @@ func draw_all():
 	yield(self, "idle_frame")
 	main.smoke.light_fraction = 0  # times lie apart: all light each time
 	yield(draw("godot_clear.png", 0.0), "completed")
+	main.throw(null)
 	yield(draw("godot_smoke.png", 6.0), "completed")
 	for i in range(3):
-		main.match_.shoot(main.camera.translation, Vector3(-1, 1.6 - 0.4 * i, 0.2 - 0.6 * i), 0.16)
+		main.match_.shoot(main.camera.translation, main.in_front(5.6, 0.8 * i - 0.8, 0.3), 0.3)
 	yield(draw("godot_holes.png", 6.4), "completed")
-	main.match_.blast(Vector3(-2.0, 1.2, -1.4), 1.6)
+	main.blast(null)
 	yield(draw("godot_blast.png", 6.7), "completed")
 	quit()
