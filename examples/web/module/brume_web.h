@@ -49,6 +49,8 @@ WEB_API const web_report* web_report_of(void);
 
 /// A light of the smoke: its place, or the direction towards it. Before the first web_update.
 WEB_API int web_add_texture_light(const float* at, uint32_t is_directional);
+/// The device has lost its textures: the next updates hand out all of them again.
+WEB_API void web_renew(void);
 /// Takes over a player's state, drawn at a time, and makes the textures follow. Then: the list of textures,
 /// five words each (brume_texture), the regions to upload, ten words each (brume_region), and the shader's
 /// constants.

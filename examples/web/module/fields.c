@@ -55,6 +55,13 @@ static int make_textures(uint32_t player) {
   return (int)brume_textures_create(g_match.fields[player], &params, &g_textures[player]);
 }
 
+void web_renew(void) {
+  for (int player = 0; player < kPlayers; ++player) {
+    brume_textures_destroy(g_textures[player]);
+    g_textures[player] = NULL;
+  }
+}
+
 int web_update(uint32_t player, double seconds, float light_fraction) {
   if (!g_textures[player]) TRY(make_textures(player));
   if (g_match.states[player]) TRY(brume_field_update(g_match.fields[player], g_match.states[player]));

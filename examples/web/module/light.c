@@ -8,6 +8,9 @@
 
 enum { kLights = 12, kBatch = 256 };
 
+// Irradiance of the sky, which smoke scatters more than it absorbs [W/m^2].
+static const float kAmbient[3] = {0.027f, 0.036f, 0.055f};
+
 typedef struct Light {
   brume_point position, direction;
   float color[3], inner, outer;
@@ -110,15 +113,23 @@ void web_light_restart(void) {
   for (uint32_t i = 0; i < g_pair_count; ++i) g_pairs[i].open = 255;
 }
 
+// What reaches a surface through smoke of an optical depth: straight, and scattered many times. The latter is what
+// brume_scattered of shaders/export/smoke.glsl has for this smoke, from half of all directions.
+static float left_behind(float depth) {
+  return fminf(expf(-depth) + 0.21f * expf(-0.33f * depth) * (1 - expf(-depth)), 1);
+}
+
 static void write_cell(uint32_t player, uint32_t cell) {
-  float all[3] = {1e-4f, 1e-4f, 1e-4f}, left[3] = {1e-4f, 1e-4f, 1e-4f};
+  float all[3], left[3];
+  memcpy(all, kAmbient, sizeof all);
+  memcpy(left, kAmbient, sizeof left);
   for (uint32_t i = g_pairs_of_cell[cell]; i < g_pairs_of_cell[cell + 1]; ++i) {
     const Pair* pair = &g_pairs[i];
     if (pair->open != 1) continue;
     for (int c = 0; c < 3; ++c) {
       const float arriving = pair->weight * g_lights[pair->light].color[c];
       all[c] += arriving;
-      left[c] += arriving * expf(-g_clear[player][i]);
+      left[c] += arriving * left_behind(g_clear[player][i]);
     }
   }
   uint8_t* texel = g_texels[player] + 4 * (size_t)cell;

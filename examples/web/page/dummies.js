@@ -3,9 +3,9 @@ import * as THREE from 'three';
 
 const EYES = 1.62;
 const SAYS = {
-  sees: other => `sees ${other}`,
-  smoke: other => `${other} is behind smoke`,
-  wall: other => `${other} is behind a wall`
+  sees: (one, other) => `${one} sees ${other}`,
+  smoke: (one, other) => `${one} can’t see ${other}: smoke`,
+  wall: (one, other) => `${one} can’t see ${other}: a wall`
 };
 const TINTS = { sees: 0x57e39a, smoke: 0xff9d5c, wall: 0xff5f5f };
 
@@ -69,27 +69,31 @@ export class Dummies {
     this.answer = answer;
     this.line.material.color.set(TINTS[answer]).multiplyScalar(0.55);
     this.people.forEach((person, i) => {
-      person.says = `${person.name}: ${SAYS[answer](this.people[1 - i].name)}`;
+      person.says = SAYS[answer](person.name, this.people[1 - i].name);
     });
     return true;
   }
 
-  /** Moves the labels above the heads, in an area of the window. */
+  /** Moves the labels above the heads, in an area of the window, one above the other where they would overlap. */
   place(camera, area) {
     const point = new THREE.Vector3();
-    for (const person of this.people) {
+    let last = null;
+    for (const { eyes, label, says } of this.people) {
       point
-        .copy(person.eyes)
-        .setY(person.eyes.y + 0.32)
+        .copy(eyes)
+        .setY(eyes.y + 0.32)
         .project(camera);
-      const isShown = point.z < 1 && Math.abs(point.x) < 1 && Math.abs(point.y) < 1;
-      person.label.hidden = !isShown;
-      person.label.textContent = person.says;
-      const half = 0.5 * person.label.offsetWidth + 6;
+      label.hidden = point.z >= 1 || Math.abs(point.x) >= 1 || Math.abs(point.y) >= 1;
+      if (label.textContent !== says) label.textContent = says;
+      if (label.hidden) continue;
+      const half = 0.5 * label.offsetWidth + 6,
+        height = label.offsetHeight + 4;
       const across = area.x + area.width * (0.5 + 0.5 * point.x);
       const x = Math.min(Math.max(across, area.x + half), area.x + area.width - half);
-      const y = area.y + area.height * (0.5 - 0.5 * point.y);
-      person.label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
+      let y = area.y + area.height * (0.5 - 0.5 * point.y);
+      if (last && Math.abs(x - last.x) < half + last.half && Math.abs(y - last.y) < height) y = last.y + height;
+      last = { x, y, half };
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
     }
   }
 }

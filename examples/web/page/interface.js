@@ -14,6 +14,14 @@ const TOOLS = [
   ['word', 'Word'],
   ['blast', 'Blast']
 ];
+// What a tap does, for those who have not tried it yet.
+const HINTS = {
+  throw: 'to throw smoke, drag to look around',
+  shoot: 'to shoot a hole through the smoke',
+  word: 'to shoot the word through the smoke',
+  blast: 'to blow the smoke away'
+};
+const TAP = matchMedia('(pointer: coarse)').matches ? 'Tap' : 'Click';
 const PLAY = '<svg viewBox="0 0 24 24"><path d="M8 5.5v13l10.5-6.5z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 24 24"><path d="M8.5 6v12M15.5 6v12" stroke-width="2.6"/></svg>';
 
@@ -25,6 +33,7 @@ export class Interface {
   /** `doors`: their names; `does`: what the page does, {seek, restart, setPlaying, toggleDoor}. */
   constructor(doors, does) {
     this.tool = 'throw';
+    this.isNew = new Set(); // tools whose hint is shown
     this.tools = TOOLS.map(([tool, name]) => {
       const button = document.createElement('button');
       button.id = `tool-${tool}`;
@@ -64,6 +73,41 @@ export class Interface {
     this.tool = tool;
     for (const { tool: other, button } of this.tools) button.setAttribute('aria-pressed', other === tool);
     element('word-form').hidden = tool !== 'word';
+    this.#hint();
+  }
+
+  #hint() {
+    element('hint').hidden = !this.isNew.has(this.tool);
+    element('hint').textContent = `${TAP} ${HINTS[this.tool]}`;
+  }
+
+  /** Says what a tap does, for each tool until it is used. */
+  invite() {
+    this.isNew = new Set(Object.keys(HINTS));
+    this.#hint();
+  }
+
+  /** A tap at a point of the window: a ring, and the tool is known. */
+  showTap(x, y) {
+    const ring = document.createElement('div');
+    ring.className = 'tap';
+    Object.assign(ring.style, { left: `${x}px`, top: `${y}px` });
+    ring.addEventListener('animationend', () => ring.remove());
+    document.body.append(ring);
+    this.isNew.delete(this.tool);
+    this.#hint();
+  }
+
+  /** Names the two players' parts of the window, where both are shown. */
+  showSides(areas) {
+    ['side-server', 'side-player'].forEach((id, i) => {
+      element(id).hidden = areas.length < 2;
+      if (areas.length < 2) return;
+      const { x, y, width, height } = areas[i];
+      const top = height < width ? y + 0.16 * height : y + (i === 0 ? 62 : 12);
+      element(id).style.transform = `translate(${x + width / 2}px, ${top}px) translateX(-50%)`;
+    });
+    element('side-player').textContent = `A player, ${element('loss').value} % of packets lost`;
   }
 
   get word() {
@@ -130,8 +174,10 @@ export class Interface {
 export function showMessage(text, hasFailed = false) {
   element('message').textContent = text;
   element('cover').classList.toggle('failed', hasFailed);
+  element('cover').classList.remove('done');
 }
 
 export function uncover() {
+  element('cover').classList.remove('failed');
   element('cover').classList.add('done');
 }

@@ -7,16 +7,20 @@ import { Interface, showMessage, uncover } from './interface.js';
 import { makeLetters } from './letters.js';
 import { DOORS } from './level.js';
 import { Match } from './match.js';
+import { Opening } from './opening.js';
 import { Quality } from './quality.js';
 import { HERE, THERE } from './simulation.js';
 import { Smoke } from './smoke.js';
 import { View } from './view.js';
 
 const TAP_PIXELS = 7;
-const EYE = [-6.0, 1.45, 11.4],
-  TARGET = [-0.5, 2.7, -0.6];
-const FIRST_THROW = { from: [-3.4, 1.8, 10], at: [-2.6, 0.4, -3], amount: 375 }; // through the front door
+const EYE = [-5.7, 1.4, 10.2],
+  TARGET = [-0.75, 2.55, -0.6];
+const OPENING_WORD = { text: 'BRUME', eye: [-5.7, 1.5, 10.2], at: [-2.9, 1.2, 2.3] };
 const settings = new URLSearchParams(location.search);
+
+const isIn = (area, x, y) =>
+  x >= area.x && x < area.x + area.width && y >= area.y && y < area.y + area.height;
 
 function makeRenderer() {
   const canvas = document.getElementById('picture');
@@ -46,7 +50,7 @@ class Page {
       reply => page.#take(reply),
       message => showMessage(message, true)
     );
-    if (settings.get('empty') === null) page.match.act({ kind: 'throw', ...FIRST_THROW });
+    page.begin();
     page.match.isPlaying = settings.get('paused') === null;
     return page;
   }
@@ -60,12 +64,20 @@ class Page {
     this.face = new Interface(
       DOORS.map(door => door.name),
       {
-        seek: tick => this.match.seek(tick),
-        restart: () => this.match.restart(),
+        seek: tick => {
+          this.#touch();
+          this.match.seek(tick);
+        },
+        restart: () => {
+          this.begin(this.match.restart());
+        },
         setPlaying: isPlaying => {
           this.match.isPlaying = isPlaying;
         },
-        toggleDoor: door => this.match.act({ kind: 'door', door })
+        toggleDoor: door => {
+          this.#touch();
+          this.match.act({ kind: 'door', door });
+        }
       }
     );
     this.leaves = DOORS.map(() => 0);
@@ -73,8 +85,25 @@ class Page {
     this.before = performance.now();
   }
 
+  /** The match as it opens, unless the address asks for none. */
+  begin(clears = 0) {
+    if (settings.get('empty') !== null) return;
+    const { text, eye, at } = OPENING_WORD;
+    const direction = new THREE.Vector3(...at).sub(new THREE.Vector3(...eye));
+    const distance = direction.length();
+    this.opening = new Opening(clears, this.#word(text, new THREE.Vector3(...eye), direction.normalize(), distance));
+    this.opening.due(0).forEach(action => this.match.act(action));
+  }
+
+  /** The visitor takes over. */
+  #touch() {
+    if (this.opening) this.face.invite();
+    this.opening = null;
+  }
+
   /** Takes an answer of the worker. */
-  #take({ seen, sight, milliseconds }) {
+  #take({ seen, sight, milliseconds, renewals }) {
+    if (renewals !== this.match.renewals) return; // of textures that are lost
     for (const part of seen) this.smokes[part.player].follow(part);
     this.hasMoved = this.dummies.hear(sight) || this.hasMoved;
     this.simulated += 0.2 * (milliseconds - this.simulated);
@@ -115,6 +144,23 @@ class Page {
         this.act(event.clientX, event.clientY);
       down = null;
     });
+    // What the device has lost is made again; a hidden page's time does not count as a slow frame.
+    canvas.addEventListener('webglcontextlost', event => {
+      event.preventDefault();
+      this.isLost = true;
+      showMessage('The picture is lost, and comes back when the device does.', true);
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.isLost = false;
+      this.smokes.forEach(smoke => smoke.forget());
+      this.views.forEach(view => view.forget());
+      this.renderer.shadowMap.needsUpdate = true;
+      this.match.renew();
+      uncover();
+    });
+    document.addEventListener('visibilitychange', () => {
+      this.before = performance.now();
+    });
     addEventListener('keydown', event => {
       if (event.target.matches('input:not([type=range])')) return;
       const tool = ['throw', 'shoot', 'word', 'blast']['1234'.indexOf(event.key)];
@@ -127,7 +173,7 @@ class Page {
 
   /** The ray through a point of the window, to the first surface: {eye, direction, distance, normal}. */
   aim(x, y) {
-    const area = this.areas.find(area => x >= area.x && x < area.x + area.width) ?? this.areas[0];
+    const area = this.areas.find(area => isIn(area, x, y)) ?? this.areas[0];
     const at = new THREE.Vector2((2 * (x - area.x)) / area.width - 1, 1 - (2 * (y - area.y)) / area.height);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, this.views[HERE].camera);
@@ -141,25 +187,33 @@ class Page {
     };
   }
 
+  /** The action that shoots a word along a ray. */
+  #word(text, eye, direction, distance) {
+    const right = new THREE.Vector3().crossVectors(direction, new THREE.Vector3(0, 1, 0)).normalize();
+    return {
+      kind: 'word',
+      ray: { eye: eye.toArray(), direction: direction.toArray(), distance },
+      right: right.toArray(),
+      letters: this.letters.layout(text),
+      share: 0.62 * Math.min(1, this.views[HERE].camera.aspect)
+    };
+  }
+
   act(x, y) {
     const { eye, direction, distance, normal } = this.aim(x, y),
       { camera } = this.views[HERE];
     const ray = { eye: eye.toArray(), direction: direction.toArray(), distance };
     const at = eye.clone().addScaledVector(direction, distance).addScaledVector(normal, 0.3);
     const from = eye.clone().add(new THREE.Vector3(0.2, -0.25, 0).applyQuaternion(camera.quaternion));
-    const right = new THREE.Vector3().crossVectors(direction, new THREE.Vector3(0, 1, 0)).normalize();
     const through = at.clone().addScaledVector(direction, 1);
     const actions = {
       throw: { from: from.toArray(), at: at.toArray() },
       shoot: { from: from.toArray(), at: through.toArray() },
-      word: {
-        ray,
-        right: right.toArray(),
-        letters: this.letters.layout(this.face.word),
-        share: 0.62 * Math.min(1, camera.aspect)
-      },
+      word: this.#word(this.face.word, eye, direction, distance),
       blast: { ray }
     };
+    this.#touch();
+    this.face.showTap(x, y);
     this.match.act({ kind: this.face.tool, ...actions[this.face.tool] });
   }
 
@@ -190,6 +244,13 @@ class Page {
     const width = innerWidth,
       height = innerHeight;
     if (!this.face.isSplit) return [{ x: 0, y: 0, width, height }];
+    if (height > width) {
+      const half = Math.floor(height / 2);
+      return [
+        { x: 0, y: 0, width, height: half - 1 },
+        { x: 0, y: half + 1, width, height: height - half - 1 }
+      ];
+    }
     const half = Math.floor(width / 2);
     return [
       { x: 0, y: 0, width: half - 1, height },
@@ -221,6 +282,7 @@ class Page {
   }
 
   frame(now) {
+    if (this.isLost) return;
     const seconds = THREE.MathUtils.clamp((now - this.before) / 1000, 0, 0.5);
     this.quality.note(1000 * seconds);
     this.before = now;
@@ -245,7 +307,15 @@ class Page {
       this.views[i].draw(this.house.scene, { ...area, y: innerHeight - area.y - area.height }, hasMoved);
     });
     this.dummies.place(this.views[HERE].camera, this.areas[0]);
+    this.face.showSides(this.areas);
+    this.#open();
     this.#show();
+  }
+
+  #open() {
+    if (!this.opening || this.match.clears < this.opening.clears) return;
+    this.opening.due(this.match.tick).forEach(action => this.match.act(action));
+    if (this.opening.isOver) this.#touch();
   }
 
   #show() {

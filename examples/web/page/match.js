@@ -24,6 +24,7 @@ export class Match {
       exact: 0,
       tick: 0,
       latest: 0,
+      renewals: 0,
       shut: []
     });
     this.worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
@@ -51,6 +52,12 @@ export class Match {
     this.act({ kind: 'clear' });
     this.exact = 0;
     return this.clears + 1;
+  }
+
+  /** All textures are handed out again, whole. */
+  renew() {
+    this.renewals += 1;
+    this.actions.push({ kind: 'renew' });
   }
 
   seek(tick) {

@@ -1,10 +1,10 @@
 // Quality that follows the time of frames: a step down at once where they take too long, a step up on trial.
 const STEPS = [
-  { name: 'lowest', pixels: 0.45, scale: 0.4, samples: 0, stepScale: 2, lightFraction: 1 / 16, lines: 800 },
-  { name: 'low', pixels: 0.65, scale: 0.4, samples: 0, stepScale: 1.7, lightFraction: 1 / 16, lines: 1200 },
-  { name: 'medium', pixels: 1, scale: 0.5, samples: 4, stepScale: 1.4, lightFraction: 1 / 16, lines: 2000 },
-  { name: 'high', pixels: 1.25, scale: 0.5, samples: 4, stepScale: 1.2, lightFraction: 1 / 12, lines: 3000 },
-  { name: 'highest', pixels: 2, scale: 0.7, samples: 4, stepScale: 1, lightFraction: 1 / 8, lines: 3000 }
+  { name: 'lowest', pixels: 0.45, scale: 0.4, samples: 0, stepScale: 2, lightFraction: 1 / 8, lines: 800 },
+  { name: 'low', pixels: 0.65, scale: 0.4, samples: 0, stepScale: 1.7, lightFraction: 1 / 6, lines: 1200 },
+  { name: 'medium', pixels: 1, scale: 0.5, samples: 4, stepScale: 1.4, lightFraction: 1 / 4, lines: 2400 },
+  { name: 'high', pixels: 1.25, scale: 0.5, samples: 4, stepScale: 1.2, lightFraction: 1 / 3, lines: 4000 },
+  { name: 'highest', pixels: 2, scale: 0.7, samples: 4, stepScale: 1, lightFraction: 1 / 2, lines: 6000 }
 ];
 const SLOW = 26,
   FAST = 18.5; // milliseconds

@@ -101,6 +101,11 @@ export class Simulation {
     this.#checked(this.module._web_add_texture_light(...this.#points(at), isDirectional ? 1 : 0));
   }
 
+  /** The next updates hand out all textures again, whole. */
+  renew() {
+    this.module._web_renew();
+  }
+
   /**
    * Takes over what a player sees, at a time: {textures, regions, constants}, valid until the next call. `textures`:
    * {format, width, height, depth, generation} each; `regions`: {texture, x, y, z, width, height, depth, texels}.

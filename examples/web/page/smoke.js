@@ -7,7 +7,9 @@ import { LEVEL } from './level.js';
 
 const ALBEDO = [0.9, 0.91, 0.93],
   ANISOTROPY = 0.3,
-  AMBIENT = [0.0075, 0.0115, 0.021];
+  AMBIENT = [0.0075, 0.0115, 0.021],
+  BOUNCE = 0.3; // what surfaces reflect
+const DIMMEST = 0.05; // irradiance of a lamp that counts [W/m^2]
 const LAMPS = 15;
 
 // What WebGL calls brume_texture_format: internal format, format, type, and the array of its texels.
@@ -128,11 +130,17 @@ export class Smoke {
       ...lampUniforms(lamps),
       brume_constants: { value: new Float32Array(40) },
       albedo: { value: new THREE.Vector4(...ALBEDO, ANISOTROPY) },
-      ambient: { value: new THREE.Vector4(...AMBIENT, 0.3) },
+      ambient: { value: new THREE.Vector4(...AMBIENT, BOUNCE) },
       light_left: { value: this.left },
       light_origin: { value: new THREE.Vector3(...LEVEL.origin) },
       light_extent: { value: new THREE.Vector3(...size).multiplyScalar(2 * LEVEL.voxel) }
     };
+  }
+
+  /** The device has lost all textures: the next answer has them whole. */
+  forget() {
+    this.textures.generations.fill(0);
+    this.left.needsUpdate = true;
   }
 
   /** Uploads what has changed: `seen` is of an answer of the worker. */
@@ -157,16 +165,15 @@ export class Smoke {
     return Boolean(this.constants) && this.constants[20] > this.constants[16];
   }
 
-  /** The lamps that light the smoke between two corners: others cost more than they show. */
+  /** The lamps that light the smoke between two corners: what others add is not seen. */
   #chooseLamps(low, high) {
-    const brightness = this.lamps.map(({ towards, position, color }) => {
+    const isSeen = ({ towards, position, color }) => {
       const peak = Math.max(...color);
-      if (towards) return peak;
+      if (towards) return peak > DIMMEST;
       const square = position.reduce((sum, p, i) => sum + Math.max(low[i] - p, 0, p - high[i]) ** 2, 0);
-      return peak / Math.max(square, 1);
-    });
-    const most = Math.max(...brightness);
-    const chosen = brightness.flatMap((value, i) => (value > 0.02 * most ? [i] : []));
+      return peak > DIMMEST * square;
+    };
+    const chosen = this.lamps.flatMap((lamp, i) => (isSeen(lamp) ? [i] : []));
     this.uniforms.lamp_list.value.set(chosen);
     this.uniforms.lamp_count.value = chosen.length;
   }
@@ -188,7 +195,7 @@ uniform int lamp_list[${LAMPS}], lamp_count;
 
 vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
   vec2 sky = brume_sky_at(texel);
-  vec3 sum = brume_scattered_sky(sky, ambient.rgb, ambient.a * ambient.rgb, albedo.rgb, albedo.a);
+  vec3 sum = vec3(0.0), on_ground = vec3(0.0);
   for (int k = 0; k < lamp_count; ++k) {
     int i = lamp_list[k];
     vec4 at = lamp_at[i], cone = lamp_cone[i];
@@ -197,15 +204,17 @@ vec3 brume_light(vec3 position, vec3 texel, vec3 direction) {
     vec3 to = at.w > 1.5 ? at.xyz : at.xyz - position;
     float square = dot(to, to);
     vec3 towards = to * inversesqrt(square);
-    float falloff = at.w > 1.5 ? 1.0 : 1.0 / max(square, 0.01);
+    float falloff = at.w > 1.5 ? 1.0 : 1.0 / (square + 0.1); // lamps are no points
     if (at.w > 0.5 && at.w < 1.5) {
       float spot = clamp((dot(-towards, cone.xyz) - cone.w) / max(lamp_inner[i] - cone.w, 1e-4), 0.0, 1.0);
       falloff *= spot * spot;
     }
-    sum += lamp_intensity[i].rgb * falloff * reach.y *
-           brume_scattered(reach.x, dot(towards, direction), albedo.rgb, albedo.a, sky.x);
+    vec3 arriving = lamp_intensity[i].rgb * falloff * reach.y;
+    sum += arriving * brume_scattered(reach.x, dot(towards, direction), albedo.rgb, albedo.a, sky.x);
+    if (at.w > 1.5) on_ground += arriving * max(towards.y, 0.0);
   }
-  return sum;
+  vec3 reflected = ambient.a * (ambient.rgb + on_ground / 3.14159265);
+  return sum + brume_scattered_sky(sky, ambient.rgb, reflected, albedo.rgb, albedo.a);
 }
 ${MARCH}`;
 

@@ -182,6 +182,11 @@ export class View {
     this.isStale = true;
   }
 
+  /** The device has lost the picture. */
+  forget() {
+    this.isStale = true;
+  }
+
   #draw(material, target) {
     this.triangle.material = material;
     this.renderer.setRenderTarget(target);

@@ -5,6 +5,7 @@ import { HERE, Simulation } from './simulation.js';
 
 let simulation,
   clears = 0,
+  renewals = 0,
   tick = 0,
   latest = 0,
   doorEvents = [],
@@ -28,7 +29,7 @@ function shutAt(now) {
 // What a tap does, at the present tick. A ray is {eye, direction, distance}.
 const ACTIONS = {
   throw: ({ from, at, amount = 260 }) => simulation.throwSmoke(from, at, amount, 2.4),
-  shoot: ({ from, at }) => simulation.shoot(from, at, 0.17, 1.6),
+  shoot: ({ from, at }) => simulation.shoot(from, at, 0.2, 1.6),
   blast: ({ ray }) => simulation.blast(along(ray.eye, ray.direction, intoSmoke(ray)), 3.2),
   // Letters side by side, as large as fits into a width that grows with the distance; all from the eye, for which they
   // are open.
@@ -51,6 +52,10 @@ const ACTIONS = {
     const solid = !shutAt(tick + 1)[door];
     simulation.edit(DOORS[door].low, DOORS[door].high, solid);
     doorEvents = [...doorEvents, { tick: tick + 1, door, solid }].sort((a, b) => a.tick - b.tick);
+  },
+  renew: () => {
+    simulation.renew();
+    renewals += 1;
   },
   clear: () => {
     simulation.clear();
@@ -99,7 +104,9 @@ function answer({ tick: wanted, loss, actions, players, seconds, quality, eyes, 
   goTo(wanted, loss);
   const seen = players.map(player => seenBy(player, seconds, quality));
   const sight = simulation.sees(HERE, ...eyes, asksDrawn);
-  return { clears, tick, latest, shut, seen, sight, report: simulation.report(), milliseconds: performance.now() - begun };
+  const report = simulation.report(),
+    milliseconds = performance.now() - begun;
+  return { clears, renewals, tick, latest, shut, seen, sight, report, milliseconds };
 }
 
 onmessage = async ({ data }) => {
