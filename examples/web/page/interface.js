@@ -103,8 +103,9 @@ export class Interface {
     ['side-server', 'side-player'].forEach((id, i) => {
       element(id).hidden = areas.length < 2;
       if (areas.length < 2) return;
-      const { x, y, width, height } = areas[i];
-      const top = height < width ? y + 0.16 * height : y + (i === 0 ? 62 : 12);
+      const { x, y, width } = areas[i],
+        isBelow = areas[1].y > 0;
+      const top = isBelow ? y + (i === 0 ? 62 : 12) : 96;
       element(id).style.transform = `translate(${x + width / 2}px, ${top}px) translateX(-50%)`;
     });
     element('side-player').textContent = `A player, ${element('loss').value} % of packets lost`;
