@@ -21,7 +21,8 @@ class GodotAddOn : public testing::Test {
     if (api::run_shell("command -v godot3-server").status != 0)
       GTEST_SKIP() << "godot3-server is not installed; script/bootstrap test installs it";
     std::filesystem::copy(BRUME_GODOT_PROJECT, project(), std::filesystem::copy_options::recursive);
-    for (const char* script : {"play_match.gd", "call_match.gd", "compare_rays.gd", "picture.gd", "smoke_alone.gd"})
+    for (const char* script :
+         {"play_match.gd", "call_match.gd", "compare_rays.gd", "picture.gd", "smoke_alone.gd"})
       std::filesystem::copy_file(std::string(BRUME_SOURCE_DIR "/tests/godot/") + script, project() / script);
   }
   std::filesystem::path project() const { return folder_.path() / "project"; }

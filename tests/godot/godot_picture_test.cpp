@@ -1,5 +1,6 @@
-// The smoke of the demo in Godot beside that of `brume render`: the same room, camera and lights, over the surfaces of
-// the render. With BRUME_PICTURES, a folder, writes both and their difference, four times as strong.
+// The smoke of the demo in Godot beside that of `brume render`: the same room, camera and lights, over the
+// surfaces of the render. With BRUME_PICTURES, a folder, writes both and their difference, four times as
+// strong.
 #include <algorithm>
 
 #include "tests/godot/add_on.hpp"
@@ -29,8 +30,8 @@ class GodotPicture : public GodotAddOn {
     fs::create_directory(scene);
     fs::copy(BRUME_SOURCE_DIR "/scenes/fidelity/Meshes", scene / "Meshes");
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
-    const api::ShellRun drawn = run_drawing(
-        "smoke_alone.gd", "FOLDER='" + scene.string() + "' SIZE=" + size + " " + environment);
+    const api::ShellRun drawn =
+        run_drawing("smoke_alone.gd", "FOLDER='" + scene.string() + "' SIZE=" + size + " " + environment);
     EXPECT_EQ(drawn.output.find("SCRIPT ERROR"), drawn.output.npos) << drawn.output;
     EXPECT_EQ(drawn.output.find("smoke_alone.gd:"), drawn.output.npos) << drawn.output;
     const auto light = read_file(scene / "light.rgb").value_or_throw();
@@ -45,8 +46,9 @@ class GodotPicture : public GodotAddOn {
       return linear(static_cast<std::uint8_t>(picture[i]));
     };
     for (std::size_t i = 0; i < kPixels; ++i)
-      comparison.add(layers, i,
-                     {at(light, 3 * i), at(light, 3 * i + 1), at(light, 3 * i + 2), 1 - at(opaque, 3 * i + 1)});
+      comparison.add(
+          layers, i,
+          {at(light, 3 * i), at(light, 3 * i + 1), at(light, 3 * i + 2), 1 - at(opaque, 3 * i + 1)});
     std::printf("%s: %.2f of 255, pixels with smoke (%.0f %%) %.2f, transmittance %.4f, opposite %.5f\n",
                 name.c_str(), comparison.mean(), 100 * comparison.smoky_part(), comparison.smoky_mean(),
                 comparison.passed_apart(), comparison.opposite_part());

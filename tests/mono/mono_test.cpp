@@ -147,7 +147,7 @@ public static class Example {
   EXPECT_EQ(run.output, "TrueFalse");
 }
 
-// The component of Samples~ against declarations of what it calls of Unity: a throw, with a lamp and a sun.
+// The component of Samples~ against declarations of what it calls of Unity: a throw, with a light and a sun.
 TEST_F(Mono, TheComponentGivesShadersTheSmoke) {
   folder_->write("View.cs", R"(using System;
 using Brume;

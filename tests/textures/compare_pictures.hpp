@@ -55,10 +55,9 @@ class Layers {
 /// The sums of differences of displayed colours, and the pictures.
 class Comparison {
  public:
-  Comparison(float exposure, int width, int height)
-      : exposure_(exposure), width_(width), height_(height) {}
-  /// Pixel `i` of the render, and of another renderer the smoke's radiance and in w what it lets through: both
-  /// over the surfaces of the render.
+  Comparison(float exposure, int width, int height) : exposure_(exposure), width_(width), height_(height) {}
+  /// Pixel `i` of the render, and of another renderer the smoke's radiance and in w what it lets through:
+  /// both over the surfaces of the render.
   void add(const Layers& layers, std::size_t i, glm::vec4 smoke) {
     const float passed = layers.at("transmittance.V", i);
     const glm::vec3 whole = layers.color("", i) + layers.color("background.", i);
@@ -80,7 +79,8 @@ class Comparison {
     for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y)
       for (const std::vector<glm::vec3>& picture : pictures_)
         for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
-          const glm::vec3 color = glm::clamp(picture[x + static_cast<std::size_t>(width_) * y] + 0.5f, 0.0f, 255.0f);
+          const glm::vec3 color =
+              glm::clamp(picture[x + static_cast<std::size_t>(width_) * y] + 0.5f, 0.0f, 255.0f);
           for (int c = 0; c < 3; ++c) image.rgba.push_back(static_cast<std::uint8_t>(color[c]));
           image.rgba.push_back(255);
         }

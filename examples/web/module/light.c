@@ -113,8 +113,8 @@ void web_light_restart(void) {
   for (uint32_t i = 0; i < g_pair_count; ++i) g_pairs[i].open = 255;
 }
 
-// What reaches a surface through smoke of an optical depth: straight, and scattered many times. The latter is what
-// brume_scattered of shaders/export/smoke.glsl has for this smoke, from half of all directions.
+// What reaches a surface through smoke of an optical depth: straight, and scattered many times. The latter is
+// what brume_scattered of shaders/export/smoke.glsl has for this smoke, from half of all directions.
 static float left_behind(float depth) {
   return fminf(expf(-depth) + 0.21f * expf(-0.33f * depth) * (1 - expf(-depth)), 1);
 }
