@@ -51,11 +51,11 @@ function add(bytes, view = {}) {
   return views.length - 1;
 }
 
-for (const image of gltf.images) {
+for (const image of gltf.images ?? []) {
   image.bufferView = add(webp(bytesOf(image.bufferView), image.name.endsWith('_normal')));
   image.mimeType = 'image/webp';
 }
-gltf.textures = gltf.textures.map(({ source, ...rest }) => ({
+gltf.textures = gltf.textures?.map(({ source, ...rest }) => ({
   ...rest,
   extensions: { EXT_texture_webp: { source } }
 }));

@@ -104,9 +104,16 @@ function panel(width, height, depth, material) {
   return mesh;
 }
 
+/** A part of the scene that the page moves or hides. */
+function named(root, name) {
+  const node = root.getObjectByName(name);
+  if (!node) throw new Error(`scene.glb has no node named ${name}; name one so, or change house.js`);
+  return node;
+}
+
 /** Leaves of the doors: set(t) with t from 0, open, to 1. */
 function makeLeaves(scene, root) {
-  const leaf = root.getObjectByName('door_leaf');
+  const leaf = named(root, 'door_leaf');
   const wood = new THREE.MeshStandardMaterial({ color: new THREE.Color(0.16, 0.035, 0.03), roughness: 0.45 });
   const steel = new THREE.MeshStandardMaterial({
     color: new THREE.Color(0.16, 0.18, 0.2),
@@ -155,7 +162,7 @@ export async function loadHouse(url) {
   scene.add(
     new THREE.HemisphereLight(new THREE.Color(0.0095, 0.0135, 0.023), new THREE.Color(0.008, 0.007, 0.007), Math.PI)
   );
-  const grenade = root.getObjectByName('Grenade');
+  const grenade = named(root, 'Grenade');
   grenade.visible = false;
   const setDoors = makeLeaves(scene, root);
   setDoors.forEach(set => set(0));
