@@ -60,7 +60,7 @@ class LightVolume {
  private:
   struct Brick {
     glm::ivec3 brick{0};
-    smoke::TexelSet read, lit;  // that shaders may read; those of them that have been lit
+    smoke::TexelSet read, lit;  // texels that shaders may read, and the lit ones among them
     std::array<float, shared::kTexelsPerBrick>
         retained;                                        // fraction of the density that noise and holes leave
     std::array<float, shared::kTexelsPerBrick> density;  // for light: filtered, into the walls, too
@@ -101,7 +101,7 @@ class LightVolume {
   std::uint32_t groups_;
   std::uint32_t turn_ = 0;                      // phase of the next update
   std::vector<std::unique_ptr<Brick>> bricks_;  // by slot
-  // Of the last update.
+  // What walls were remembered for.
   std::shared_ptr<const sim::EditBlocks> edits_;
   std::vector<Light> lights_;
 };

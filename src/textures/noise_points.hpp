@@ -35,8 +35,8 @@ class NoisePoints {
   void update(const smoke::SmokeVolume& volume, const sim::State& state, const shared::SmokeLook& look,
               double swirl_period, double seconds);
   /// Writes the displacement of a brick's points [m] as half floats, per_brick() of them; w is 0. With a
-  /// spacing of 1 that of points farther than a texel from smoke is 0. After `update`, for different bricks
-  /// from any number of threads.
+  /// spacing of 1, points farther than a texel from smoke get 0. After `update`, for different bricks from
+  /// any number of threads.
   void write(const SmokyBrick& smoky, std::span<glm::u16vec4> out);
 
  private:

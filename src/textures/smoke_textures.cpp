@@ -262,7 +262,7 @@ void SmokeTextures::update_light(const smoke::Field& field, const Frame& frame) 
                  static_cast<float>(frame.seconds),
                  frame.lights};
   smoke.look.extinction = frame.extinction;
-  // With displacements, which are valid for now.
+  // Regions that are written later move the displacements: they are passed on in a copy of the list.
   std::vector<SmokyBrick> bricks = smoky_;
   for (std::size_t i = 0; i < displaced_.size(); ++i) bricks[i].displacements = displacements(i);
   light_.update(smoke, bricks, frame.light_update_fraction);

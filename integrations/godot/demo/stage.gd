@@ -35,8 +35,8 @@ func _ready():
 	var leaf = body_of(Vector3(0, 1.2, 0.7), Vector3(0.09, 2.4, 1.4), Color(0.24, 0.29, 0.30), "planks")
 	hinge.add_child(leaf)
 	add_child(hinge)
-	add_lamp(Vector3(-2.7, 3.4, -3.1), Color(1.0, 0.80, 0.56), 3.4)
-	add_lamp(Vector3(-6.4, 3.2, 3.2), Color(0.62, 0.74, 0.86), 0.9)
+	add_omni(Vector3(-2.7, 3.4, -3.1), Color(1.0, 0.80, 0.56), 3.4)
+	add_omni(Vector3(-6.4, 3.2, 3.2), Color(0.62, 0.74, 0.86), 0.9)
 	beam = add_beam(Vector3(6.4, 2.3, -0.35), Vector3(0, 1.15, -0.3), Color(0.42, 0.66, 1.0))
 	flash = light_at(OmniLight.new(), Vector3(-2.4, 1.2, -1.3), Color(1.0, 0.6, 0.28), 0)
 	flash.omni_range = 9
@@ -73,7 +73,7 @@ func light_at(light, at, color, energy):
 	lights.append(light)
 	return light
 
-func add_lamp(at, color, energy):
+func add_omni(at, color, energy):
 	var light = light_at(OmniLight.new(), at, color, energy)
 	light.omni_attenuation = 1.6
 	light.omni_range = 11

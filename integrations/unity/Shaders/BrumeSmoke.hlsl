@@ -29,8 +29,8 @@ SamplerState brume_linear_repeat;
 
 #include "smoke.hlsl"
 
-// Of the lights that TextureLight lists, in the level: position [m] and 1, and irradiance at one metre; or the direction
-// towards a sun and 0, and its irradiance.
+// The lights of TextureLight's list, in the level: a light's position [m] and 1, and its irradiance at one metre; the
+// direction towards a sun and 0, and its irradiance.
 float4 brume_light_positions[15];
 float4 brume_light_colors[15];
 float4 brume_ambient;  // radiance of the sky; w: fraction of it, and of the suns' light, that walls and ground reflect

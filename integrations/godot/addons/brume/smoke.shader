@@ -345,7 +345,7 @@ float brume_transmittance(vec3 from, vec3 to, int steps, float pixel) {
   return exp(-brume_constants_3.w * ds * depth);
 }
 
-// ---- Light: that of the scene's lights, and of the sky ----
+// ---- Light of the scene's lights and of the sky ----
 
 // A row for each: its position and range (0: a sun, and the direction towards it); colour times energy, and attenuation;
 // a spot's direction and the cosine of its angle (-2: no spot); a spot's attenuation.
